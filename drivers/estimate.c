@@ -106,9 +106,9 @@ static double estimate_output(const deck *d, const farm_trial *t)
 static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 {
   double grid = size_of(d)->memory * points_of(d);
-  /* Rows are written as they come; records that wait for their turn have this much (crew.c). */
+  /* Rows are written as they come; records that wait for their turn have this much (pool.c). */
   if (d->kind == DECK_BASINS && !d->basins.refine) grid = fmin(grid, 64e6);
-  /* Whole points are in memory as long as they are few (scenes/spill.h). */
+  /* Whole points are in memory as long as they are few (scenes/temporary.h). */
   if (d->kind == DECK_RESPONSE) grid += fmin(7e3 * points_of(d), 64e6);
   if (d->kind == DECK_PHASE_DIAGRAM && t != NULL) grid += record_memory * t->journal;
   return program_memory + thread_memory * threads + grid + 16.0 * strobes_of(d);

@@ -296,8 +296,8 @@ static int compute(job *j)
   tell_without_effect(j);
   pendres_status status = j->scene->run(&j->run);
   farm_dismiss(j->farm, status == PENDRES_OK || status == PENDRES_INTERRUPTED ? NULL
-                        : j->run.message[0] != '\0' ? j->run.message
-                                                    : pendres_status_message(status));
+               : j->run.message[0] != '\0' ? j->run.message
+               : pendres_status_message(status));
   if (status == PENDRES_OK) status = scene_write_identity(&j->run);
   if (status == PENDRES_OK) status = scene_write_units(&j->run);
   if (status == PENDRES_OK || farm_left(j->farm)) return DONE;
@@ -476,7 +476,7 @@ static int run_program(int argc, char **argv)
     return verify_files(j.options.deck, j.options.deck_count);
   if (j.options.action >= OPTIONS_LIST) return answer(&j.options);
   progress_init(&j.progress, stderr, j.options.quiet);
-  code = farm_errand(run_decks, &j);
+  code = farm_run_on_thread(run_decks, &j);
   ending_told(code);
   let_go_all(&j);
   ending_done();

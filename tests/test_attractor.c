@@ -213,7 +213,8 @@ static void independent_of_order(void **state)
   }
 }
 
-/* Attractors found from one crowd of scouts label another crowd as it would label itself. */
+/* Attractors found from one crowd of initial guesses label another crowd as it would label itself.
+   */
 static void known_attractors(void **state)
 {
   ensemble e;

@@ -152,7 +152,7 @@ static void lyapunov_exponent(void **state)
   const double exact = reference_exponent(&p, 4000, &error);
   /* Two estimates with their standard errors: three of them together. */
   check_near(a->lyapunov, exact, 3.0 * hypot(error, a->lyapunov_error));
-  /* That many periods and walkers are to give three percent. */
+  /* That many periods and replicas are to give three percent. */
   assert_true(hypot(error, a->lyapunov_error) < 0.03 * exact);
   pendres_attractors_free(set);
 }

@@ -234,7 +234,7 @@ static void weak_chaos(void **state)
 
 /*
  * Chaos that turns over twice a drive period, to one side or to the other: two attractors, each
- * other's mirror image, whose walkers were averaged once. Every start is on one of them.
+ * other's mirror image, whose replicas were averaged once. Every start is on one of them.
  */
 static void running_chaos(void **state)
 {
@@ -256,7 +256,7 @@ static void running_chaos(void **state)
   check_near(b->lyapunov, a->lyapunov, 4.0 * hypot(a->lyapunov_error, b->lyapunov_error));
   check_near(b->orbit.loop_area, a->orbit.loop_area,
              a->orbit.loop_area_error + b->orbit.loop_area_error);
-  /* A single standard error, 3.5 times smaller, is left for what walkers are coherent in. */
+  /* A single standard error, 3.5 times smaller, is left for what replicas are coherent in. */
   check_near(b->orbit.amplitude, a->orbit.amplitude,
              2.0 * (a->orbit.amplitude_error + b->orbit.amplitude_error));
   pendres_attractors_free(g.set);
@@ -398,7 +398,7 @@ static void recurrences(void **state)
 
 /*
  * A torque and a parametric drive do work, too: what friction takes of that is no error of the loop
- * area. 64 walkers' areas scatter by less than the bound here, in which the torque's work alone,
+ * area. 64 replicas' areas scatter by less than the bound here, in which the torque's work alone,
  * 0.076 of 8.8 a drive cycle, was contained before.
  */
 static void chaos_with_other_work(void **state)

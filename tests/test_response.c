@@ -314,7 +314,7 @@ static void more_than_are_listed(void **state)
   }
   const size_t settled = n;
   while (n < ALL) outcome[n++] = (pendres_outcome){.attractor = -1};
-  const pendres_catalogue c = {.pendulum = two_states, .count = ATTRACTORS,
+  const pendres_attractor_set c = {.pendulum = two_states, .count = ATTRACTORS,
                                .attractors = attractors};
   check_ok(pendres_context_create(NULL, &ctx));
   check_ok(pendres_response_summarize(ctx, &c, n, outcome, where, &r));

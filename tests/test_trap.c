@@ -11,7 +11,7 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 #include "golden.h"
 #include "orbits/trap_ring.h"
 
@@ -264,18 +264,18 @@ static void across_the_top(void **state)
   pendres_trap t = {.y = 3.0, .metric = {1.0, 0.0, 1.0}, .radius = 0.5, .period = 1,
                     .turn = 2.0 * pi};
   int owner = 0;
-  pendres_catalogue c = {.count = 1, .traps = 1, .trap = &t, .owner = &owner};
+  pendres_attractor_set c = {.count = 1, .traps = 1, .trap = &t, .owner = &owner};
   pendres_strobe_lane lane = {.y = 2.8, .turns = 4};
   long well = 99;
   (void)state;
-  assert_int_equal(pendres_catalogue_locate(&c, &lane, &well), 0);
+  assert_int_equal(pendres_attractor_set_locate(&c, &lane, &well), 0);
   assert_int_equal(well, 4);
   /* -3.1 + 2 pi is 3.18: the same well as 3.0, though a turn has been counted. */
   lane.y = -3.1;
-  assert_int_equal(pendres_catalogue_locate(&c, &lane, &well), 0);
+  assert_int_equal(pendres_attractor_set_locate(&c, &lane, &well), 0);
   assert_int_equal(well, 3);
   lane.w = 0.5;
-  assert_int_equal(pendres_catalogue_locate(&c, &lane, &well), -1);
+  assert_int_equal(pendres_attractor_set_locate(&c, &lane, &well), -1);
 }
 
 /* What a trap is does not depend on the others that it is looked for with. */

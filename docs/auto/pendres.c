@@ -121,7 +121,8 @@ static void doubling(const char *name, const pendres_bifurcation *at, double low
   pendres_branch_free(b);
 }
 
-/* Folds along the frequency of an oscillator with a polynomial force, from the orbit at `low` on. */
+/* Folds along the frequency of an oscillator with a polynomial force, from the orbit at `low` on.
+   */
 static void polynomial(const char *name, pendres_pendulum p, double low, double high)
 {
   char whole[64];

@@ -1,4 +1,4 @@
-/* contexts.c -- a farm, its contexts and costs; see farm.h. crew.c runs its tasks. */
+/* contexts.c -- a farm, its contexts and costs; see farm.h. pool.c runs its tasks. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <pthread.h>
 #include <sched.h>
@@ -95,24 +95,24 @@ int farm_start_thread(pthread_t *thread, void *(*run)(void *), void *arg)
   return error;
 }
 
-typedef struct errand {
+typedef struct call_on_thread {
   int (*run)(void *arg);
   void *arg;
   int result;
-} errand;
+} call_on_thread;
 
-static void *errand_run(void *arg)
+static void *run_on_thread(void *arg)
 {
-  errand *e = arg;
+  call_on_thread *e = arg;
   e->result = e->run(e->arg);
   return NULL;
 }
 
-int farm_errand(int (*run)(void *arg), void *arg)
+int farm_run_on_thread(int (*run)(void *arg), void *arg)
 {
-  errand e = { run, arg, 0 };
+  call_on_thread e = { run, arg, 0 };
   pthread_t thread;
-  if (farm_start_thread(&thread, errand_run, &e) != 0) return run(arg);
+  if (farm_start_thread(&thread, run_on_thread, &e) != 0) return run(arg);
   (void)pthread_join(thread, NULL);
   return e.result;
 }

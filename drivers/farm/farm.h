@@ -129,7 +129,7 @@ void farm_dismiss(farm *f, const char *words);
 /* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
    caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there
    can be no thread it is called as it is. */
-int farm_errand(int (*run)(void *arg), void *arg);
+int farm_run_on_thread(int (*run)(void *arg), void *arg);
 
 /* The message of the failure that farm_run returned. */
 const char *farm_message(const farm *f);

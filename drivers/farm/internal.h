@@ -1,4 +1,4 @@
-/* internal.h -- what a farm holds: contexts.c makes it, crew.c works with it. */
+/* internal.h -- what a farm holds: contexts.c makes it, pool.c works with it. */
 #ifndef FARM_INTERNAL_H
 #define FARM_INTERNAL_H
 

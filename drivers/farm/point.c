@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "farm/deal.h"
+#include "farm/dispatch.h"
 #include "system/clock.h"
 
 /* A point is costly, and told of, when it has taken so many times the mean of those before, of
@@ -14,7 +14,7 @@ static const double many_times = 20.0, long_wait = 1.0 / 60.0;
 enum { POINTS_BEFORE = 8, LOOK_EVERY = 20 /* milliseconds */, WORDS = 400 };
 
 /* Seconds a point of the stage, on average; 0 while there are too few. */
-static double mean_of(crew *c)
+static double mean_of(pool *c)
 {
   pthread_mutex_lock(&c->lock);
   const double mean = c->points < POINTS_BEFORE ? 0.0 : c->point_seconds / (double)c->points;
@@ -25,16 +25,16 @@ static double mean_of(crew *c)
 /* Beside the mean of so many points, which is told, too. */
 static int is_costly(const farm_watch *w, double spent, double *mean)
 {
-  const progress *p = w->crew->farm->options.progress;
+  const progress *p = w->pool->farm->options.progress;
   if (p == NULL || spent < long_wait * p->every) return 0;
-  *mean = (double)w->points * mean_of(w->crew);
+  *mean = (double)w->points * mean_of(w->pool);
   return *mean > 0.0 && spent > many_times * *mean;
 }
 
 static void tell_costly(farm_watch *w, double spent, double mean)
 {
   char words[WORDS];
-  const double budget = w->crew->farm->options.budget;
+  const double budget = w->pool->farm->options.budget;
   const int n = snprintf(words, sizeof words, "%s takes long: %.2g s of processor time by now, "
                          "%.0f times what points took so far", w->name, spent, spent / mean);
   if (budget > 0.0)
@@ -43,13 +43,13 @@ static void tell_costly(farm_watch *w, double spent, double mean)
   else
     snprintf(words + n, sizeof words - (size_t)n, " (--budget=SECONDS ends such points)");
   w->told = 1;
-  deal_tell(w->crew, words);
+  dispatch_tell(w->pool, words);
 }
 
 int point_over(farm_watch *w, long long now)
 {
   if (w->points == 0 || w->over || now < w->look) return w->over;
-  const double budget = w->crew->farm->options.budget, points = (double)w->points;
+  const double budget = w->pool->farm->options.budget, points = (double)w->points;
   const double spent = clock_thread() - w->start;
   double mean;
   w->look = now + LOOK_EVERY;
@@ -61,7 +61,7 @@ int point_over(farm_watch *w, long long now)
 
 void point_end(farm_watch *w)
 {
-  crew *c = w->crew;
+  pool *c = w->pool;
   if (w->points == 0) return;
   if (!w->over) {
     const double spent = clock_thread() - w->start;
@@ -83,11 +83,11 @@ void farm_point(farm_record *record, size_t points, const char *format, ...)
   va_start(args, format);
   (void)vsnprintf(w->name, sizeof w->name, format, args);
   va_end(args);
-  pthread_mutex_lock(&w->crew->lock);
-  at_work *bench = &w->crew->bench[w->thread];
+  pthread_mutex_lock(&w->pool->lock);
+  at_work *bench = &w->pool->bench[w->thread];
   snprintf(bench->name, sizeof bench->name, "%s", w->name);
-  bench->since = crew_milliseconds();
-  pthread_mutex_unlock(&w->crew->lock);
+  bench->since = pool_milliseconds();
+  pthread_mutex_unlock(&w->pool->lock);
   w->points = points;
   w->told = 0;
   w->look = 0;
@@ -104,7 +104,7 @@ void farm_lost_some(farm_record *record, size_t lost, char *words, size_t size)
   const farm_watch *w = record->watch;
   record->lost += lost;
   if (words == NULL) return;
-  const double mean = mean_of(w->crew), spent = w->spent / (double)w->points;
+  const double mean = mean_of(w->pool), spent = w->spent / (double)w->points;
   char times[80] = "";
   if (mean > 0.0)
     snprintf(times, sizeof times, ", %.3g times what points took so far", spent / mean);

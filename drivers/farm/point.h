@@ -10,7 +10,7 @@
 #ifndef POINT_H
 #define POINT_H
 
-#include "farm/crew_internal.h"
+#include "farm/pool_internal.h"
 
 /* Is the point under way to be given up? Asked now and then by the thread that computes it, `now`
    being its milliseconds; tells the user of a costly point, once. */

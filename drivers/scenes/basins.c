@@ -3,8 +3,9 @@
  *
  * A task integrates all states of some rows or, with refine, a slice of the states that a plan
  * (basin.h) asks for. Rows are written as they are finished, so that memory stays bounded. From
- * states that stay unresolved, attractors are looked for that the scouts have missed; if there are
- * any, all rows are computed again with them, so that results do not depend on who found what.
+ * states that stay unresolved, attractors are looked for that the initial guesses have missed; if
+ * there are any, all rows are computed again with them, so that results do not depend on who found
+ * what.
  */
 #include <math.h>
 #include <stdlib.h>

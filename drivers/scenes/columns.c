@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/spill.h"
+#include "scenes/temporary.h"
 
 /* Bytes of rows that are gathered at a time, or those of one value of the first dimension. */
 enum { PIECE = 1 << 20 };
@@ -168,7 +168,7 @@ static pendres_status take_piece(scene_run *run, const scene_table *t, void *row
   p->table.rows = t->spill != NULL ? rows : field(t, first, 0);
   if (t->spill == NULL) return PENDRES_OK;
   const pendres_status status =
-    scene_spill_get(t->spill, first, p->table.n, rows, why, sizeof why);
+    scene_temporary_get(t->spill, first, p->table.n, rows, why, sizeof why);
   return status == PENDRES_OK ? status : scene_fail(run, status, "%s", why);
 }
 

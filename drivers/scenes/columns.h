@@ -63,7 +63,7 @@ typedef struct scene_table {
   const char *inner;         /* of columns that are pairs */
   size_t n, stride;          /* rows; bytes from one to the next */
   const void *rows;
-  const struct scene_spill *spill; /* not NULL: in the place of `rows` */
+  const struct scene_temporary *spill; /* not NULL: in the place of `rows` */
   size_t first;              /* values of the first dimension, written some at a time; 0: at once */
   const int8_t *missing;     /* [n], not 0: the row has no results: NaN or 0; may be NULL */
   int deflate;               /* level of compression; 0: as the file has it */

@@ -28,8 +28,8 @@ typedef struct grid {
   size_t lines, values;       /* and points of a line */
   size_t chunks;              /* tasks a line */
   int peaked;                 /* whether lines have resonances: along the drive's frequency */
-  scene_spill points;         /* [line][value] of pendres_response, until its line has names */
-  scene_spill rows;           /* [line][value] of scene_response_row */
+  scene_temporary points;         /* [line][value] of pendres_response, until its line has names */
+  scene_temporary rows;           /* [line][value] of scene_response_row */
   scene_peak *peaks;          /* [line] */
   int8_t *no_peak;            /* [line] not 0: there is none */
   scene_failures failed;      /* [line][value] */
@@ -205,7 +205,7 @@ static pendres_status keep_points(const grid *g, size_t first, size_t n,
                                   const pendres_response *points)
 {
   char why[200];
-  const pendres_status status = scene_spill_put(&g->points, first, n, points, why, sizeof why);
+  const pendres_status status = scene_temporary_put(&g->points, first, n, points, why, sizeof why);
   return status == PENDRES_OK ? status : scene_fail(g->run, status, "%s", why);
 }
 
@@ -269,8 +269,9 @@ static pendres_status name_states(const void *arg, size_t task, pendres_context 
                                   farm_record *out)
 {
   const grid *g = arg;
-  const pendres_status status = scene_spill_get(&g->points, task * g->values, g->values, out->data,
-                                                out->message, sizeof out->message);
+  const pendres_status status = scene_temporary_get(&g->points, task * g->values, g->values,
+                                                    out->data,
+                                                    out->message, sizeof out->message);
   return status == PENDRES_OK ? pendres_response_name(ctx, g->values, out->data) : status;
 }
 
@@ -282,7 +283,8 @@ static pendres_status collect_names(void *arg, size_t task, const farm_record *i
   char why[200];
   for (size_t i = 0; i < g->values; i++) {
     const scene_response_row row = row_of(&points[i]);
-    const pendres_status status = scene_spill_put(&g->rows, first + i, 1, &row, why, sizeof why);
+    const pendres_status status = scene_temporary_put(&g->rows, first + i, 1, &row, why,
+                                                      sizeof why);
     if (status != PENDRES_OK) return scene_fail(g->run, status, "%s", why);
   }
   /* Noise begins from the whole of a point. */
@@ -416,11 +418,12 @@ static pendres_status compute_all(scene_run *run, grid *g)
   const farm_stage names = {.what = "lines", .tasks = g->lines, .cheap = 1, .task = name_states,
                             .record_size = g->values * sizeof(pendres_response),
                             .check = check_names, .collect = collect_names, .arg = g};
-  pendres_status status = scene_spill_create(run, g->lines * g->values, sizeof(pendres_response),
-                                             SCENE_SPILL_MEMORY, &g->points);
+  pendres_status status = scene_temporary_create(run, g->lines * g->values,
+                                                 sizeof(pendres_response),
+                                                 SCENE_TEMPORARY_MEMORY, &g->points);
   if (status == PENDRES_OK)
-    status = scene_spill_create(run, g->lines * g->values, sizeof(scene_response_row),
-                                SCENE_SPILL_MEMORY, &g->rows);
+    status = scene_temporary_create(run, g->lines * g->values, sizeof(scene_response_row),
+                                    SCENE_TEMPORARY_MEMORY, &g->rows);
   if (status == PENDRES_OK) status = scene_compute(run, &points);
   return status == PENDRES_OK ? scene_compute(run, &names) : status;
 }
@@ -452,8 +455,8 @@ static pendres_status run_scene(scene_run *run)
   if (status == PENDRES_OK) status = write_paper(run, &g);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
 done:
-  scene_spill_free(&g.points);
-  scene_spill_free(&g.rows);
+  scene_temporary_free(&g.points);
+  scene_temporary_free(&g.rows);
   free(g.peaks);
   free(g.no_peak);
   scene_failures_free(&g.failed);

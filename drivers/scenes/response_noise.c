@@ -35,8 +35,9 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   scene_plane(w->d, &axis[1]);
   scene_point_begin(out, w->d, task, 1, 3, axis);
   pendres_response still;
-  pendres_status status = scene_spill_get(w->grid->points, task % plane, 1, &still, out->message,
-                                          sizeof out->message);
+  pendres_status status = scene_temporary_get(w->grid->points, task % plane, 1, &still,
+                                              out->message,
+                                              sizeof out->message);
   if (status != PENDRES_OK) return status;
   status =
     pendres_response_add_noise(ctx, &still, temperature, (size_t)w->d->noise.trajectories,
@@ -112,7 +113,7 @@ static pendres_status write_still(scene_run *run, const work *w, const scene_tab
     goto done;
   }
   char why[200];
-  status = scene_spill_get(w->grid->rows, 0, plane, rows, why, sizeof why);
+  status = scene_temporary_get(w->grid->rows, 0, plane, rows, why, sizeof why);
   if (status != PENDRES_OK) {
     (void)scene_fail(run, status, "%s", why);
     goto done;
@@ -149,7 +150,7 @@ static void print_table(FILE *out, const work *w)
   const size_t plane = w->grid->dampings * w->grid->drives, at = w->grid->drives / 2;
   pendres_response still;
   char why[200];
-  if (scene_spill_get(w->grid->points, at, 1, &still, why, sizeof why) != PENDRES_OK) return;
+  if (scene_temporary_get(w->grid->points, at, 1, &still, why, sizeof why) != PENDRES_OK) return;
   fprintf(out, "damping %g, drive period %g:\n", still.pendulum.damping,
           2.0 * PENDRES_PI / still.pendulum.drive_frequency);
   fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");

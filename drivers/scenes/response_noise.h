@@ -5,7 +5,7 @@
 #ifndef SCENE_RESPONSE_NOISE_H
 #define SCENE_RESPONSE_NOISE_H
 
-#include "scenes/spill.h"
+#include "scenes/temporary.h"
 
 /* What is written of a point: see pendres_response. */
 typedef struct scene_response_row {
@@ -20,8 +20,8 @@ typedef struct scene_response_row {
 typedef struct scene_response_grid {
   size_t dampings, drives;
   const char *damping, *drive;   /* names of the dimensions */
-  const scene_spill *points;      /* [damping][drive] of pendres_response */
-  const scene_spill *rows;        /* [damping][drive] of scene_response_row */
+  const scene_temporary *points;      /* [damping][drive] of pendres_response */
+  const scene_temporary *rows;        /* [damping][drive] of scene_response_row */
 } scene_response_grid;
 
 /*

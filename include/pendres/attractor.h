@@ -2,7 +2,7 @@
  * @file attractor.h
  * @brief What pendulums settle on, checked rather than hoped for.
  *
- * Owns: the catalogue of attractors of a parameter set, their trapping regions, and
+ * Owns: the set of attractors of attractors of a parameter set, their trapping regions, and
  * the labels of pendulums.
  *
  * A pendulum has settled when it is inside an attractor's trapping ellipse: every state in
@@ -84,7 +84,7 @@ typedef struct pendres_attractor {
   double drift;             /**< mean whole turns a drive period of a chaotic motion; NaN of closed
                                  orbits */
   double drift_error;       /**< its error, which holds with a confidence of 99.9 % */
-  double watched_periods;   /**< drive periods, added up over walkers, that a chaotic attractor was
+  double watched_periods;   /**< drive periods, added up over replicas, that a chaotic attractor was
                                  watched for without one leaving it; NaN of closed orbits */
   double escape_rate_bound; /**< a chaotic motion that ended at a larger rate, a drive period, would
                                  have been seen to end with a probability of 95 %; smaller rates
@@ -131,10 +131,10 @@ typedef struct pendres_outcome {
 } pendres_outcome;
 
 /**
- * Find the attractors of one parameter set from n scouts x[n], v[n] at drive phase 0 (n = 0: a
- * built-in set of 36 over a turn, and 36 in each well of another force that has a barrier; what
- * attracts few states may be missed). *out is to be freed by pendres_attractors_free.
- * PENDRES_OK also when a scout stayed unresolved.
+ * Find the attractors of one parameter set from n initial guesses x[n], v[n] at drive phase 0 (n =
+ * 0: a built-in set of 36 over a turn, and 36 in each well of another force that has a barrier;
+ * what attracts few states may be missed). *out is to be freed by pendres_attractors_free.
+ * PENDRES_OK also when an initial guess stayed unresolved.
  */
 pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
                                        const double *x, const double *v,

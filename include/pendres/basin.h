@@ -8,7 +8,7 @@
  * A grid is worked on row by row (a row has one x and all v), so that memory stays bounded
  * whatever its size, in any number of threads:
  *
- *   1. pendres_basin_attractors: the catalogue, from scouts spread over the grid
+ *   1. pendres_basin_attractors: the set of attractors, from initial guesses spread over the grid
  *   2. pendres_basin_rows: most states settle within a short budget; the few others are marked
  *      as deferred, so that they do not hold up the rest
  *   3. pendres_basin_states: the deferred ones, many at a time, with all their budget
@@ -84,8 +84,8 @@ typedef struct pendres_basin_state {
 double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid);
 
 /**
- * The attractors that the states of a grid go to, from scouts spread evenly over it. *out is to
- * be freed by pendres_attractors_free.
+ * The attractors that the states of a grid go to, from initial guesses spread evenly over it. *out
+ * is to be freed by pendres_attractors_free.
  */
 pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
                                         const pendres_basin_grid *grid, pendres_attractors **out);

@@ -7,8 +7,8 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
-#include "orbits/catalogue.h"
+#include "engine/coordinates.h"
+#include "orbits/attractor_set.h"
 #include "orbits/orbit_measure.h"
 
 pendres_status pendres_course_begin(pendres_context *ctx, const pendres_trail *t, size_t room,
@@ -161,10 +161,10 @@ static pendres_orbit outline_of(const pendres_continuation_pair *pair,
 {
   const double *u = pair->fine;
   const pendres_pendulum p = pendres_continuation_map_pendulum(pair->map.force, u);
-  const pendres_place place = {.y = u[PENDRES_U_Y], .w = u[PENDRES_U_W]};
+  const pendres_coordinates place = {.y = u[PENDRES_U_Y], .w = u[PENDRES_U_W]};
   const double time = two_pi * pair->map.period / p.drive_frequency;
   pendres_orbit o = pendres_orbit_none(&p);
-  pendres_passage_out(&p, &place, &o.x, &o.v);
+  pendres_coordinates_out(&p, &place, &o.x, &o.v);
   o.period = pair->map.period;
   o.winding = pair->map.mirror ? 0 : pair->map.winding;
   pendres_orbit_set_multipliers(trace_of(&pair->map, image), exp(-0.5 * p.damping * time), &o);

@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
 
@@ -86,7 +86,7 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int
 {
   pendres_continuation_map map = {
     .force = o->pendulum.force, .period = o->period, .winding = o->winding};
-  const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+  const pendres_coordinates s = pendres_coordinates_in_whole(&o->pendulum, o->x, o->v);
   pendres_pendulum still = o->pendulum;
   still.parametric_amplitude = 0.0;
   const double centre =

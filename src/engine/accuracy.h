@@ -42,7 +42,7 @@ double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing);
 double pendres_accuracy_to_sample(void);
 
 /* Of trajectories that are averaged over long times, as for exponents: they forget their errors
-   (chaos_walkers.c). */
+   (chaos_replicas.c). */
 double pendres_accuracy_to_average(const pendres_context *ctx);
 
 /* Of the map on an invariant circle, which is interpolated: averages of it are as exact. */

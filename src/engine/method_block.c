@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "engine/flow.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/rank.h"
 
 typedef struct block {
@@ -34,7 +34,7 @@ static int look(block *b, size_t slot)
   l->y = pendres_rows_get(&rows, PENDRES_ROW_Y, slot);
   l->w = pendres_rows_get(&rows, PENDRES_ROW_W, slot);
   l->period++;
-  pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
+  pendres_coordinates_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   pendres_flow_put_state(b->flow, slot, l->y, l->w);
   if (b->carry) {
     l->off = pendres_flow_get_error(b->flow, slot);

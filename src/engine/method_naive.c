@@ -11,7 +11,7 @@
 
 #include "engine/compat.h"
 #include "engine/method_one.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 
 static int slope(sunrealtype t, N_Vector state, N_Vector out, void *arg)
 {
@@ -29,8 +29,8 @@ static int open(pendres_one *b)
 {
   const double tolerance = b->tolerance;
   double *s = N_VGetArrayPointer(b->state);
-  const pendres_place at = {.y = s[0], .w = s[1]};
-  pendres_passage_out(b->p, &at, &s[0], &s[1]);
+  const pendres_coordinates at = {.y = s[0], .w = s[1]};
+  pendres_coordinates_out(b->p, &at, &s[0], &s[1]);
   b->memory = ERKStepCreate(slope, 0.0, b->state, b->ctx->sun);
   return b->memory == NULL || pendres_compat_silence(b->ctx->sun, b->memory, NULL) != 0 ||
          ERKStepSetUserData(b->memory, b) != 0 ||
@@ -53,7 +53,7 @@ static int advance(pendres_one *b, double theta)
 static void read(const pendres_one *b, double *y, double *w)
 {
   const double *s = N_VGetArrayPointer(b->state);
-  const pendres_place at = pendres_passage_in_whole(b->p, s[0], s[1]);
+  const pendres_coordinates at = pendres_coordinates_in_whole(b->p, s[0], s[1]);
   *y = at.y;
   *w = at.w;
 }

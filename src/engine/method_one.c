@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/compat.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 
 /* So many evaluations lie between two questions whether to go on: they take some hundredths of a
@@ -113,7 +113,7 @@ static pendres_status run_one(pendres_one *b, const pendres_one_solver *solver,
     lane->period++;
     lane->turns = turns;
     solver->read(b, &lane->y, &lane->w);
-    pendres_passage_wrap(b->p, &lane->y, &lane->turns);
+    pendres_coordinates_wrap(b->p, &lane->y, &lane->turns);
     done = job->visit(job->arg, index, lane);
   }
   return status;

@@ -16,7 +16,7 @@
 
 enum { PARTS_EACH = 4096, PARTS_MOST_THREADS = 4096 };
 
-typedef struct crew {
+typedef struct pool {
   const pendres_parts *how;
   pendres_status (*work)(pendres_context *ctx, size_t first, size_t count, void *arg);
   void *arg;
@@ -27,7 +27,7 @@ typedef struct crew {
   pendres_status status;
   char *message;
   size_t size;
-} crew;
+} pool;
 
 static void say(char *message, size_t size, const char *text)
 {
@@ -35,7 +35,7 @@ static void say(char *message, size_t size, const char *text)
 }
 
 /* Take the next part; 0 if there is none left, or one has failed. */
-static int begin(crew *c, size_t *part)
+static int begin(pool *c, size_t *part)
 {
   (void)pthread_mutex_lock(&c->lock);
   const int some = c->status == PENDRES_OK && c->next < c->parts;
@@ -44,7 +44,7 @@ static int begin(crew *c, size_t *part)
   return some;
 }
 
-static void fail(crew *c, size_t part, pendres_status status, const char *why)
+static void fail(pool *c, size_t part, pendres_status status, const char *why)
 {
   (void)pthread_mutex_lock(&c->lock);
   if (c->status == PENDRES_OK || part < c->failed) {
@@ -59,7 +59,7 @@ static void fail(crew *c, size_t part, pendres_status status, const char *why)
 
 /* Do parts until there are none. Of a thread's own failures only that no context can be made is
    told. */
-static pendres_status labour(crew *c)
+static pendres_status labour(pool *c)
 {
   pendres_context *ctx = NULL;
   size_t part = 0;
@@ -81,7 +81,7 @@ static void *hand(void *arg)
   return NULL;
 }
 
-static size_t threads_of(const crew *c)
+static size_t threads_of(const pool *c)
 {
   cpu_set_t processors;
   size_t threads = (size_t)c->how->threads;
@@ -94,7 +94,7 @@ static size_t threads_of(const crew *c)
   return threads < c->parts ? threads : c->parts;
 }
 
-static void run(crew *c)
+static void run(pool *c)
 {
   const size_t most = threads_of(c);
   pthread_t *threads = calloc(most + 1, sizeof *threads);
@@ -122,7 +122,7 @@ pendres_status pendres_parts_run(const pendres_parts *how,
                     : how->threads < 0 || how->threads > PARTS_MOST_THREADS
                       ? "the number of threads must be from 0 to 4096"
                       : pendres_options_check(&how->options);
-  crew c = {.how = how, .work = work, .arg = arg, .message = message, .size = size};
+  pool c = {.how = how, .work = work, .arg = arg, .message = message, .size = size};
   if (message == NULL && size > 0) return PENDRES_INVALID_ARGUMENT;
   say(message, size, why != NULL ? why : "");
   if (why != NULL) return PENDRES_INVALID_ARGUMENT;

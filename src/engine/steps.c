@@ -9,7 +9,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/flow.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/steps_memo.h"
 
 enum {

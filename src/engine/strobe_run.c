@@ -4,18 +4,18 @@
 #include <math.h>
 
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v)
 {
-  const pendres_place s = pendres_passage_in(p, x, v);
+  const pendres_coordinates s = pendres_coordinates_in(p, x, v);
   return (pendres_strobe_lane){.pendulum = p, .y = s.y, .w = s.w, .turns = s.turns};
 }
 
 void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v)
 {
-  const pendres_place s = {.y = l->y, .w = l->w, .turns = l->turns};
-  pendres_passage_out(l->pendulum, &s, x, v);
+  const pendres_coordinates s = {.y = l->y, .w = l->w, .turns = l->turns};
+  pendres_coordinates_out(l->pendulum, &s, x, v);
 }
 
 double pendres_strobe_doubt(double distance)

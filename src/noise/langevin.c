@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "noise/langevin_window.h"
 
@@ -15,7 +15,7 @@ const char *pendres_langevin_answer_name(pendres_langevin_answer answer)
   return (unsigned)answer < PENDRES_LANGEVIN_ANSWER_COUNT ? names[answer] : NULL;
 }
 
-/* A double beyond this does not hold a position to a tenth of a radian; see passage.h. */
+/* A double beyond this does not hold a position to a tenth of a radian; see coordinates.h. */
 static const double farthest = 1e15;
 
 /* More lanes than MOST_LANES do not fit into the fastest memory and are slower. */
@@ -58,7 +58,7 @@ pendres_status pendres_langevin_accept(pendres_context *ctx, const pendres_pendu
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the steps a period must be 2 to %d", MOST_STEPS);
   if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
-    why = pendres_passage_refuses(p, x, v);
+    why = pendres_coordinates_refuses(p, x, v);
     if (why == NULL) why = pendres_langevin_block_refuses(p, steps);
   }
   if (why == NULL) return PENDRES_OK;

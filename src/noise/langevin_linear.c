@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 #include "base/angles.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "model/units.h"
 
@@ -114,7 +114,7 @@ static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, 
   const double most = 1e8; /* steps in all */
   pendres_langevin_linear coarse;
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
-      pendres_passage_refuses(pendulum, x, v) != NULL || cycle < 1)
+      pendres_coordinates_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
   /* 128 steps a unit of time in the finer computation: an error near 1e-11, rounding well below. */
   const double unit = two_pi / pendulum->drive_frequency * fmax(1.0, pendulum->damping);

@@ -10,7 +10,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "orbits/settle.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 
 enum { BATCH_SETS = 64 /* parameter sets worked on at a time */ };
@@ -21,7 +21,7 @@ static pendres_status check_states(pendres_context *ctx, size_t n, const pendres
   for (size_t i = 0; i < n; i++) {
     const char *why = NULL;
     if (pendres_pendulum_check(&p[i * stride], &why) == PENDRES_OK)
-      why = pendres_passage_refuses(&p[i * stride], x[i], v[i]);
+      why = pendres_coordinates_refuses(&p[i * stride], x[i], v[i]);
     if (why == NULL && p[i * stride].damping == 0.0)
       why = "without damping nothing settles";
     if (why != NULL)
@@ -33,8 +33,8 @@ static pendres_status check_states(pendres_context *ctx, size_t n, const pendres
 void pendres_attractors_free(pendres_attractors *set)
 {
   if (set == NULL) return;
-  for (size_t i = 0; i < set->sets; i++) pendres_catalogue_clear(&set->catalogues[i]);
-  free(set->catalogues);
+  for (size_t i = 0; i < set->sets; i++) pendres_attractor_set_clear(&set->attractor_sets[i]);
+  free(set->attractor_sets);
   free(set->units);
   free(set->attractors);
   free(set->shown);
@@ -55,9 +55,9 @@ static pendres_attractors *create_sets(size_t sets)
 {
   pendres_attractors *set = calloc(1, sizeof *set);
   if (set == NULL) return NULL;
-  set->catalogues = calloc(sets + 1, sizeof *set->catalogues);
+  set->attractor_sets = calloc(sets + 1, sizeof *set->attractor_sets);
   set->units = malloc((sets + 1) * sizeof *set->units);
-  if (set->catalogues == NULL || set->units == NULL) {
+  if (set->attractor_sets == NULL || set->units == NULL) {
     pendres_attractors_free(set);
     return NULL;
   }
@@ -72,7 +72,7 @@ static int index_sets(pendres_attractors *set)
   size_t count = 0;
   int others = 0;
   for (size_t i = 0; i < set->sets; i++) {
-    count += set->catalogues[i].count;
+    count += set->attractor_sets[i].count;
     others |= !pendres_units_trivial(&set->units[i]);
   }
   free(set->attractors);
@@ -83,8 +83,8 @@ static int index_sets(pendres_attractors *set)
   if (set->attractors == NULL || (others && set->shown == NULL)) return -1;
   for (size_t i = 0; i < set->sets; i++) {
     const pendres_scales scales = {set->units[i], 1.0, 1.0};
-    for (size_t j = 0; j < set->catalogues[i].count; j++) {
-      const pendres_attractor *a = &set->catalogues[i].attractors[j];
+    for (size_t j = 0; j < set->attractor_sets[i].count; j++) {
+      const pendres_attractor *a = &set->attractor_sets[i].attractors[j];
       if (others) {
         set->shown[set->count] = *a;
         pendres_units_out(&scales, &pendres_dim_attractor, 1, &set->shown[set->count]);
@@ -114,7 +114,7 @@ const pendres_attractors *pendres_attractors_inside(pendres_door *d, const pendr
   inside->units = units;
   inside->shown = NULL;
   inside->attractors = list;
-  for (size_t j = 0; j < set->count; j++) list[j] = &set->catalogues[0].attractors[j];
+  for (size_t j = 0; j < set->count; j++) list[j] = &set->attractor_sets[0].attractors[j];
   return inside;
 }
 
@@ -122,7 +122,7 @@ static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p
                                       const double *x, const double *v, pendres_attractors **out)
 {
   pendres_context *ctx = d->ctx;
-  double default_x[PENDRES_CATALOGUE_STARTS], default_v[PENDRES_CATALOGUE_STARTS];
+  double default_x[PENDRES_ATTRACTOR_SET_STARTS], default_v[PENDRES_ATTRACTOR_SET_STARTS];
   if (p == NULL || out == NULL || (n > 0 && (x == NULL || v == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, x, v and out");
   *out = NULL;
@@ -130,7 +130,7 @@ static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p
   if (pendres_pendulum_check(p, &why) != PENDRES_OK)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   if (n == 0) {
-    n = pendres_catalogue_starts(p, default_x, default_v);
+    n = pendres_attractor_set_starts(p, default_x, default_v);
     x = default_x;
     v = default_v;
   }
@@ -145,11 +145,11 @@ static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p
     goto done;
   }
   set->units[0] = d->scales.unit;
-  set->catalogues[0].pendulum = *p;
+  set->attractor_sets[0].pendulum = *p;
   /* Whoever asks for attractors alone has many pendulums to come. */
-  set->catalogues[0].effort = PENDRES_TRAP_MANY;
+  set->attractor_sets[0].effort = PENDRES_TRAP_MANY;
   const pendres_settle_starts starts = {.n = n, .set = zero, .x = x, .v = v};
-  status = pendres_settle_batch(ctx, 1, set->catalogues, &starts, outcome);
+  status = pendres_settle_batch(ctx, 1, set->attractor_sets, &starts, outcome);
   if (status == PENDRES_OK && index_sets(set) != 0)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   if (status == PENDRES_OK) {
@@ -184,10 +184,10 @@ static pendres_status attractors_settle(pendres_context *ctx, const pendres_attr
   if (set->sets != 1)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "these are attractors of several parameter sets");
-  pendres_status status = check_states(ctx, n, &set->catalogues[0].pendulum, 0, x, v);
+  pendres_status status = check_states(ctx, n, &set->attractor_sets[0].pendulum, 0, x, v);
   if (status != PENDRES_OK || n == 0) return status;
   const pendres_settle_starts starts = {.n = n, .x = x, .v = v};
-  return pendres_settle_known(ctx, set->catalogues, &starts, pendres_accuracy_to_settle(ctx),
+  return pendres_settle_known(ctx, set->attractor_sets, &starts, pendres_accuracy_to_settle(ctx),
                               PENDRES_SETTLE_FULL, outcome);
 }
 
@@ -227,7 +227,7 @@ static pendres_status attractors_point(pendres_context *ctx, const pendres_attra
   for (int k = 0; k < STARTS; k++) {
     double error;
     if (outcome[k].attractor != (int)i) continue;
-    status = pendres_strobe_advance(ctx, 1, &set->catalogues[0].pendulum, &x[k], &v[k],
+    status = pendres_strobe_advance(ctx, 1, &set->attractor_sets[0].pendulum, &x[k], &v[k],
                                     outcome[k].settling_periods, &error);
     if (status == PENDRES_OK) *out = (pendres_state){x[k], v[k]};
     return status;
@@ -264,7 +264,7 @@ pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractor
   if (zero == NULL || outcome == NULL)
     (void)pendres_context_fail(ctx, status, "out of memory for attractors");
   else
-    status = pendres_settle_batch(ctx, 1, set->catalogues, &starts, outcome);
+    status = pendres_settle_batch(ctx, 1, set->attractor_sets, &starts, outcome);
   if (status == PENDRES_OK && index_sets(set) != 0)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   free(zero);
@@ -307,11 +307,11 @@ static pendres_status settle_stretch(pendres_door *d, settling *s)
       if (last == first || !pendres_model_same(&pendulums[last], &pendulums[last - 1])) {
         if (s->sets - base == BATCH_SETS) break;
         all->units[s->sets] = d->scales.unit;
-        all->catalogues[s->sets++].pendulum = pendulums[last];
+        all->attractor_sets[s->sets++].pendulum = pendulums[last];
       }
       set[last] = s->sets - 1 - base;
     }
-    pendres_catalogue *c = all->catalogues + base;
+    pendres_attractor_set *c = all->attractor_sets + base;
     const pendres_settle_starts some = {
       .n = last - first, .set = set + first, .x = s->x + first, .v = s->v + first};
     status = pendres_settle_batch(ctx, s->sets - base, c, &some, s->outcome + first);

@@ -7,15 +7,15 @@
 #include <math.h>
 
 #include "engine/door.h"
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 
 struct pendres_attractors {
   size_t sets;
-  pendres_catalogue *catalogues; /* in canonical units, */
+  pendres_attractor_set *attractor_sets; /* in canonical units, */
   pendres_units *units;          /* [sets] which are these in the caller's */
   size_t count;
   const pendres_attractor **attractors; /* all of them, set after set, as the caller sees them: */
-  pendres_attractor *shown; /* these or, where it is NULL, those of the catalogues */
+  pendres_attractor *shown; /* these or, where it is NULL, those of the sets of attractors */
 };
 
 /* Open a door with the units of a set of one parameter set. */

@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "base/student.h"
-#include "orbits/chaos_walkers.h"
+#include "orbits/chaos_replicas.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/recurrence.h"
@@ -16,16 +16,16 @@
 enum {
   SUSPECTS = 16,         /* so many lanes are looked at first ... */
   SUSPECT_PERIODS = 128, /* ... for so many periods */
-  WALKERS = 64,          /* so many walkers are watched, once they have lost each other */
+  REPLICAS = 64,          /* so many replicas are watched, once they have lost each other */
   WARM_UP = 200,         /* periods in which they lose each other */
-  ATTEMPTS = 3,          /* to send out walkers, while some leave the chaotic set immediately */
-  BATCHES = 16,          /* that a walker's periods are parted into, an even number */
-  BATCH = 120,           /* periods of a batch, at first. Walkers may visit the bands of an
+  ATTEMPTS = 3,          /* to send out replicas, while some leave the chaotic set immediately */
+  BATCHES = 16,          /* that a replica's periods are parted into, an even number */
+  BATCH = 120,           /* periods of a batch, at first. Replicas may visit the bands of an
                             attractor in turn, all in step: 120 periods are whole rounds of 2, 3, 4,
                             5, 6 or 8 bands */
-  LONGEST_BATCH = 4 * BATCH, /* periods; batches grow to this while walkers do not agree */
-  FEW_BATCHES = 4,       /* after which walkers that are on different attractors are told apart */
-  KEPT = 8 * BATCH,      /* so many of the latest strobe points of a walker are kept */
+  LONGEST_BATCH = 4 * BATCH, /* periods; batches grow to this while replicas do not agree */
+  FEW_BATCHES = 4,       /* after which replicas that are on different attractors are told apart */
+  KEPT = 8 * BATCH,      /* so many of the latest strobe points of a replica are kept */
   MOST_GUESSES = 8       /* so many orbits are looked for at a time */
 };
 
@@ -36,55 +36,55 @@ static const double least_growth = 0.01;
 /* The logarithm of a suspect's tangent vector must have grown by this. Without chaos the vector
    grows by a small factor at most. */
 static const double suspicious = 2.0;
-/* Walkers start this close to the suspect, and at each further attempt closer by this factor: the
+/* Replicas start this close to the suspect, and at each further attempt closer by this factor: the
    basin of a chaotic attractor in narrow bands may end nearby. */
 static const double scatter = 1e-3, closer = 0.03;
-/* Walkers agree when the variance of their means is less than so many times what their batches let
-   one expect. For walkers on one attractor the ratio exceeds 2 in one case of 80000 with 16
+/* Replicas agree when the variance of their means is less than so many times what their batches let
+   one expect. For replicas on one attractor the ratio exceeds 2 in one case of 80000 with 16
    batches, and in one of 6000 with 4 (F distribution). */
 static const double agreement = 2.0;
 /* The confidence of a mean's error, and that of the bound on the escape rate. */
 static const double confidence = 0.999, escape_confidence = 0.95;
 
-/* ---- walkers that are watched ---- */
+/* ---- replicas that are watched ---- */
 
-typedef struct vigil {
-  pendres_walker a[WALKERS];
+typedef struct ensemble {
+  pendres_replica a[REPLICAS];
   int batches; /* whole ones so far */
   long length; /* periods of each */
-  double batch[WALKERS][BATCHES][PENDRES_WALKER_MEASURES];
-  pendres_walker_trace trace;
-  double y[WALKERS * KEPT], w[WALKERS * KEPT];
-} vigil;
+  double batch[REPLICAS][BATCHES][PENDRES_REPLICA_MEASURES];
+  pendres_replica_trace trace;
+  double y[REPLICAS * KEPT], w[REPLICAS * KEPT];
+} ensemble;
 
-static size_t points_of(const vigil *v)
+static size_t points_of(const ensemble *v)
 {
   return (size_t)(v->trace.filled < KEPT ? v->trace.filled : KEPT);
 }
 
-static double share_within(const pendres_cover *cover, const vigil *v)
+static double share_within(const pendres_cover *cover, const ensemble *v)
 {
   size_t inside = 0;
-  for (size_t i = 0; i < WALKERS; i++)
+  for (size_t i = 0; i < REPLICAS; i++)
     for (size_t k = 0; k < points_of(v); k++)
       inside += (size_t)pendres_cover_holds(cover, v->y[i * KEPT + k], v->w[i * KEPT + k]);
-  return (double)inside / (double)(WALKERS * points_of(v));
+  return (double)inside / (double)(REPLICAS * points_of(v));
 }
 
-static void widen(pendres_cover *cover, const vigil *v)
+static void widen(pendres_cover *cover, const ensemble *v)
 {
-  for (size_t i = 0; i < WALKERS; i++)
+  for (size_t i = 0; i < REPLICAS; i++)
     for (size_t k = 0; k < points_of(v); k++)
       pendres_cover_add(cover, v->y[i * KEPT + k], v->w[i * KEPT + k]);
 }
 
-static pendres_cover *create_cover(const pendres_pendulum *p, const vigil *v)
+static pendres_cover *create_cover(const pendres_pendulum *p, const ensemble *v)
 {
   const double turn = pendres_model_turn(p);
-  const double share = 1.0 / (double)(WALKERS * points_of(v));
+  const double share = 1.0 / (double)(REPLICAS * points_of(v));
   pendres_cover *cover = calloc(1, sizeof *cover);
   if (cover == NULL) return NULL;
-  for (size_t i = 0; i < WALKERS; i++)
+  for (size_t i = 0; i < REPLICAS; i++)
     for (size_t k = 0; k < points_of(v); k++) {
       const double y = v->y[i * KEPT + k], w = v->w[i * KEPT + k];
       cover->w_most = fmax(cover->w_most, 1.1 * fabs(w));
@@ -98,109 +98,110 @@ static pendres_cover *create_cover(const pendres_pendulum *p, const vigil *v)
 
 /* Find a lane whose neighbours in phase space part from it, among a few lanes; *any is 0 if there
    is none. */
-static pendres_status find_suspect(pendres_context *ctx, const pendres_catalogue *c, size_t n,
-                                   const pendres_strobe_lane *const *lanes, pendres_walker *suspect,
+static pendres_status find_suspect(pendres_context *ctx, const pendres_attractor_set *c, size_t n,
+                                   const pendres_strobe_lane *const *lanes,
+                                   pendres_replica *suspect,
                                    int *any)
 {
-  pendres_walker a[SUSPECTS];
+  pendres_replica a[SUSPECTS];
   const size_t asked = n < SUSPECTS ? n : SUSPECTS;
   for (size_t i = 0; i < asked; i++) {
     const pendres_strobe_lane *l = lanes[i * n / asked];
-    a[i] = pendres_walker_at(l->y, l->w);
+    a[i] = pendres_replica_at(l->y, l->w);
   }
-  const pendres_status status = pendres_walkers_advance(ctx, c, asked, a, SUSPECT_PERIODS, NULL);
+  const pendres_status status = pendres_replicas_advance(ctx, c, asked, a, SUSPECT_PERIODS, NULL);
   *any = 0;
   for (size_t i = 0; i < asked && !*any && status == PENDRES_OK; i++)
-    if (a[i].trapped == 0 && a[i].sum[PENDRES_WALKER_GROWTH] > suspicious) {
+    if (a[i].trapped == 0 && a[i].sum[PENDRES_REPLICA_GROWTH] > suspicious) {
       *suspect = a[i];
       *any = 1;
     }
   return status;
 }
 
-/* Estimate how long chaos lasts that ends, from the walkers that have left it by now. */
-static void note_lifetime(pendres_catalogue *c, const vigil *v, size_t left)
+/* Estimate how long chaos lasts that ends, from the replicas that have left it by now. */
+static void note_lifetime(pendres_attractor_set *c, const ensemble *v, size_t left)
 {
   double lived = 0.0;
-  for (size_t i = 0; i < WALKERS; i++)
+  for (size_t i = 0; i < REPLICAS; i++)
     lived += (double)(v->a[i].trapped > 0 ? v->a[i].trapped : v->a[i].periods);
   if (left > 0) c->transient = fmax(c->transient, lived / (double)left);
 }
 
-static size_t trapped_walkers(const vigil *v)
+static size_t trapped_replicas(const ensemble *v)
 {
   size_t n = 0;
-  for (size_t i = 0; i < WALKERS; i++) n += v->a[i].trapped > 0;
+  for (size_t i = 0; i < REPLICAS; i++) n += v->a[i].trapped > 0;
   return n;
 }
 
 /*
- * Start walkers around the suspect and let them lose each other. If some of them are in a trap
- * then, the suspect may have stood at the edge of the basin of chaos, and walkers start anew around
- * one that has stayed. *together is 1 if none of them has left in the end.
+ * Start replicas around the suspect and let them lose each other. If some of them are in a trap
+ * then, the suspect may have stood at the edge of the basin of chaos, and replicas start anew
+ * around one that has stayed. *together is 1 if none of them has left in the end.
  */
-static pendres_status send_out(pendres_context *ctx, pendres_catalogue *c,
-                               const pendres_walker *suspect, vigil *v, int *together)
+static pendres_status send_out(pendres_context *ctx, pendres_attractor_set *c,
+                               const pendres_replica *suspect, ensemble *v, int *together)
 {
-  pendres_walker from = *suspect;
+  pendres_replica from = *suspect;
   double radius = scatter;
   *together = 0;
   for (int attempt = 0; attempt < ATTEMPTS && !*together; attempt++, radius *= closer) {
-    for (size_t i = 0; i < WALKERS; i++) {
-      /* Spread by an irrational angle: no two walkers start at the same place. */
+    for (size_t i = 0; i < REPLICAS; i++) {
+      /* Spread by an irrational angle: no two replicas start at the same place. */
       const double angle = 2.39996322972865332 * (double)i;
-      v->a[i] = pendres_walker_at(from.y + radius * cos(angle), from.w + radius * sin(angle));
+      v->a[i] = pendres_replica_at(from.y + radius * cos(angle), from.w + radius * sin(angle));
     }
-    const pendres_status status = pendres_walkers_advance(ctx, c, WALKERS, v->a, WARM_UP, NULL);
+    const pendres_status status = pendres_replicas_advance(ctx, c, REPLICAS, v->a, WARM_UP, NULL);
     if (status != PENDRES_OK) return status;
-    const size_t left = trapped_walkers(v);
+    const size_t left = trapped_replicas(v);
     note_lifetime(c, v, left);
-    if (left == WALKERS) return status;
+    if (left == REPLICAS) return status;
     *together = left == 0;
-    for (size_t i = 0; i < WALKERS; i++)
+    for (size_t i = 0; i < REPLICAS; i++)
       if (v->a[i].trapped == 0) from = v->a[i];
   }
   return PENDRES_OK;
 }
 
 /* Join the batches in pairs. */
-static void merge_batches(vigil *v)
+static void merge_batches(ensemble *v)
 {
-  for (size_t i = 0; i < WALKERS; i++)
+  for (size_t i = 0; i < REPLICAS; i++)
     for (int b = 0; b < BATCHES / 2; b++)
-      for (int m = 0; m < PENDRES_WALKER_MEASURES; m++)
+      for (int m = 0; m < PENDRES_REPLICA_MEASURES; m++)
         v->batch[i][b][m] = v->batch[i][2 * b][m] + v->batch[i][2 * b + 1][m];
   v->batches = BATCHES / 2;
   v->length *= 2;
 }
 
-static pendres_status next_batch(pendres_context *ctx, const pendres_catalogue *c, vigil *v)
+static pendres_status next_batch(pendres_context *ctx, const pendres_attractor_set *c, ensemble *v)
 {
-  for (size_t i = 0; i < WALKERS; i++) memset(v->a[i].sum, 0, sizeof v->a[i].sum);
+  for (size_t i = 0; i < REPLICAS; i++) memset(v->a[i].sum, 0, sizeof v->a[i].sum);
   const pendres_status status =
-    pendres_walkers_advance(ctx, c, WALKERS, v->a, v->length, &v->trace);
-  for (size_t i = 0; i < WALKERS && status == PENDRES_OK; i++)
+    pendres_replicas_advance(ctx, c, REPLICAS, v->a, v->length, &v->trace);
+  for (size_t i = 0; i < REPLICAS && status == PENDRES_OK; i++)
     memcpy(v->batch[i][v->batches], v->a[i].sum, sizeof v->a[i].sum);
   v->batches += status == PENDRES_OK;
   return status;
 }
 
 /*
- * Look for orbits that walkers have settled on: such a walker's tangent vector has shrunk in the
+ * Look for orbits that replicas have settled on: such a replica's tangent vector has shrunk in the
  * latest batch, and it comes back near where it was. Newton's method does the rest.
  */
-static pendres_status seek_orbits(pendres_context *ctx, pendres_catalogue *c, const vigil *v,
+static pendres_status seek_orbits(pendres_context *ctx, pendres_attractor_set *c, const ensemble *v,
                                   size_t *settled)
 {
-  pendres_scout guesses[MOST_GUESSES];
+  pendres_initial_guess guesses[MOST_GUESSES];
   size_t n = 0;
   const long points = v->trace.filled < PENDRES_RECURRENCE_POINTS ? v->trace.filled
                                                                   : PENDRES_RECURRENCE_POINTS;
   *settled = 0;
-  for (size_t i = 0; i < WALKERS; i++) {
+  for (size_t i = 0; i < REPLICAS; i++) {
     double y[PENDRES_RECURRENCE_POINTS], w[PENDRES_RECURRENCE_POINTS];
     pendres_recurrence r;
-    if (!(v->batch[i][v->batches - 1][PENDRES_WALKER_GROWTH] < 0.0)) continue;
+    if (!(v->batch[i][v->batches - 1][PENDRES_REPLICA_GROWTH] < 0.0)) continue;
     for (long k = 0; k < points; k++) {
       const size_t at = i * KEPT + (size_t)((v->trace.filled - points + k) % KEPT);
       y[k] = v->y[at];
@@ -209,61 +210,62 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_catalogue *c, co
     if (!pendres_recurrence_find((int)points, pendres_model_turn(&c->pendulum), y, w, &r)) continue;
     ++*settled;
     if (n < MOST_GUESSES)
-      guesses[n++] = (pendres_scout){.y = r.y, .w = r.w, .period = r.period, .winding = r.winding};
+      guesses[n++] = (pendres_initial_guess){.y = r.y, .w = r.w, .period = r.period,
+                                             .winding = r.winding};
   }
-  return pendres_catalogue_add(ctx, c, n, guesses);
+  return pendres_attractor_set_add(ctx, c, n, guesses);
 }
 
 /* ---- statistics ---- */
 
-/* The mean of a measure a period over all walkers, and its standard error. *ratio is the variance
-   of the walkers' means over what the scatter of their batches lets one expect. */
-static pendres_chaos_mean mean_of(const vigil *v, pendres_walker_measure m, double *ratio)
+/* The mean of a measure a period over all replicas, and its standard error. *ratio is the variance
+   of the replicas' means over what the scatter of their batches lets one expect. */
+static pendres_chaos_mean mean_of(const ensemble *v, pendres_replica_measure m, double *ratio)
 {
   const double periods = (double)v->length, batches = v->batches;
-  double mean[WALKERS], sum = 0.0, between = 0.0, within = 0.0;
-  for (size_t i = 0; i < WALKERS; i++) {
+  double mean[REPLICAS], sum = 0.0, between = 0.0, within = 0.0;
+  for (size_t i = 0; i < REPLICAS; i++) {
     mean[i] = 0.0;
     for (int b = 0; b < v->batches; b++) mean[i] += v->batch[i][b][m] / (periods * batches);
-    sum += mean[i] / WALKERS;
+    sum += mean[i] / REPLICAS;
   }
-  for (size_t i = 0; i < WALKERS; i++) {
-    between += (mean[i] - sum) * (mean[i] - sum) / (WALKERS - 1.0);
+  for (size_t i = 0; i < REPLICAS; i++) {
+    between += (mean[i] - sum) * (mean[i] - sum) / (REPLICAS - 1.0);
     for (int b = 0; b < v->batches; b++) {
       const double d = v->batch[i][b][m] / periods - mean[i];
-      within += d * d / (WALKERS * (batches - 1.0));
+      within += d * d / (REPLICAS * (batches - 1.0));
     }
   }
   *ratio = between / (within / batches);
   return (pendres_chaos_mean){.value = sum,
-                              .error = sqrt(fmax(between, within / batches) / WALKERS)};
+                              .error = sqrt(fmax(between, within / batches) / REPLICAS)};
 }
 
 /* A standard error becomes half the confidence interval (Student's distribution). */
 static pendres_chaos_mean confident(pendres_chaos_mean m)
 {
-  m.error *= pendres_student(confidence, WALKERS - 1.0);
+  m.error *= pendres_student(confidence, REPLICAS - 1.0);
   return m;
 }
 
-/* How many walkers have an exponent, over the latter half of their batches, not above zero. */
-static size_t calm_walkers(const vigil *v)
+/* How many replicas have an exponent, over the latter half of their batches, not above zero. */
+static size_t calm_replicas(const ensemble *v)
 {
   size_t calm = 0;
-  for (size_t i = 0; i < WALKERS; i++) {
+  for (size_t i = 0; i < REPLICAS; i++) {
     double growth = 0.0;
     for (int b = v->batches / 2; b < v->batches; b++)
-      growth += v->batch[i][b][PENDRES_WALKER_GROWTH];
+      growth += v->batch[i][b][PENDRES_REPLICA_GROWTH];
     calm += !(growth > 0.0);
   }
   return calm;
 }
 
-/* Whether walkers differ by no more than chance, so that they are on one attractor. */
-static int alike(const vigil *v)
+/* Whether replicas differ by no more than chance, so that they are on one attractor. */
+static int alike(const ensemble *v)
 {
-  static const pendres_walker_measure telling[] = {PENDRES_WALKER_GROWTH, PENDRES_WALKER_TURNS,
-                                                   PENDRES_WALKER_SPEED};
+  static const pendres_replica_measure telling[] = {PENDRES_REPLICA_GROWTH, PENDRES_REPLICA_TURNS,
+                                                   PENDRES_REPLICA_SPEED};
   for (size_t k = 0; k < sizeof telling / sizeof telling[0]; k++) {
     double ratio = 0.0;
     (void)mean_of(v, telling[k], &ratio);
@@ -272,24 +274,24 @@ static int alike(const vigil *v)
   return 1;
 }
 
-static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigil *v)
+static pendres_chaos_measures measures_of(const pendres_attractor_set *c, const ensemble *v)
 {
   double ratio = 0.0;
-  /* A walker that leaves is recognised only after some time, which does not count as watched. */
+  /* A replica that leaves is recognised only after some time, which does not count as watched. */
   const double each = (double)v->length * v->batches;
   const double late = fmin((double)pendres_settle_first_budget(&c->pendulum), 0.5 * each);
-  const double watched = WALKERS * (each - late);
+  const double watched = REPLICAS * (each - late);
   pendres_chaos_measures m = {
-    .growth = mean_of(v, PENDRES_WALKER_GROWTH, &ratio),
-    .work = confident(mean_of(v, PENDRES_WALKER_WORK, &ratio)),
-    .loss = confident(mean_of(v, PENDRES_WALKER_LOSS, &ratio)),
-    .amplitude = confident(mean_of(v, PENDRES_WALKER_AMPLITUDE, &ratio)),
-    .turns = confident(mean_of(v, PENDRES_WALKER_TURNS, &ratio)),
+    .growth = mean_of(v, PENDRES_REPLICA_GROWTH, &ratio),
+    .work = confident(mean_of(v, PENDRES_REPLICA_WORK, &ratio)),
+    .loss = confident(mean_of(v, PENDRES_REPLICA_LOSS, &ratio)),
+    .amplitude = confident(mean_of(v, PENDRES_REPLICA_AMPLITUDE, &ratio)),
+    .turns = confident(mean_of(v, PENDRES_REPLICA_TURNS, &ratio)),
     .watched_periods = watched,
     .escape_rate_bound = -log(1.0 - escape_confidence) / watched};
-  m.growth.error += fabs(mean_of(v, PENDRES_WALKER_COARSE, &ratio).value);
+  m.growth.error += fabs(mean_of(v, PENDRES_REPLICA_COARSE, &ratio).value);
   /* In the long run friction takes what the drives and the torque give. */
-  const double other = mean_of(v, PENDRES_WALKER_OTHER, &ratio).value;
+  const double other = mean_of(v, PENDRES_REPLICA_OTHER, &ratio).value;
   const double imbalance = fabs(m.work.value + other - m.loss.value);
   m.work.error += imbalance;
   m.loss.error += imbalance;
@@ -299,11 +301,12 @@ static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigi
 /* ---- the verdict ---- */
 
 /*
- * Whether nothing more is to be learned from walkers: they agree, and each by itself is chaotic.
+ * Whether nothing more is to be learned from replicas: they agree, and each by itself is chaotic.
  * Before all of their batches are over, after a number of them that is the former one doubled, that
  * takes an exponent as accurate as it is wanted.
  */
-static int seen_enough(const pendres_context *ctx, const pendres_catalogue *c, const vigil *v)
+static int seen_enough(const pendres_context *ctx, const pendres_attractor_set *c,
+                       const ensemble *v)
 {
   if (v->batches < BATCHES) {
     if (v->batches != FEW_BATCHES && v->batches != BATCHES / 2) return 0;
@@ -312,11 +315,11 @@ static int seen_enough(const pendres_context *ctx, const pendres_catalogue *c, c
           growth.value > significance * growth.error && growth.value > least_growth))
       return 0;
   }
-  return alike(v) && calm_walkers(v) == 0;
+  return alike(v) && calm_replicas(v) == 0;
 }
 
-/* The known chaotic attractor that more than half of the walkers' points lie on; NULL if none. */
-static pendres_cover *known_cover(const pendres_catalogue *c, const vigil *v)
+/* The known chaotic attractor that more than half of the replicas' points lie on; NULL if none. */
+static pendres_cover *known_cover(const pendres_attractor_set *c, const ensemble *v)
 {
   pendres_cover *cover = NULL;
   for (size_t i = 0; i < c->covers; i++)
@@ -325,12 +328,12 @@ static pendres_cover *known_cover(const pendres_catalogue *c, const vigil *v)
 }
 
 /*
- * Watch walkers until one of them has left, or they turn out to be on an attractor that is known,
+ * Watch replicas until one of them has left, or they turn out to be on an attractor that is known,
  * or they agree, or have been watched for as long as they may be. Then *verdict is NEW if their
- * exponent is above zero for certain. Walkers that have gone to different attractors, such as
+ * exponent is above zero for certain. Replicas that have gone to different attractors, such as
  * mirror images of each other, are sent out once more from where one of them is.
  */
-static pendres_status watch(pendres_context *ctx, pendres_catalogue *c, vigil *v,
+static pendres_status watch(pendres_context *ctx, pendres_attractor_set *c, ensemble *v,
                             pendres_chaos_verdict *verdict)
 {
   pendres_status status = PENDRES_OK;
@@ -342,7 +345,7 @@ static pendres_status watch(pendres_context *ctx, pendres_catalogue *c, vigil *v
     status = next_batch(ctx, c, v);
     if (status == PENDRES_OK) status = seek_orbits(ctx, c, v, &settled);
     if (status != PENDRES_OK) return status;
-    const size_t left = trapped_walkers(v);
+    const size_t left = trapped_replicas(v);
     if (left > 0 || c->count > known) {
       note_lifetime(c, v, left > 0 ? left : settled);
       *verdict = PENDRES_CHAOS_TRANSIENT;
@@ -370,27 +373,27 @@ static pendres_status watch(pendres_context *ctx, pendres_catalogue *c, vigil *v
     merge_batches(v);
   }
   const pendres_chaos_measures m = measures_of(c, v);
-  if (calm_walkers(v) == 0 && m.growth.value > significance * m.growth.error &&
+  if (calm_replicas(v) == 0 && m.growth.value > significance * m.growth.error &&
       m.growth.value > least_growth)
     *verdict = PENDRES_CHAOS_NEW;
   return status;
 }
 
-pendres_status pendres_chaos_find(pendres_context *ctx, pendres_catalogue *c, size_t n,
+pendres_status pendres_chaos_find(pendres_context *ctx, pendres_attractor_set *c, size_t n,
                                   const pendres_strobe_lane *const *lanes,
                                   pendres_chaos_verdict *verdict)
 {
-  pendres_walker suspect;
+  pendres_replica suspect;
   int any = 0, together = 0;
   *verdict = PENDRES_CHAOS_NONE;
   if (n == 0 || c->covers == PENDRES_MOST_COVERS) return PENDRES_OK;
   pendres_status status = find_suspect(ctx, c, n, lanes, &suspect, &any);
   if (status != PENDRES_OK || !any) return status;
 
-  vigil *v = calloc(1, sizeof *v);
+  ensemble *v = calloc(1, sizeof *v);
   if (v == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaotic motion");
-  v->trace = (pendres_walker_trace){.length = KEPT, .y = v->y, .w = v->w};
+  v->trace = (pendres_replica_trace){.length = KEPT, .y = v->y, .w = v->w};
   status = send_out(ctx, c, &suspect, v, &together);
   if (status == PENDRES_OK && !together) *verdict = PENDRES_CHAOS_TRANSIENT;
   if (status == PENDRES_OK && together) status = watch(ctx, c, v, verdict);
@@ -398,7 +401,7 @@ pendres_status pendres_chaos_find(pendres_context *ctx, pendres_catalogue *c, si
     const pendres_chaos_measures m = measures_of(c, v);
     pendres_cover *cover = create_cover(&c->pendulum, v);
     status = cover != NULL
-               ? pendres_catalogue_add_chaos(ctx, c, &m, cover)
+               ? pendres_attractor_set_add_chaos(ctx, c, &m, cover)
                : pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaos");
   }
   free(v);

@@ -9,16 +9,17 @@
  * advanced by the variational equation and rescaled to length one; the mean growth of its logarithm
  * is the exponent. It is carried along by a method of its own, of fourth order, cheaper than
  * derivatives of the map; a second one, by steps twice as long, tells its error.
- * Walkers are pendulums that started close together and have separated; they are followed side by
- * side. Chaos that ends is not an attractor: a walker has left it if it falls into a trap, or if
- * its tangent vector shrinks while it returns to its own past. Each walker's periods are divided
- * into batches; walkers are followed until they differ by no more than the scatter of their batches
- * explains. Errors come from the scatter of walkers, or from that of batches where it is larger.
+ * Replicas are pendulums that started close together and have separated; they are followed side by
+ * side. Chaos that ends is not an attractor: a replica has left it if it falls into a trap, or if
+ * its tangent vector shrinks while it returns to its own past. Each replica's periods are divided
+ * into batches; replicas are followed until they differ by no more than the scatter of their
+ * batches explains. Errors come from the scatter of replicas, or from that of batches where it is
+ * larger.
  */
 #ifndef PENDRES_CHAOS_H
 #define PENDRES_CHAOS_H
 
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 
 typedef enum pendres_chaos_verdict {
   PENDRES_CHAOS_NONE,      /* no chaos, or not distinguished from slow settling */
@@ -27,8 +28,8 @@ typedef enum pendres_chaos_verdict {
   PENDRES_CHAOS_NEW        /* an attractor has been added */
 } pendres_chaos_verdict;
 
-/* Whether the n lanes of catalogue c, which have settled on nothing so far, are chaotic. */
-pendres_status pendres_chaos_find(pendres_context *ctx, pendres_catalogue *c, size_t n,
+/* Whether the n lanes of set of attractors c, which have settled on nothing so far, are chaotic. */
+pendres_status pendres_chaos_find(pendres_context *ctx, pendres_attractor_set *c, size_t n,
                                   const pendres_strobe_lane *const *lanes,
                                   pendres_chaos_verdict *verdict);
 

@@ -1,5 +1,5 @@
 /*
- * chaos_cover.h -- what a catalogue knows of a chaotic attractor.
+ * chaos_cover.h -- what a set of attractors knows of a chaotic attractor.
  *
  * Owns: the cells of the Poincaré plane that it visits, and its means over time as plain numbers.
  */
@@ -10,7 +10,7 @@ enum { PENDRES_COVER_CELLS = 128 /* a side */ };
 
 /* Cells of the Poincaré plane that a chaotic attractor visits, or that touch such a cell. */
 typedef struct pendres_cover {
-  int attractor;                 /* its number in the catalogue */
+  int attractor;                 /* its number in the set of attractors */
   double w_most;                 /* cells span |w| <= w_most, and all angles */
   double span;                   /* width of the cells in y together, about 0; 0: a whole turn */
   double mean_y, mean_w;         /* over the attractor */
@@ -31,7 +31,7 @@ typedef struct pendres_chaos_mean {
 typedef struct pendres_chaos_measures {
   pendres_chaos_mean growth;                  /* its error is one standard error */
   pendres_chaos_mean work, loss, amplitude, turns; /* their errors: half of a 99.9 % interval */
-  double watched_periods;                     /* drive periods, all walkers together */
+  double watched_periods;                     /* drive periods, all replicas together */
   double escape_rate_bound;                   /* see attractor.h */
 } pendres_chaos_measures;
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 
 /*

@@ -10,7 +10,7 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"
@@ -333,7 +333,7 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "guess %zu: %s", i, why);
     const double speed = pendres_steps_speed(&g->pendulum, g->x, g->v);
-    const pendres_place s = pendres_passage_in(&g->pendulum, g->x, g->v);
+    const pendres_coordinates s = pendres_coordinates_in(&g->pendulum, g->x, g->v);
     c[i] = (pendres_newton_candidate){.guess = g, .index = i, .y = s.y, .w = s.w};
     /* The pendulums that steps are chosen by are harder than an orbit. This is where to start: the
        orbit's own two runs tell whether it was enough. */

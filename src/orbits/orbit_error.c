@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "orbits/orbit_table.h"
@@ -31,7 +31,7 @@ static long turns_of_mean(const pendres_pendulum *p, double mean)
   static const double tie = 0.01;
   long turns = 0;
   double inside = mean;
-  pendres_passage_wrap(p, &inside, &turns);
+  pendres_coordinates_wrap(p, &inside, &turns);
   return inside <= tie - pi && pendres_model_of(p->force)->period > 0.0 ? turns - 1 : turns;
 }
 
@@ -174,8 +174,8 @@ static void set_point(const pendres_orbit_twice *two, long turns, pendres_orbit 
 {
   const double omega = o->pendulum.drive_frequency;
   const pendres_orbit_doubt *doubt = &two->at_start;
-  const pendres_place s = {.y = two->fine[0], .w = two->fine[1], .turns = -turns};
-  pendres_passage_out(&o->pendulum, &s, &o->x, &o->v);
+  const pendres_coordinates s = {.y = two->fine[0], .w = two->fine[1], .turns = -turns};
+  pendres_coordinates_out(&o->pendulum, &s, &o->x, &o->v);
   /* x itself is a double, and half of pi is none. */
   o->x_error = pendres_orbit_error(two->coarse[0], two->fine[0], 1.0, doubt) + two->left[0] +
                0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);

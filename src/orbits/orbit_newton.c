@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/strobe_noise.h"
 
@@ -28,7 +28,7 @@ const char *pendres_orbit_refuses(const pendres_orbit *o)
   if (o->period < 1 || o->period > longest_period) return "an orbit has a period of 1 to 1000000";
   if (o->winding < -most_turns || o->winding > most_turns)
     return "an orbit turns over 1000000000 times at most";
-  return pendres_passage_refuses(&o->pendulum, o->x, o->v);
+  return pendres_coordinates_refuses(&o->pendulum, o->x, o->v);
 }
 
 void pendres_newton_samples_free(pendres_newton_samples *taken)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/turns.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
 

@@ -8,7 +8,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
@@ -26,7 +26,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
 {
   const pendres_orbit_guess guess = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                      .period = o->period, .winding = o->winding};
-  const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+  const pendres_coordinates s = pendres_coordinates_in_whole(&o->pendulum, o->x, o->v);
   pendres_newton_candidate c = {.guess = &guess, .y = s.y, .w = s.w, .steps = steps};
   pendres_newton_samples taken = {0};
   pendres_orbit_tables tables = {0};

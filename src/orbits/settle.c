@@ -11,68 +11,73 @@
 #include "engine/context_internal.h"
 #include "orbits/linear.h"
 #include "orbits/settle_certain.h"
-#include "orbits/settle_hunt.h"
+#include "orbits/settle_search.h"
 #include "orbits/settle_lanes.h"
 #include "engine/steps.h"
 
-enum { SCOUTS = 12 /* so many pendulums of a parameter set are sent ahead */ };
+enum { GUESSES = 12 /* so many pendulums of a parameter set are sent ahead */ };
 
 /* ---- batches ---- */
 
 /* Send ahead pendulums of each set, equally spaced among those of the set. */
-static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
-                                  size_t n, const size_t *set, const pendres_strobe_lane *lanes)
+static pendres_status send_guesses(pendres_context *ctx, size_t sets,
+                                   pendres_attractor_set *attractor_sets,
+                                   size_t n, const size_t *set, const pendres_strobe_lane *lanes)
 {
   size_t count = 0;
-  pendres_scout *scouts = malloc((sets * SCOUTS + 1) * sizeof *scouts);
-  if (scouts == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for scouts");
+  pendres_initial_guess *guesses = malloc((sets * GUESSES + 1) * sizeof *guesses);
+  if (guesses == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for guesses");
   for (size_t first = 0, last; first < n; first = last) {
     last = first;
     while (last < n && set[last] == set[first]) last++;
-    if (catalogues[set[first]].grows) continue;
-    const size_t members = last - first, wanted = members < SCOUTS ? members : SCOUTS;
+    if (attractor_sets[set[first]].grows) continue;
+    const size_t members = last - first, wanted = members < GUESSES ? members : GUESSES;
     for (size_t k = 0; k < wanted; k++) {
       const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
-      scouts[count++] = (pendres_scout){.set = set[first], .y = l->y, .w = l->w};
+      guesses[count++] = (pendres_initial_guess){.set = set[first], .y = l->y, .w = l->w};
     }
   }
-  const pendres_status status = pendres_catalogue_explore(ctx, sets, catalogues, count, scouts);
-  free(scouts);
+  const pendres_status status = pendres_attractor_set_explore(ctx, sets, attractor_sets, count,
+                                                              guesses);
+  free(guesses);
   return status;
 }
 
 /* Tell the sets whose force is linear and lets all motions grow without bound. */
-static pendres_status tell_growing(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues)
+static pendres_status tell_growing(pendres_context *ctx, size_t sets,
+                                   pendres_attractor_set *attractor_sets)
 {
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_pendulum *p = malloc((sets + 1) * sizeof *p);
   pendres_linear *linear = malloc((sets + 1) * sizeof *linear);
-  for (size_t s = 0; s < sets && p != NULL; s++) p[s] = catalogues[s].pendulum;
+  for (size_t s = 0; s < sets && p != NULL; s++) p[s] = attractor_sets[s].pendulum;
   if (p == NULL || linear == NULL)
     (void)pendres_context_fail(ctx, status, "out of memory for %zu parameter sets", sets);
   else
     status = pendres_linear_find(ctx, sets, p, linear);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
-    catalogues[s].grows = linear[s].fate == PENDRES_LINEAR_GROWS;
+    attractor_sets[s].grows = linear[s].fate == PENDRES_LINEAR_GROWS;
   free(p);
   free(linear);
   return status;
 }
 
 /* Put attractors into their physical order, and renumber outcomes accordingly. */
-static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
+static pendres_status order_all(pendres_context *ctx, size_t sets,
+                                pendres_attractor_set *attractor_sets,
                                 size_t n, const size_t *set, pendres_outcome *outcome)
 {
   pendres_status status = PENDRES_OK;
   size_t most = 0;
-  for (size_t s = 0; s < sets; s++) most = catalogues[s].count > most ? catalogues[s].count : most;
+  for (size_t s = 0; s < sets; s++)
+    if (attractor_sets[s].count > most) most = attractor_sets[s].count;
   int *rank = malloc((most + 1) * sizeof *rank);
   if (rank == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   for (size_t s = 0, i = 0; s < sets && status == PENDRES_OK; s++) {
-    const pendres_catalogue *c = &catalogues[s];
-    status = pendres_catalogue_order(ctx, &catalogues[s], rank);
+    const pendres_attractor_set *c = &attractor_sets[s];
+    status = pendres_attractor_set_order(ctx, &attractor_sets[s], rank);
     for (; i < n && set[i] == s && status == PENDRES_OK; i++)
       if (outcome[i].attractor >= 0) {
         outcome[i].attractor = rank[outcome[i].attractor];
@@ -84,7 +89,7 @@ static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catal
 }
 
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
-                                    pendres_catalogue *catalogues,
+                                    pendres_attractor_set *attractor_sets,
                                     const pendres_settle_starts *from, pendres_outcome *outcome)
 {
   pendres_status status = PENDRES_OK;
@@ -100,7 +105,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   }
   double speed = NAN, last; /* of starts as fast as their neighbours the steps are the same */
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const pendres_pendulum *p = &catalogues[set[i]].pendulum;
+    const pendres_pendulum *p = &attractor_sets[set[i]].pendulum;
     outcome[i] = pendres_settle_unresolved;
     doubt[i] = NAN;
     last = speed;
@@ -111,24 +116,26 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
       status = pendres_settle_load(ctx, p, x[i], v[i], accuracy, &lanes[i]);
   }
   for (size_t s = 0; s < sets; s++) {
-    budget[s] = pendres_settle_last_budget(ctx, &catalogues[s]);
-    const long first = pendres_settle_first_budget(&catalogues[s].pendulum);
+    budget[s] = pendres_settle_last_budget(ctx, &attractor_sets[s]);
+    const long first = pendres_settle_first_budget(&attractor_sets[s].pendulum);
     if (first < budget[s]) budget[s] = first;
   }
-  if (status == PENDRES_OK) status = tell_growing(ctx, sets, catalogues);
-  if (status == PENDRES_OK) status = send_scouts(ctx, sets, catalogues, n, set, lanes);
+  if (status == PENDRES_OK) status = tell_growing(ctx, sets, attractor_sets);
+  if (status == PENDRES_OK) status = send_guesses(ctx, sets, attractor_sets, n, set, lanes);
   pendres_settle_labelling l = {
-    .catalogues = catalogues, .set = set, .budget = budget, .outcome = outcome, .doubt = doubt};
+    .attractor_sets =
+      attractor_sets, .set = set, .budget = budget, .outcome = outcome, .doubt = doubt};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
   if (status == PENDRES_OK)
-    status = pendres_settle_hunt(
-      ctx, &(pendres_settle_quarry){.sets = sets, .catalogues = catalogues, .budget = budget,
+    status = pendres_settle_search(
+      ctx, &(pendres_settle_remaining){.sets = sets, .attractor_sets = attractor_sets,
+                                       .budget = budget,
                                     .n = n, .set = set, .x = x, .v = v, .lanes = lanes,
                                     .outcome = outcome});
   const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
                                             .accuracy = accuracy};
   if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
-  if (status == PENDRES_OK) status = order_all(ctx, sets, catalogues, n, set, outcome);
+  if (status == PENDRES_OK) status = order_all(ctx, sets, attractor_sets, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
 done:
   free(lanes);
@@ -198,7 +205,8 @@ static pendres_status load_all(pendres_context *ctx, const pendres_pendulum *p,
   return status;
 }
 
-pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
+pendres_status pendres_settle_known(pendres_context *ctx,
+                                    const pendres_attractor_set *attractor_set,
                                     const pendres_settle_starts *starts, double accuracy,
                                     pendres_settle_budget budget, pendres_outcome *outcome)
 {
@@ -211,17 +219,17 @@ pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogu
     (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
     goto done;
   }
-  status = load_all(ctx, &catalogue->pendulum, starts, accuracy, lanes);
+  status = load_all(ctx, &attractor_set->pendulum, starts, accuracy, lanes);
   if (status != PENDRES_OK) goto done;
   order_by_steps(n, lanes, order);
   for (size_t i = 0; i < n; i++) {
     outcome[i] = pendres_settle_unresolved;
     doubt[i] = NAN;
   }
-  long most = pendres_settle_last_budget(ctx, catalogue);
-  const long soon = pendres_settle_first_budget(&catalogue->pendulum);
+  long most = pendres_settle_last_budget(ctx, attractor_set);
+  const long soon = pendres_settle_first_budget(&attractor_set->pendulum);
   if (budget == PENDRES_SETTLE_SHORT && soon < most) most = soon;
-  pendres_settle_labelling l = {.catalogues = catalogue, .order = order, .budget = &most,
+  pendres_settle_labelling l = {.attractor_sets = attractor_set, .order = order, .budget = &most,
                                 .outcome = outcome, .doubt = doubt};
   status = pendres_settle_lanes(ctx, n, lanes, &l);
   const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = starts->x, .v = starts->v,

@@ -4,22 +4,22 @@
 #ifndef PENDRES_SETTLE_H
 #define PENDRES_SETTLE_H
 
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 
 /* Pendulums to be labelled, by the states that they start from. */
 typedef struct pendres_settle_starts {
   size_t n;
   const size_t *set; /* number of each one's parameter set, those of one set being consecutive; not
-                        looked at where there is one catalogue alone, of known attractors */
+                        looked at where there is one set of attractors alone, of known attractors */
   const double *x, *v;
 } pendres_settle_starts;
 
 /*
- * Label pendulums of parameter sets that have a catalogue each. Attractors are found on the way and
- * added to the catalogues. outcome[i].attractor counts within its set.
+ * Label pendulums of parameter sets that have a set of attractors each. Attractors are found on
+ * the way and added to the sets of attractors. outcome[i].attractor counts within its set.
  */
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
-                                    pendres_catalogue *catalogues,
+                                    pendres_attractor_set *attractor_sets,
                                     const pendres_settle_starts *starts,
                                     pendres_outcome *outcome);
 
@@ -29,9 +29,10 @@ typedef enum pendres_settle_budget {
   PENDRES_SETTLE_FULL
 } pendres_settle_budget;
 
-/* Label pendulums of one parameter set, integrated with this error a period. The catalogue is only
-   read. */
-pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
+/* Label pendulums of one parameter set, integrated with this error a period. The set of attractors
+   is only read. */
+pendres_status pendres_settle_known(pendres_context *ctx,
+                                    const pendres_attractor_set *attractor_set,
                                     const pendres_settle_starts *starts, double accuracy,
                                     pendres_settle_budget budget, pendres_outcome *outcome);
 

@@ -51,16 +51,16 @@ static int in_doubt(const pendres_outcome *o)
   return pendres_settle_ended(o) && !o->certain;
 }
 
-static const pendres_catalogue *catalogue_of(const pendres_settle_labelled *l, size_t i)
+static const pendres_attractor_set *attractor_set_of(const pendres_settle_labelled *l, size_t i)
 {
-  return &l->job->catalogues[l->job->set != NULL ? l->job->set[i] : 0];
+  return &l->job->attractor_sets[l->job->set != NULL ? l->job->set[i] : 0];
 }
 
 /* Where there is one attractor alone, and nobody asks for the well, an error changes nothing. */
 static void excuse(const pendres_settle_labelled *l)
 {
   for (size_t i = 0; i < l->n; i++) {
-    const pendres_catalogue *c = catalogue_of(l, i);
+    const pendres_attractor_set *c = attractor_set_of(l, i);
     if (c->count == 1 && c->any_well && l->job->outcome[i].attractor == 0)
       l->job->outcome[i].certain = 1;
   }
@@ -113,7 +113,7 @@ static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *
   for (size_t k = 0; k < d->count; k++) {
     const size_t i = d->index[k];
     const pendres_status status =
-      pendres_settle_load(ctx, &l->job->catalogues[d->set[k]].pendulum, l->x[i], l->v[i],
+      pendres_settle_load(ctx, &l->job->attractor_sets[d->set[k]].pendulum, l->x[i], l->v[i],
                           d->accuracy[k], &d->lanes[n]);
     if (status == PENDRES_TOLERANCE_UNREACHABLE) continue; /* it stays in doubt: no failure */
     if (status != PENDRES_OK) return status;
@@ -138,7 +138,7 @@ static pendres_status allow(pendres_context *ctx, const pendres_settle_labelled 
   if (*budget == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu sets", sets);
   for (size_t s = 0; s < sets; s++) {
-    const pendres_catalogue *c = &l->job->catalogues[s];
+    const pendres_attractor_set *c = &l->job->attractor_sets[s];
     const long most = pendres_settle_last_budget(ctx, c);
     const long some = 8 * pendres_settle_first_budget(&c->pendulum);
     (*budget)[s] = some < most ? some : most;
@@ -152,7 +152,7 @@ static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l
   long *budget = NULL;
   pendres_status status = load(ctx, l, d);
   if (status == PENDRES_OK) status = allow(ctx, l, d, &budget);
-  pendres_settle_labelling job = {.catalogues = l->job->catalogues, .set = d->set,
+  pendres_settle_labelling job = {.attractor_sets = l->job->attractor_sets, .set = d->set,
                                   .budget = budget, .outcome = d->outcome, .doubt = d->doubt,
                                   .drop_lost = 1};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, d->count, d->lanes, &job);

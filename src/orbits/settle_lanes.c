@@ -35,7 +35,7 @@ long pendres_settle_first_budget(const pendres_pendulum *p)
  * Close to a fold a known attractor attracts slowly, and lanes get the time that this takes. They
  * also get the time to leave a chaos that ends: one of e^10 pendulums in it is left then.
  */
-long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c)
+long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attractor_set *c)
 {
   if (ctx->options.period_budget > 0) return ctx->options.period_budget;
   double slowest = 0.0;
@@ -92,7 +92,8 @@ static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
 enum { STREAK_SCALE = 1 << 16 };
 
 /* The streak after one more strobe. */
-static int longer_streak(const pendres_catalogue *c, const pendres_strobe_lane *lane, int streak)
+static int longer_streak(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
+                         int streak)
 {
   const size_t last = (size_t)(streak / STREAK_SCALE);
   if (streak % STREAK_SCALE > 0 && pendres_cover_holds(c->cover[last], lane->y, lane->w))
@@ -139,7 +140,7 @@ static void judge(const pendres_settle_labelling *l, size_t i, double doubt)
  * A lane in the cells of a chaotic attractor for long enough is chaotic, but not before
  * transients are over.
  */
-static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
                    const pendres_strobe_lane *lane)
 {
   const int streak = l->streak[i] = longer_streak(c, lane, l->streak[i]);
@@ -154,16 +155,16 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_ca
   return 1;
 }
 
-static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
                    const pendres_strobe_lane *lane)
 {
   pendres_outcome *o = &l->outcome[i];
-  const int attractor = pendres_catalogue_locate(c, lane, &o->well);
+  const int attractor = pendres_attractor_set_locate(c, lane, &o->well);
   if (attractor < 0) return 0;
   o->attractor = attractor;
   o->label = c->attractors[attractor].label;
   o->settling_periods = lane->period;
-  judge(l, i, doubt_in_trap(pendres_catalogue_trap(c, lane), lane));
+  judge(l, i, doubt_in_trap(pendres_attractor_set_trap(c, lane), lane));
   return 1;
 }
 
@@ -219,7 +220,7 @@ static int spent(const pendres_settle_labelling *l, size_t set, const pendres_st
 
 /* Whether a lane is lost. What grows on a chaotic attractor after it has been reached does not
    count: all of it has one label. */
-static int lost(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+static int lost(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
                 const pendres_strobe_lane *lane)
 {
   const int on_chaos = c->covers > 0 && l->streak[i] > 0;
@@ -232,7 +233,7 @@ static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
 {
   const pendres_settle_labelling *l = arg;
   const size_t set = set_of(l, i);
-  const pendres_catalogue *c = &l->catalogues[set];
+  const pendres_attractor_set *c = &l->attractor_sets[set];
   if (trapped(l, i, c, lane)) return 1;
   if (l->before != NULL && escapes(l, i, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
@@ -251,7 +252,7 @@ static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
   *covers = *open = 0;
   for (size_t k = 0; k < n; k++) {
     const size_t i = l->order != NULL ? l->order[k] : k, set = set_of(l, i);
-    const pendres_catalogue *c = &l->catalogues[set];
+    const pendres_attractor_set *c = &l->attractor_sets[set];
     if (pendres_settle_ended(&l->outcome[i])) continue;
     if (c->grows) {
       note_escape(l, i, &lanes[i], 0.0);

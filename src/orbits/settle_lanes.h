@@ -7,7 +7,7 @@
 #ifndef PENDRES_SETTLE_LANES_H
 #define PENDRES_SETTLE_LANES_H
 
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 #include "orbits/recurrence.h"
 
 /* Strobe points kept of a pendulum that does not settle. */
@@ -21,10 +21,10 @@ typedef struct pendres_settle_history {
 
 /* Arrays are by the numbers of lanes. */
 typedef struct pendres_settle_labelling {
-  const pendres_catalogue *catalogues;
+  const pendres_attractor_set *attractor_sets;
   const size_t *order;      /* numbers of the lanes in the order in which they run; NULL: as they
                                are numbered */
-  const size_t *set;        /* of each lane; NULL: all belong to the first catalogue */
+  const size_t *set;        /* of each lane; NULL: all belong to the first set of attractors */
   const long *budget;       /* of each set, periods in all */
   pendres_outcome *outcome;
   pendres_settle_history *histories; /* NULL: not kept */
@@ -55,7 +55,7 @@ static inline int pendres_settle_ended(const pendres_outcome *o)
 long pendres_settle_first_budget(const pendres_pendulum *p);
 
 /* Periods after which it is given up. */
-long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c);
+long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attractor_set *c);
 
 /* Put a pendulum at its start, and choose its steps for this error a period, which is carried along
    where that is possible. */

@@ -9,7 +9,7 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
@@ -29,7 +29,7 @@ static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendul
                                 "the number of periods is %ld, and must not be negative", periods);
   for (size_t i = 0; i < n; i++) {
     if (pendres_pendulum_check(&p[i], &why) == PENDRES_OK)
-      why = pendres_passage_refuses(&p[i], x[i], v[i]);
+      why = pendres_coordinates_refuses(&p[i], x[i], v[i]);
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
@@ -81,7 +81,7 @@ static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p,
 }
 
 /* |a - b| of two states, in x and v. */
-static double distance(const pendres_strobe_lane *a, const pendres_place *b)
+static double distance(const pendres_strobe_lane *a, const pendres_coordinates *b)
 {
   const double dy = (a->y - b->y) + two_pi * (double)(a->turns - b->turns);
   const double dv = (a->w - b->w) * a->pendulum->drive_frequency;
@@ -114,14 +114,14 @@ typedef struct stretch {
   long length;       /* in periods */
   long every;        /* counted from its end, one strobe out of so many is compared */
   size_t slots;      /* strobes of a lane that are compared in a stretch */
-  pendres_place *at; /* n * slots: where the first run was */
+  pendres_coordinates *at; /* n * slots: where the first run was */
   double *apart;     /* n: distances at the end; infinite once two runs have lost each other */
 } stretch;
 
 enum { MOST_COMPARED = 64 };
 
 /* Where the first run was at a strobe of the stretch; NULL if that strobe is not compared. */
-static pendres_place *place_of(const stretch *s, size_t index, long period)
+static pendres_coordinates *place_of(const stretch *s, size_t index, long period)
 {
   const long left = s->last - period;
   return left % s->every == 0 ? &s->at[index * s->slots + (size_t)(left / s->every)] : NULL;
@@ -130,15 +130,15 @@ static pendres_place *place_of(const stretch *s, size_t index, long period)
 static int keep(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const stretch *s = arg;
-  pendres_place *at = place_of(s, index, lane->period);
-  if (at != NULL) *at = (pendres_place){.y = lane->y, .w = lane->w, .turns = lane->turns};
+  pendres_coordinates *at = place_of(s, index, lane->period);
+  if (at != NULL) *at = (pendres_coordinates){.y = lane->y, .w = lane->w, .turns = lane->turns};
   return lane->period >= s->last;
 }
 
 static int compare(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const stretch *s = arg;
-  const pendres_place *at = place_of(s, index, lane->period);
+  const pendres_coordinates *at = place_of(s, index, lane->period);
   const double apart = at != NULL ? distance(lane, at) : 0.0;
   if (!(pendres_strobe_doubt(apart) < INFINITY)) s->apart[index] = INFINITY;
   if (lane->period == s->periods) s->apart[index] = fmax(s->apart[index], apart);

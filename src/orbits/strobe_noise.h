@@ -11,7 +11,7 @@
 
 #include <pendres/context.h>
 
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 
 /* The standard error of the angle by rounding in one step with a Butcher table. Roundings are taken
    to be random and independent: each step adds the square of this to the variance. */

@@ -14,7 +14,7 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
@@ -36,10 +36,10 @@ static void keep(void *arg, int step, const pendres_rows *rows)
   const recorder *r = arg;
   const int k = step / r->stretch;
   if (step % r->stretch != 0) return;
-  const pendres_place s = {.y = pendres_rows_get(rows, PENDRES_ROW_Y, 0),
+  const pendres_coordinates s = {.y = pendres_rows_get(rows, PENDRES_ROW_Y, 0),
                            .w = pendres_rows_get(rows, PENDRES_ROW_W, 0),
                            .turns = r->turns};
-  pendres_passage_out(r->p, &s, &r->x[k], &r->v[k]);
+  pendres_coordinates_out(r->p, &s, &r->x[k], &r->v[k]);
   if (r->x_noise != NULL) {
     const pendres_flow_error off = pendres_block_get_error(r->block, 0);
     r->x_noise[k] = sqrt(off.yy);
@@ -58,7 +58,7 @@ typedef struct piece {
 
 /* Advance a piece's lane by one period from s on; errors are carried along in the second run. */
 static pendres_status turn(pendres_block *b, const pendres_flow_error *off, recorder *r,
-                           pendres_place *s)
+                           pendres_coordinates *s)
 {
   const double rounding = pendres_strobe_noise_of_step(b->ctx->options.table);
   r->turns = s->turns;
@@ -68,7 +68,7 @@ static pendres_status turn(pendres_block *b, const pendres_flow_error *off, reco
   const pendres_rows rows = pendres_block_rows(b);
   s->y = pendres_rows_get(&rows, PENDRES_ROW_Y, 0);
   s->w = pendres_rows_get(&rows, PENDRES_ROW_W, 0);
-  pendres_passage_arrive(r->p, &s->y, &s->w, &s->turns);
+  pendres_coordinates_arrive(r->p, &s->y, &s->w, &s->turns);
   return status;
 }
 
@@ -79,7 +79,7 @@ static pendres_status run(pendres_context *ctx, const piece *what, pendres_flow_
   pendres_block b;
   const pendres_pendulum *p = &what->of->pendulum;
   const size_t samples = (size_t)what->of->samples;
-  pendres_place s = { .y = what->at->y, .w = what->at->w, .turns = what->at->turns };
+  pendres_coordinates s = { .y = what->at->y, .w = what->at->w, .turns = what->at->turns };
   recorder r = { .stretch = what->stretch, .p = p, .block = &b };
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE,
                                              what->of->samples * what->stretch, &b);
@@ -145,7 +145,7 @@ static pendres_status check(pendres_context *ctx, const pendres_pendulum *p,
     else if (samples < 1 || samples > MOST_SAMPLES)
       why = "the number of samples a period must lie between 1 and 1000000";
     else if (periods >= LONG_MAX / 64 / samples) why = "there are too many samples in all";
-    else why = pendres_passage_refuses(p, start->x, start->v);
+    else why = pendres_coordinates_refuses(p, start->x, start->v);
   }
   if (why == NULL) return PENDRES_OK;
   return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
@@ -165,7 +165,7 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p,
     status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x0, v0),
                                   pendres_accuracy_of_run(ctx, fmax(1.0, (double)periods)), &steps);
   if (status != PENDRES_OK) return status;
-  const pendres_place s = pendres_passage_in(p, x0, v0);
+  const pendres_coordinates s = pendres_coordinates_in(p, x0, v0);
   memset(out, 0, sizeof *out); /* bytes between the fields, too */
   out->pendulum = *p;
   out->samples = samples;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
 #include "orbits/trap_ring.h"
@@ -353,7 +353,7 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
   if (s == NULL) goto no_memory;
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit *o = &orbits[i];
-    const pendres_place at = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+    const pendres_coordinates at = pendres_coordinates_in_whole(&o->pendulum, o->x, o->v);
     traps[i] = (pendres_trap){
       .y = at.y, .w = at.w, .period = o->period, .winding = o->winding,
       .turn = pendres_model_turn(&o->pendulum)};

@@ -1,8 +1,8 @@
 /*
  * fuzz_collect.c -- journals with other numbers in their records, and checksums that fit: what a
  * scene collects is refused with words, or it writes results of it, and nothing crashes. The
- * records are those of the decks in tests/kinds, all of which are computed once; the bytes say which
- * of them is tried, and which places are changed.
+ * records are those of the decks in tests/kinds, all of which are computed once; the bytes say
+ * which of them is tried, and which places are changed.
  */
 #include "fuzz/fuzz.h"
 

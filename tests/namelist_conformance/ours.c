@@ -22,13 +22,17 @@ static void print_value(const namelist *nl, const namelist_value *v, kind k, con
   int64_t i = 0;
   double x = 0.0;
   int l = 0;
-  if (k == INTEGER && namelist_value_integer(nl, v, label, &i, errors)) printf("%s %lld\n", label, (long long)i);
+  if (k == INTEGER && namelist_value_integer(nl, v, label, &i, errors)) printf("%s %lld\n", label,
+                                                                               (long long)i);
   if (k == REAL && namelist_value_real(nl, v, label, &x, errors)) printf("%s %.17e\n", label, x);
-  if (k == LOGICAL && namelist_value_logical(nl, v, label, &l, errors)) printf("%s %c\n", label, l ? 'T' : 'F');
-  if (k == STRING && namelist_value_string(nl, v, label, text, sizeof text, errors)) printf("%s %s|\n", label, text);
+  if (k == LOGICAL && namelist_value_logical(nl, v, label, &l, errors)) printf("%s %c\n", label,
+                                                                               l ? 'T' : 'F');
+  if (k == STRING && namelist_value_string(nl, v, label, text, sizeof text,
+                                           errors)) printf("%s %s|\n", label, text);
 }
 
-static void print_name(const namelist *nl, const namelist_group *g, const char *prefix, const char *name,
+static void print_name(const namelist *nl, const namelist_group *g, const char *prefix,
+                       const char *name,
                        kind k, size_t limit, namelist_errors *errors)
 {
   namelist_array array = { 0 };
@@ -55,7 +59,8 @@ static void print_syntax_group(const namelist *nl, namelist_errors *errors)
     namelist_error_at(nl, namelist_whole, errors, "no group &g");
     return;
   }
-  for (size_t i = 0; i < count; i++) print_name(nl, g, "", known[i].name, known[i].k, known[i].limit, errors);
+  for (size_t i = 0; i < count; i++) print_name(nl, g, "", known[i].name, known[i].k,
+                                                known[i].limit, errors);
   for (size_t a = 0; a < g->count; a++) {
     size_t i = 0;
     while (i < count && strcmp(known[i].name, nl->assignment[g->begin + a].name) != 0) i++;

@@ -25,7 +25,7 @@ const char *pendres_basin_end_name(pendres_basin_end end)
 }
 
 enum {
-  SCOUT_SIDE = 24,     /* scouts over the grid: at most this many by this many */
+  GUESS_SIDE = 24,     /* initial guesses over the grid: at most this many by this many */
   EXTEND_SCOUTS = 256, /* states that are looked at when some are unresolved */
   WORTH_WAITING = 384, /* states together that fill blocks well enough to be finished at once */
   MOST_EXTENSIONS = 4
@@ -82,14 +82,14 @@ static void compact(const pendres_outcome *from, pendres_basin_state *to)
 static pendres_status basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
                                        const pendres_basin_grid *grid, pendres_attractors **out)
 {
-  double x[SCOUT_SIDE * SCOUT_SIDE], v[SCOUT_SIDE * SCOUT_SIDE];
+  double x[GUESS_SIDE * GUESS_SIDE], v[GUESS_SIDE * GUESS_SIDE];
   if (p == NULL || grid == NULL || out == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, grid and out");
   *out = NULL;
   if (grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "a grid needs x and v");
-  const size_t nx = grid->nx < SCOUT_SIDE ? grid->nx : SCOUT_SIDE;
-  const size_t nv = grid->nv < SCOUT_SIDE ? grid->nv : SCOUT_SIDE;
+  const size_t nx = grid->nx < GUESS_SIDE ? grid->nx : GUESS_SIDE;
+  const size_t nv = grid->nv < GUESS_SIDE ? grid->nv : GUESS_SIDE;
   size_t n = 0;
   for (size_t i = 0; i < nx; i++)
     for (size_t j = 0; j < nv; j++) {
@@ -144,7 +144,7 @@ static pendres_status settle_states(const picture *of, size_t n, const size_t *i
     v[k] = grid->v[index[k] % grid->nv];
   }
   const pendres_settle_starts starts = {.n = n, .x = x, .v = v};
-  status = pendres_settle_known(of->ctx, of->set->catalogues, &starts,
+  status = pendres_settle_known(of->ctx, of->set->attractor_sets, &starts,
                                 pendres_basin_accuracy(of->ctx, grid), budget, outcome);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) compact(&outcome[k], &state[k]);
 done:
@@ -253,16 +253,16 @@ static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set
   pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK || n == 0) return status;
   double x[EXTEND_SCOUTS], v[EXTEND_SCOUTS];
-  const size_t scouts = n < EXTEND_SCOUTS ? n : EXTEND_SCOUTS, before = set->count;
-  for (size_t k = 0; k < scouts; k++) {
-    const size_t one = index[k * n / scouts];
+  const size_t guesses = n < EXTEND_SCOUTS ? n : EXTEND_SCOUTS, before = set->count;
+  for (size_t k = 0; k < guesses; k++) {
+    const size_t one = index[k * n / guesses];
     if (one / grid->nv >= grid->nx)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "state %zu is not in the grid",
                                   one);
     x[k] = grid->x[one / grid->nv];
     v[k] = grid->v[one % grid->nv];
   }
-  status = pendres_attractors_extend(ctx, set, scouts, x, v);
+  status = pendres_attractors_extend(ctx, set, guesses, x, v);
   *grown = set->count - before;
   return status;
 }

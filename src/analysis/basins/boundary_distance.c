@@ -6,7 +6,7 @@
 
 #include "base/turns.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 
 /* The order of nodes by their number of maps, and then along the curve. */

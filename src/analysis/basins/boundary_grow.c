@@ -9,7 +9,7 @@
 #include "base/grow.h"
 #include "base/turns.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
 
@@ -307,7 +307,7 @@ static pendres_status next_generation(pendres_context *ctx, front *f)
                                     .y = f->node[i].y,
                                     .w = -f->node[i].w,
                                     .steps = f->seed->steps};
-    pendres_passage_wrap(lane[i].pendulum, &lane[i].y, &lane[i].turns);
+    pendres_coordinates_wrap(lane[i].pendulum, &lane[i].y, &lane[i].turns);
     periods[i] = f->seed->iterates;
   }
   status = pendres_strobe_run(ctx, f->count, lane, mapped, periods);

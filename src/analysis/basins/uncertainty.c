@@ -117,7 +117,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
     place(a->window, a->of, (uint64_t)(out->states + i), &a->x[i * each], &a->v[i * each]);
   const pendres_settle_starts starts = {.n = count * each, .x = a->x, .v = a->v};
   const pendres_status status =
-    pendres_settle_known(ctx, a->set->catalogues, &starts, pendres_accuracy_to_sample(),
+    pendres_settle_known(ctx, a->set->attractor_sets, &starts, pendres_accuracy_to_sample(),
                          PENDRES_SETTLE_FULL, a->outcome);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {

@@ -7,8 +7,8 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "engine/passage.h"
-#include "orbits/catalogue.h"
+#include "engine/coordinates.h"
+#include "orbits/attractor_set.h"
 #include "analysis/chaos/lyapunov_certain.h"
 #include "analysis/chaos/lyapunov_move.h"
 
@@ -25,7 +25,7 @@ static const char *refuses(const pendres_pendulum *p, double x, double v)
   const char *why = NULL;
   if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
   if (p->damping == 0.0) return "without damping nothing settles";
-  return pendres_passage_refuses(p, x, v);
+  return pendres_coordinates_refuses(p, x, v);
 }
 
 pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapunov_motion *m,

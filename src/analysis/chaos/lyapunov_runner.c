@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/rank.h"
 #include "model/model.h"
 #include "orbits/escape.h"
@@ -190,7 +190,7 @@ static void arrive(const average_job *a, size_t lane, long step, runner *r)
   if (step >= 0) r->square[step / a->batch] += l->w * l->w;
   if (step >= 0 && r->rotates)
     pendres_smooth_add(&r->smooth, step, a->batch * BATCHES, growth, turned);
-  pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
+  pendres_coordinates_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   l->period++;
   put(a, lane, r);
   pendres_runner_pass(r, l);

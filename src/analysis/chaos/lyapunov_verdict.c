@@ -8,11 +8,11 @@
 #include "base/turns.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 #include "orbits/escape.h"
 #include "orbits/linear.h"
 #include "orbits/orbit_prime.h"
@@ -139,10 +139,10 @@ static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_
     const pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_CAUGHT) continue;
     pendres_orbit_guess *g = &guess[k++];
-    const pendres_place at = {.y = r->lane.y, .w = r->lane.w};
+    const pendres_coordinates at = {.y = r->lane.y, .w = r->lane.w};
     *g = (pendres_orbit_guess){
       .pendulum = *r->lane.pendulum, .period = r->period, .winding = r->winding};
-    pendres_passage_out(r->lane.pendulum, &at, &g->x, &g->v);
+    pendres_coordinates_out(r->lane.pendulum, &at, &g->x, &g->v);
   }
   const pendres_status status =
     pendres_orbit_refine(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);

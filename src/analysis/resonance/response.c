@@ -15,7 +15,7 @@
 #include "analysis/resonance/response_loop.h"
 #include "analysis/resonance/response_members.h"
 #include "orbits/settle.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "analysis/resonance/response_sampling.h"
 
 enum { BATCH_SETS = 32 };
@@ -211,7 +211,7 @@ static size_t most_members(size_t n, const size_t *members, const char *listed)
  * there are more attractors than can be listed, those with the most members are listed. members and
  * listed have one number for each attractor.
  */
-static void count_states(const pendres_catalogue *c, size_t n, const pendres_outcome *outcome,
+static void count_states(const pendres_attractor_set *c, size_t n, const pendres_outcome *outcome,
                          size_t *members, char *listed, pendres_response *r)
 {
   memset(r, 0, sizeof *r);
@@ -253,7 +253,7 @@ static void locate_members(size_t n, const pendres_outcome *outcome, const char 
   }
 }
 
-pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_catalogue *c,
+pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_attractor_set *c,
                                           size_t n, const pendres_outcome *outcome,
                                           signed char *where, pendres_response *r)
 {
@@ -279,7 +279,7 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
 {
   const size_t n = sets * e->members;
   pendres_status status = PENDRES_OK;
-  pendres_catalogue catalogues[BATCH_SETS] = {0};
+  pendres_attractor_set attractor_sets[BATCH_SETS] = {0};
   double *x = malloc(n * sizeof *x), *v = malloc(n * sizeof *v);
   size_t *set = malloc(n * sizeof *set);
   pendres_outcome *outcome = malloc(n * sizeof *outcome);
@@ -288,8 +288,8 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
     goto done;
   }
   for (size_t s = 0; s < sets; s++) {
-    catalogues[s].pendulum = pendulums[s];
-    catalogues[s].any_well = 1;
+    attractor_sets[s].pendulum = pendulums[s];
+    attractor_sets[s].any_well = 1;
     for (size_t k = 1; k <= e->members; k++) {
       const size_t i = s * e->members + k - 1;
       set[i] = s;
@@ -297,12 +297,13 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
     }
   }
   const pendres_settle_starts starts = {.n = n, .set = set, .x = x, .v = v};
-  status = pendres_settle_batch(ctx, sets, catalogues, &starts, outcome);
+  status = pendres_settle_batch(ctx, sets, attractor_sets, &starts, outcome);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
-    status = pendres_response_summarize(ctx, &catalogues[s], e->members, outcome + s * e->members,
+    status = pendres_response_summarize(ctx, &attractor_sets[s], e->members,
+                                        outcome + s * e->members,
                                         where != NULL ? where + s * e->members : NULL, &out[s]);
 done:
-  for (size_t s = 0; s < sets; s++) pendres_catalogue_clear(&catalogues[s]);
+  for (size_t s = 0; s < sets; s++) pendres_attractor_set_clear(&attractor_sets[s]);
   free(x);
   free(v);
   free(set);
@@ -313,7 +314,7 @@ done:
 const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_ensemble *e)
 {
   const double v = e->shape == PENDRES_ENSEMBLE_LINE ? e->v : fmax(fabs(e->v), fabs(e->v_last));
-  return pendres_passage_refuses(p, fmax(fabs(e->x_first), fabs(e->x_last)), v);
+  return pendres_coordinates_refuses(p, fmax(fabs(e->x_first), fabs(e->x_last)), v);
 }
 
 pendres_status pendres_response_members(pendres_context *ctx, size_t n,

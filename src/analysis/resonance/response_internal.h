@@ -6,14 +6,14 @@
 
 #include <pendres/response.h>
 
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 
 /*
  * The response of n members, whose outcomes number the attractors of c: means over all members, and
  * a list of the attractors that most members are on. where[n], which may be NULL, receives the
  * listed attractor that each member is on; -1: none of these.
  */
-pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_catalogue *c,
+pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_attractor_set *c,
                                           size_t n, const pendres_outcome *outcome,
                                           signed char *where, pendres_response *r);
 

@@ -10,7 +10,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 
 enum {
@@ -362,12 +362,12 @@ done:
 
 static int by_angle(const void *a, const void *b)
 {
-  const pendres_place *p = a, *q = b;
+  const pendres_coordinates *p = a, *q = b;
   return (p->y > q->y) - (p->y < q->y);
 }
 
 /* Interpolate linearly between the points, around the cylinder. */
-static int connect(pendres_place at[POINTS], pendres_trigonometric *out)
+static int connect(pendres_coordinates at[POINTS], pendres_trigonometric *out)
 {
   enum { N = PENDRES_CIRCLE_LEAST };
   double w[N];
@@ -375,7 +375,8 @@ static int connect(pendres_place at[POINTS], pendres_trigonometric *out)
   qsort(at, POINTS, sizeof *at, by_angle);
   for (size_t i = 0; i < N; i++) {
     while (next < POINTS && at[next].y <= grid(N, i)) next++;
-    const pendres_place *right = &at[next % POINTS], *left = &at[(next + POINTS - 1) % POINTS];
+    const pendres_coordinates *right =
+      &at[next % POINTS], *left = &at[(next + POINTS - 1) % POINTS];
     const double from = left->y - (next == 0 ? two_pi : 0.0);
     const double to = right->y + (next == POINTS ? two_pi : 0.0);
     if (!(to - from < widest_gap)) return 0;
@@ -391,8 +392,8 @@ pendres_status pendres_circle_guess(pendres_context *ctx, const pendres_circle_w
 {
   const pendres_pendulum *p = &way->pendulum;
   pendres_block block;
-  pendres_place at[POINTS], now = {0};
-  const pendres_place start = pendres_passage_in(p, x, v);
+  pendres_coordinates at[POINTS], now = {0};
+  const pendres_coordinates start = pendres_coordinates_in(p, x, v);
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, way->steps, &block);
   *found = 0;
   if (status != PENDRES_OK) return status;

@@ -41,7 +41,7 @@ double pendres_trigonometric_size(const pendres_trigonometric *t);
 void pendres_trigonometric_trim(pendres_trigonometric *t, double tolerance);
 
 typedef struct pendres_circle {
-  pendres_trigonometric w;    /* C: dy/dtheta as a function of the angle y of passage.h */
+  pendres_trigonometric w;    /* C: dy/dtheta as a function of the angle y of coordinates.h */
   pendres_trigonometric move; /* D: by how much a period moves the angle */
   double error; /* bound on the error of D, without that of the integration */
 } pendres_circle;

@@ -10,7 +10,7 @@
 #include "base/mix.h"
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 
 enum {
   CLOSED_BELOW = 1, CLOSED_ABOVE = 2,
@@ -194,8 +194,8 @@ static void judge(pendres_circles *c, const pendres_circle_band *b, double value
   out->value = value;
   out->turn = pendres_circle_table_turn(c->table);
   const double y = out->turn.motion == PENDRES_CIRCLE_LOCKED ? out->turn.y : 0.0;
-  const pendres_place place = {.y = y, .w = pendres_trigonometric_at(&at.w, y, NULL)};
-  pendres_passage_out(&p, &place, &out->x, &out->v);
+  const pendres_coordinates place = {.y = y, .w = pendres_trigonometric_at(&at.w, y, NULL)};
+  pendres_coordinates_out(&p, &place, &out->x, &out->v);
 }
 
 /* The place of the verdict on a value among `places`, a power of two: its own or a free one. */
@@ -309,7 +309,7 @@ pendres_status pendres_circles_distance(pendres_circles *c, double value, double
   if (status != PENDRES_OK || b == NULL) return status;
   pendres_circle at;
   const pendres_pendulum p = pendulum_at(c, value);
-  const pendres_place place = pendres_passage_in(&p, x, v);
+  const pendres_coordinates place = pendres_coordinates_in(&p, x, v);
   pendres_circle_band_at(b, value, &at);
   *distance = fabs(place.w - pendres_trigonometric_at(&at.w, place.y, NULL));
   return status;

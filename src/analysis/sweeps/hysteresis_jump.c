@@ -10,7 +10,7 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 #include "analysis/chaos/lyapunov_move.h"
 #include "analysis/sweeps/rotation_table.h"
 

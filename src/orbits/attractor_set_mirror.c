@@ -1,8 +1,8 @@
 /*
- * catalogue_mirror.c -- orbits that are each other's mirror image check each other's errors; see
- * catalogue.h.
+ * attractor_set_mirror.c -- orbits that are each other's mirror image check each other's errors;
+ * see attractor_set.h.
  */
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 
 #include <math.h>
 
@@ -15,7 +15,7 @@ enum { HARMONICS = 5 /* so many are compared */ };
 
 /* y(t) -> 2 c - y(t + half a drive period) changes the sign of even harmonics, and moves the mean
    to the other side of the centre; of an angle there are centres everywhere. */
-int pendres_catalogue_are_images(const pendres_orbit *a, const pendres_orbit *b)
+int pendres_attractor_set_are_images(const pendres_orbit *a, const pendres_orbit *b)
 {
   if (a->period != b->period || a->winding != -b->winding) return 0;
   if (!(fabs(a->amplitude - b->amplitude) <= same_harmonics)) return 0;
@@ -61,13 +61,13 @@ static void compare(pendres_attractor *a, pendres_attractor *b)
   compare_values(a->lyapunov, b->lyapunov, &a->lyapunov_error, &b->lyapunov_error);
 }
 
-void pendres_catalogue_compare_images(pendres_catalogue *c)
+void pendres_attractor_set_compare_images(pendres_attractor_set *c)
 {
   if (!pendres_pendulum_symmetric(&c->pendulum)) return;
   for (size_t i = 0; i < c->count; i++)
     for (size_t j = i + 1; j < c->count; j++) {
       pendres_attractor *a = &c->attractors[i], *b = &c->attractors[j];
       if (a->label == PENDRES_LABEL_CHAOTIC || b->label == PENDRES_LABEL_CHAOTIC) continue;
-      if (pendres_catalogue_are_images(&a->orbit, &b->orbit)) compare(a, b);
+      if (pendres_attractor_set_are_images(&a->orbit, &b->orbit)) compare(a, b);
     }
 }

@@ -1,11 +1,11 @@
-/* crew.c -- the tasks of a stage on threads; see farm.h. */
-#include "farm/crew_internal.h"
+/* pool.c -- the tasks of a stage on threads; see farm.h. */
+#include "farm/pool_internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "farm/deal.h"
+#include "farm/dispatch.h"
 #include "farm/point.h"
 #include "system/clock.h"
 
@@ -20,13 +20,13 @@ enum { FOREIGN = 500 /* room for what is said of a record that is refused */ };
 
 /* A thread at a task, for the question whether to go on with it. */
 typedef struct worker {
-  crew *crew;
+  pool *pool;
   size_t task;
   pendres_context *ctx; /* that its task computes with */
   farm_watch watch; /* of the point that it is at */
 } worker;
 
-long long crew_milliseconds(void)
+long long pool_milliseconds(void)
 {
   return (long long)(1e3 * clock_wall());
 }
@@ -43,7 +43,7 @@ static void tick(progress *p, size_t finished, at_work *w, double seconds)
 }
 
 /* Where nothing has been told for long, say what is being worked on. */
-static void look_at_clock(crew *c, long long t)
+static void look_at_clock(pool *c, long long t)
 {
   progress *p = c->farm->options.progress;
   if (p == NULL || t < atomic_load(&c->look)) return;
@@ -59,7 +59,7 @@ static void look_at_clock(crew *c, long long t)
   pthread_mutex_unlock(&c->lock);
 }
 
-void crew_tell(crew *c, const char *words)
+void pool_tell(pool *c, const char *words)
 {
   pthread_mutex_lock(&c->lock);
   progress_note(c->farm->options.progress, "%s", words);
@@ -67,7 +67,7 @@ void crew_tell(crew *c, const char *words)
 }
 
 /* A thread begins a task, or has ended it: since is 0. */
-static void note_work(crew *c, int thread, size_t task, long long since)
+static void note_work(pool *c, int thread, size_t task, long long since)
 {
   pthread_mutex_lock(&c->lock);
   at_work *w = &c->bench[thread];
@@ -82,8 +82,8 @@ static void note_work(crew *c, int thread, size_t task, long long since)
 static int worker_stop(void *arg)
 {
   worker *w = arg;
-  crew *c = w->crew;
-  const long long now = crew_milliseconds();
+  pool *c = w->pool;
+  const long long now = pool_milliseconds();
   pendres_cost cost;
   pendres_context_cost(w->ctx, &cost);
   if (cost.pendulum_periods >= 0.0) /* NaN: asked on another thread than the context's */
@@ -104,7 +104,7 @@ static void settle_books(farm *f, pendres_context *ctx)
 
 /* ---- a stage ------------------------------------------------------------------------------- */
 
-static void fail(crew *c, size_t task, pendres_status status, const char *message)
+static void fail(pool *c, size_t task, pendres_status status, const char *message)
 {
   if (task >= atomic_load(&c->limit)) return;
   atomic_store(&c->limit, task);
@@ -113,7 +113,7 @@ static void fail(crew *c, size_t task, pendres_status status, const char *messag
            message[0] != '\0' ? message : pendres_status_message(status));
 }
 
-int crew_take(crew *c, size_t *task)
+int pool_take(pool *c, size_t *task)
 {
   pthread_mutex_lock(&c->lock);
   while (c->next < c->stage->tasks && c->done[c->next] != NOT_DONE) c->next++;
@@ -124,7 +124,7 @@ int crew_take(crew *c, size_t *task)
 }
 
 /* Is it this thread's turn to collect? Only under the lock. */
-static int may_collect(const crew *c)
+static int may_collect(const pool *c)
 {
   const char done = c->collected < c->stage->tasks ? c->done[c->collected] : NOT_DONE;
   return c->collected < atomic_load(&c->limit) && done != NOT_DONE && done != OTHERS;
@@ -132,7 +132,7 @@ static int may_collect(const crew *c)
 
 /* The one place at which records are looked at before they are used. What was never on disk is this
    program's own. */
-static int fits(const crew *c, size_t task, const farm_record *record)
+static int fits(const pool *c, size_t task, const farm_record *record)
 {
   const farm_stage *s = c->stage;
   if (c->journal == NULL) return 1;
@@ -140,7 +140,7 @@ static int fits(const crew *c, size_t task, const farm_record *record)
 }
 
 /* A record that no run of this deck and build can have written. */
-static void tell_foreign(const crew *c, size_t task, char words[FOREIGN])
+static void tell_foreign(const pool *c, size_t task, char words[FOREIGN])
 {
   const char *file = journal_place(c->journal, c->number, task);
   snprintf(words, FOREIGN, "the record of %s number %zu in '%.200s' is of another size, or numbers "
@@ -149,7 +149,7 @@ static void tell_foreign(const crew *c, size_t task, char words[FOREIGN])
 }
 
 /* Hand the next record over, without the lock: others go on with their tasks meanwhile. */
-static pendres_status collect_next(crew *c, char words[FOREIGN])
+static pendres_status collect_next(pool *c, char words[FOREIGN])
 {
   kept *k = &c->record[c->collected];
   farm_record record = { .data = k->data, .size = k->size };
@@ -160,7 +160,7 @@ static pendres_status collect_next(crew *c, char words[FOREIGN])
     if (c->done[c->collected] == JOURNALED) farm_spend(c->farm, &record.cost);
   }
   if (!fits(c, c->collected, &record)) status = PENDRES_INVALID_ARGUMENT;
-  if (status == PENDRES_OK) deal_share(c, c->collected, &record);
+  if (status == PENDRES_OK) dispatch_share(c, c->collected, &record);
   if (status == PENDRES_OK && c->stage->collect != NULL)
     status = c->stage->collect(c->stage->arg, c->collected, &record);
   if (status == PENDRES_INVALID_ARGUMENT && c->journal != NULL)
@@ -175,7 +175,7 @@ static pendres_status collect_next(crew *c, char words[FOREIGN])
  * not as a shard, of which the journal is all that stays. What a budget has ended is to be computed
  * again, and so is what has read it.
  */
-static int keep(crew *c, size_t task, farm_record *record, pendres_status *status)
+static int keep(pool *c, size_t task, farm_record *record, pendres_status *status)
 {
   char words[JOURNAL_WORDS];
   if (c->journal == NULL || record->lost > 0 || (c->stage->chained && c->farm->lost > 0)) return 0;
@@ -187,13 +187,13 @@ static int keep(crew *c, size_t task, farm_record *record, pendres_status *statu
   if (c->others > 0 || words[0] == '\0') return 0;
   pthread_mutex_lock(&c->lock);
   progress_error(c->farm->options.progress, "%s; what is computed from now on is not kept if the "
-                   "run is stopped", words);
+                 "run is stopped", words);
   pthread_mutex_unlock(&c->lock);
   return 0;
 }
 
 /* Note a finished task's record: in memory, unless it would wait there for long. Under the lock. */
-static void note_record(crew *c, size_t task, farm_record *record, int on_disk)
+static void note_record(pool *c, size_t task, farm_record *record, int on_disk)
 {
   const int long_way = c->others > 0 || c->waiting + record->size > MOST_WAITING;
   c->farm->lost += record->lost;
@@ -207,7 +207,7 @@ static void note_record(crew *c, size_t task, farm_record *record, int on_disk)
 }
 
 /* Collect what has become ready while nobody else does. */
-static void collect_ready(crew *c)
+static void collect_ready(pool *c)
 {
   pthread_mutex_lock(&c->lock);
   const int mine = !c->collecting && may_collect(c);
@@ -226,7 +226,7 @@ static void collect_ready(crew *c)
   pthread_mutex_unlock(&c->lock);
 }
 
-void crew_finish(crew *c, size_t task, pendres_status status, farm_record *record)
+void pool_finish(pool *c, size_t task, pendres_status status, farm_record *record)
 {
   const int on_disk = status == PENDRES_OK && keep(c, task, record, &status);
   pthread_mutex_lock(&c->lock);
@@ -237,7 +237,7 @@ void crew_finish(crew *c, size_t task, pendres_status status, farm_record *recor
 }
 
 /* Run a task; its record then holds what it has cost, and why it failed. */
-static pendres_status run_task(crew *c, worker *w, pendres_context *ctx, farm_record *record)
+static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_record *record)
 {
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -256,17 +256,17 @@ static pendres_status run_task(crew *c, worker *w, pendres_context *ctx, farm_re
   return status;
 }
 
-static void work(crew *c, int thread)
+static void work(pool *c, int thread)
 {
   pendres_context *ctx = NULL;
-  worker w = { .crew = c, .watch = { .crew = c, .thread = thread } };
-  while (deal_take(c, thread, &w.task)) {
+  worker w = { .pool = c, .watch = { .pool = c, .thread = thread } };
+  while (dispatch_take(c, thread, &w.task)) {
     farm_record record = { 0 };
-    note_work(c, thread, w.task, crew_milliseconds());
+    note_work(c, thread, w.task, pool_milliseconds());
     pendres_status status = farm_context_of(c->farm, thread, &ctx);
     if (status == PENDRES_OK) status = run_task(c, &w, ctx, &record);
     note_work(c, thread, w.task, 0);
-    deal_finish(c, w.task, status, &record);
+    dispatch_finish(c, w.task, status, &record);
     free(record.data);
   }
   if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stopped, c->farm);
@@ -274,7 +274,7 @@ static void work(crew *c, int thread)
 
 /* A thread beside the calling one. */
 typedef struct hand {
-  crew *crew;
+  pool *pool;
   int number;
   pthread_t thread;
 } hand;
@@ -282,10 +282,10 @@ typedef struct hand {
 static void *hand_work(void *arg)
 {
   const hand *h = arg;
-  pthread_mutex_lock(&h->crew->lock); /* until it is known how many there are */
-  const int needed = h->number < h->crew->hired;
-  pthread_mutex_unlock(&h->crew->lock);
-  if (needed) work(h->crew, h->number);
+  pthread_mutex_lock(&h->pool->lock); /* until it is known how many there are */
+  const int needed = h->number < h->pool->hired;
+  pthread_mutex_unlock(&h->pool->lock);
+  if (needed) work(h->pool, h->number);
   return NULL;
 }
 
@@ -293,12 +293,12 @@ static void *hand_work(void *arg)
  * Work with `threads` threads, or with fewer where there cannot be so many: the results are the
  * same. As a rule it is memory that there is no more of: half of them leave theirs to the rest.
  */
-static void work_together(crew *c, int threads, hand *hands)
+static void work_together(pool *c, int threads, hand *hands)
 {
   int started = 1, error = 0;
   pthread_mutex_lock(&c->lock);
   while (started < threads && error == 0) {
-    hands[started] = (hand){ .crew = c, .number = started };
+    hands[started] = (hand){ .pool = c, .number = started };
     error = farm_start_thread(&hands[started].thread, hand_work, &hands[started]);
     if (error == 0) started++;
   }
@@ -315,7 +315,7 @@ static void work_together(crew *c, int threads, hand *hands)
 }
 
 /* What is in the journal already, and what is left to other shards. */
-static void look_up(crew *c)
+static void look_up(pool *c)
 {
   const farm_share *s = &c->farm->share;
   const int apart = !c->stage->cheap && !c->stage->timed && !c->stage->chained;
@@ -330,7 +330,7 @@ static void look_up(crew *c)
 
 /* Where shards are put together, they have to have done the first stage that they share; what some
    of them may have done of later ones is all to the good. */
-static pendres_status check_complete(crew *c)
+static pendres_status check_complete(pool *c)
 {
   const size_t tasks = c->stage->tasks;
   size_t first = 0;
@@ -345,10 +345,10 @@ static pendres_status check_complete(crew *c)
 }
 
 /* How a stage has ended. */
-static pendres_status outcome(crew *c)
+static pendres_status outcome(pool *c)
 {
   farm *f = c->farm;
-  if (atomic_load(&c->ended)) return deal_outcome(c);
+  if (atomic_load(&c->ended)) return dispatch_outcome(c);
   if (c->status != PENDRES_OK || c->collected == c->stage->tasks) return c->status;
   f->left = c->others > 0 && c->finished + c->others == c->stage->tasks;
   snprintf(f->message, sizeof f->message, "interrupted after %zu of %zu %s", c->finished,
@@ -357,9 +357,9 @@ static pendres_status outcome(crew *c)
 }
 
 /* Room for the records of a stage; free it in any case. */
-static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage, int threads)
+static pendres_status pool_create(pool *c, farm *f, const farm_stage *stage, int threads)
 {
-  *c = (crew){ .farm = f, .stage = stage,
+  *c = (pool){ .farm = f, .stage = stage,
                .number = journal_stage(f->stages, stage->what, stage->tasks, stage->record_size),
                .journal = stage->timed || f->lost > 0 ? NULL : f->journal };
   atomic_init(&c->limit, stage->tasks);
@@ -378,7 +378,7 @@ static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage, int
   return PENDRES_OUT_OF_MEMORY;
 }
 
-static void crew_free(crew *c)
+static void pool_free(pool *c)
 {
   for (size_t i = c->collected; i < c->stage->tasks; i++) free(c->record[i].data);
   free(c->record);
@@ -397,13 +397,13 @@ static int threads_for(const farm *f, const farm_stage *stage)
 
 pendres_status farm_run(farm *f, const farm_stage *stage)
 {
-  crew c;
+  pool c;
   const int threads = threads_for(f, stage);
   f->message[0] = '\0';
   if (stage->tasks == 0) return PENDRES_OK;
   if (f->trial != NULL) return trial_run(f, stage);
   hand *hands = calloc((size_t)threads, sizeof *hands);
-  if (hands == NULL || crew_create(&c, f, stage, threads) != PENDRES_OK) {
+  if (hands == NULL || pool_create(&c, f, stage, threads) != PENDRES_OK) {
     free(hands);
     snprintf(f->message, sizeof f->message, "out of memory for %zu %s", stage->tasks, stage->what);
     return PENDRES_OUT_OF_MEMORY;
@@ -411,16 +411,16 @@ pendres_status farm_run(farm *f, const farm_stage *stage)
   pendres_status status = check_complete(&c);
   if (status == PENDRES_OK) {
     progress_start(f->options.progress, stage->what, stage->tasks - c.others, c.finished);
-    status = deal_begin(&c);
+    status = dispatch_begin(&c);
     if (status == PENDRES_OK) {
       collect_ready(&c);
       work_together(&c, threads, hands);
-      deal_end(&c);
+      dispatch_end(&c);
       status = outcome(&c);
     }
     progress_end(f->options.progress);
   }
-  crew_free(&c);
+  pool_free(&c);
   free(hands);
   f->stages++;
   return status;

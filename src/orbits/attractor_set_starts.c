@@ -1,5 +1,6 @@
-/* catalogue_starts.c -- where scouts start from that nobody has told of; see catalogue.h. */
-#include "orbits/catalogue.h"
+/* attractor_set_starts.c -- where initial guesses start from that nobody has told of; see
+   attractor_set.h. */
+#include "orbits/attractor_set.h"
 
 #include <math.h>
 
@@ -7,7 +8,7 @@
 #include "model/model.h"
 
 /* Of the turn of a pendulum, or of a well: so many places, each at rest and moving either way. */
-enum { ACROSS = 12, MOST_WELLS = (PENDRES_CATALOGUE_STARTS / (3 * ACROSS)) - 1 };
+enum { ACROSS = 12, MOST_WELLS = (PENDRES_ATTRACTOR_SET_STARTS / (3 * ACROSS)) - 1 };
 /* Wells are looked for this far, in the units of length of a force, and so finely. */
 enum { FAR = 8, FINENESS = 64, POINTS = 2 * FAR * FINENESS + 1 };
 
@@ -49,8 +50,9 @@ static size_t in_well(const pendres_pendulum *p, const double u[POINTS], int i, 
   return n;
 }
 
-size_t pendres_catalogue_starts(const pendres_pendulum *p, double x[PENDRES_CATALOGUE_STARTS],
-                                double v[PENDRES_CATALOGUE_STARTS])
+size_t pendres_attractor_set_starts(const pendres_pendulum *p,
+                                    double x[PENDRES_ATTRACTOR_SET_STARTS],
+                                    double v[PENDRES_ATTRACTOR_SET_STARTS])
 {
   size_t n = 0;
   for (int i = 0; i < ACROSS; i++)

@@ -1,5 +1,5 @@
-/* passage.c -- the one way into lanes and out of them; see passage.h. */
-#include "engine/passage.h"
+/* coordinates.c -- the one way into lanes and out of them; see coordinates.h. */
+#include "engine/coordinates.h"
 
 #include <math.h>
 
@@ -13,7 +13,7 @@ static const double farthest = 1e15;
 
 /* ---- states ---- */
 
-const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double v)
+const char *pendres_coordinates_refuses(const pendres_pendulum *p, double x, double v)
 {
   const double w = p->drive_frequency, slowest = fmax(w, p->damping);
   if (!(isfinite(x) && isfinite(v))) return "position and velocity must be finite";
@@ -33,7 +33,7 @@ const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double 
   return NULL;
 }
 
-void pendres_passage_wrap(const pendres_pendulum *p, double *y, long *turns)
+void pendres_coordinates_wrap(const pendres_pendulum *p, double *y, long *turns)
 {
   if (fabs(*y) <= PENDRES_PI || pendres_model_of(p->force)->period == 0.0) return;
   const double k = rint(*y / two_pi_high);
@@ -45,35 +45,36 @@ void pendres_passage_wrap(const pendres_pendulum *p, double *y, long *turns)
   *turns += (long)k;
 }
 
-pendres_place pendres_passage_in(const pendres_pendulum *p, double x, double v)
+pendres_coordinates pendres_coordinates_in(const pendres_pendulum *p, double x, double v)
 {
-  pendres_place s = {.y = NAN, .w = v / p->drive_frequency};
+  pendres_coordinates s = {.y = NAN, .w = v / p->drive_frequency};
   if (!(fabs(x) <= farthest)) return s;
   const double origin = pendres_model_origin(p);
   /* Whole turns first: of a large x the digits would be lost in the difference. */
   const double k = rint((x - origin) / pendres_model_turn(p));
   s.turns = (long)k;
   s.y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - origin;
-  pendres_passage_wrap(p, &s.y, &s.turns);
+  pendres_coordinates_wrap(p, &s.y, &s.turns);
   return s;
 }
 
-pendres_place pendres_passage_in_whole(const pendres_pendulum *p, double x, double v)
+pendres_coordinates pendres_coordinates_in_whole(const pendres_pendulum *p, double x, double v)
 {
-  return (pendres_place){.y = x - pendres_model_origin(p), .w = v / p->drive_frequency};
+  return (pendres_coordinates){.y = x - pendres_model_origin(p), .w = v / p->drive_frequency};
 }
 
-void pendres_passage_out(const pendres_pendulum *p, const pendres_place *s, double *x, double *v)
+void pendres_coordinates_out(const pendres_pendulum *p, const pendres_coordinates *s, double *x,
+                             double *v)
 {
   const double turns = (double)s->turns;
   *x = fma(two_pi_high, turns, fma(two_pi_low, turns, s->y + pendres_model_origin(p)));
   if (v != NULL) *v = s->w * p->drive_frequency;
 }
 
-void pendres_passage_arrive(const pendres_pendulum *p, double *y, double *w, long *turns)
+void pendres_coordinates_arrive(const pendres_pendulum *p, double *y, double *w, long *turns)
 {
   static const double nothing = 1e-290;
-  pendres_passage_wrap(p, y, turns);
+  pendres_coordinates_wrap(p, y, turns);
   if (p->drive_amplitude == 0.0 && p->torque == 0.0 && p->damping > 0.0 && fabs(*y) < nothing &&
       fabs(*w) < nothing)
     *y = *w = 0.0;

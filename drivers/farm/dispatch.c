@@ -1,5 +1,5 @@
-/* deal.c -- tasks dealt to the ranks of a run; see deal.h. */
-#include "farm/deal.h"
+/* dispatch.c -- tasks dealt to the ranks of a run; see dispatch.h. */
+#include "farm/dispatch.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -39,12 +39,12 @@ typedef struct note {
   char message[512];
 } note;
 
-static note note_of(const crew *c, kind what)
+static note note_of(const pool *c, kind what)
 {
   return (note){ .kind = (int32_t)what, .run = c->farm->run, .stage = c->number };
 }
 
-static int is_of(const crew *c, const note *n)
+static int is_of(const pool *c, const note *n)
 {
   return n->run == c->farm->run && n->stage == c->number;
 }
@@ -72,7 +72,7 @@ static void send_to_others(const note *n, const void *data)
 /* ---- rank 0 -------------------------------------------------------------------------------- */
 
 /* A record that came from another rank. */
-static void take_result(crew *c, const note *n, const char *data)
+static void take_result(pool *c, const note *n, const char *data)
 {
   farm_record record = { .cost = n->cost, .lost = (size_t)n->lost };
   pendres_status status = (pendres_status)n->status;
@@ -81,12 +81,12 @@ static void take_result(crew *c, const note *n, const char *data)
     status = PENDRES_OUT_OF_MEMORY;
   if (status == PENDRES_OK) memcpy(record.data, data, (size_t)n->size);
   farm_spend(c->farm, &n->cost);
-  crew_finish(c, (size_t)n->task, status, &record);
+  pool_finish(c, (size_t)n->task, status, &record);
   free(record.data);
 }
 
 /* Answer one parcel; the tasks that it adds to those under way elsewhere. */
-static int answer(crew *c, const ranks_parcel *p)
+static int answer(pool *c, const ranks_parcel *p)
 {
   const note *n = p->data;
   const char *data = (const char *)p->data + sizeof *n;
@@ -98,23 +98,23 @@ static int answer(crew *c, const ranks_parcel *p)
     return -1;
   }
   if (n->kind == TELL) {
-    crew_tell(c, n->message);
+    pool_tell(c, n->message);
     return 0;
   }
   note reply = { .kind = NONE, .run = n->run, .stage = n->stage };
-  if (is_of(c, n) && crew_take(c, &task)) {
+  if (is_of(c, n) && pool_take(c, &task)) {
     reply.kind = TASK;
     reply.task = task;
   }
   if (send_note(p->from, TO_THREAD + n->thread, &reply, NULL)) return reply.kind == TASK;
-  if (reply.kind == TASK) crew_finish(c, task, PENDRES_OUT_OF_MEMORY, &(farm_record){ 0 });
+  if (reply.kind == TASK) pool_finish(c, task, PENDRES_OUT_OF_MEMORY, &(farm_record){ 0 });
   return 0;
 }
 
 /* Until all that was dealt has come back, and nobody here is at work. */
 static void *serve(void *arg)
 {
-  crew *c = arg;
+  pool *c = arg;
   int under_way = 0, halted = 0, idle = 0;
   while (under_way > 0 || !atomic_load(&c->idle)) {
     ranks_parcel p;
@@ -135,7 +135,7 @@ static void *serve(void *arg)
   return NULL;
 }
 
-void deal_share(crew *c, size_t task, const farm_record *record)
+void dispatch_share(pool *c, size_t task, const farm_record *record)
 {
   if (ranks_count() == 1 || ranks_own() != 0 || c->stage->last) return;
   note n = note_of(c, SHARE);
@@ -147,7 +147,7 @@ void deal_share(crew *c, size_t task, const farm_record *record)
 /* ---- the others ---------------------------------------------------------------------------- */
 
 /* Collect what rank 0 has collected. */
-static void collect_shared(crew *c, const note *n, char *data)
+static void collect_shared(pool *c, const note *n, char *data)
 {
   const farm_record record = { .data = data, .size = (size_t)n->size };
   if (c->stage->collect == NULL || n->task != c->collected) return;
@@ -158,7 +158,7 @@ static void collect_shared(crew *c, const note *n, char *data)
 /* Hear what rank 0 has to say to all, until it is the end. */
 static void *listen(void *arg)
 {
-  crew *c = arg;
+  pool *c = arg;
   int idle = 0;
   for (int ended = 0; !ended;) {
     ranks_parcel p;
@@ -187,7 +187,7 @@ static void *listen(void *arg)
 
 /* Rank 0 answers every question until it ends the stage, and waits for what it has dealt: an answer
    is waited for even where no more is wanted. Tasks that go one at a time are rank 0's own. */
-static int ask(crew *c, int thread, size_t *task)
+static int ask(pool *c, int thread, size_t *task)
 {
   note n = note_of(c, ASK);
   int idle = 0;
@@ -210,7 +210,7 @@ static int ask(crew *c, int thread, size_t *task)
 }
 
 /* The record of a task; without it, as where it is too long to be sent, why. */
-static void hand_in(crew *c, size_t task, pendres_status status, const farm_record *record)
+static void hand_in(pool *c, size_t task, pendres_status status, const farm_record *record)
 {
   note n = note_of(c, RESULT);
   n.task = task;
@@ -225,7 +225,7 @@ static void hand_in(crew *c, size_t task, pendres_status status, const farm_reco
   (void)send_note(0, TO_ROOT, &n, NULL);
 }
 
-pendres_status deal_outcome(crew *c)
+pendres_status dispatch_outcome(pool *c)
 {
   if (c->status == PENDRES_OK && !c->stage->last && c->collected == c->stage->tasks)
     return PENDRES_OK;
@@ -235,29 +235,29 @@ pendres_status deal_outcome(crew *c)
 
 /* ---- all ------------------------------------------------------------------------------------ */
 
-int deal_take(crew *c, int thread, size_t *task)
+int dispatch_take(pool *c, int thread, size_t *task)
 {
-  return ranks_own() == 0 ? crew_take(c, task) : ask(c, thread, task);
+  return ranks_own() == 0 ? pool_take(c, task) : ask(c, thread, task);
 }
 
-void deal_finish(crew *c, size_t task, pendres_status status, farm_record *record)
+void dispatch_finish(pool *c, size_t task, pendres_status status, farm_record *record)
 {
-  if (ranks_own() == 0) crew_finish(c, task, status, record);
+  if (ranks_own() == 0) pool_finish(c, task, status, record);
   else hand_in(c, task, status, record);
 }
 
-void deal_tell(crew *c, const char *words)
+void dispatch_tell(pool *c, const char *words)
 {
   note n = note_of(c, TELL);
   if (ranks_own() == 0) {
-    crew_tell(c, words);
+    pool_tell(c, words);
     return;
   }
   snprintf(n.message, sizeof n.message, "%s", words);
   (void)send_note(0, TO_ROOT, &n, NULL);
 }
 
-pendres_status deal_begin(crew *c)
+pendres_status dispatch_begin(pool *c)
 {
   if (ranks_count() == 1) return PENDRES_OK;
   const int error =
@@ -265,7 +265,7 @@ pendres_status deal_begin(crew *c)
   return error == 0 ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
 }
 
-void deal_end(crew *c)
+void dispatch_end(pool *c)
 {
   if (ranks_count() == 1) return;
   atomic_store(&c->idle, 1);
@@ -273,8 +273,8 @@ void deal_end(crew *c)
   if (ranks_own() != 0) return;
   note n = note_of(c, END);
   n.status = (int32_t)(c->status == PENDRES_OK && c->collected < c->stage->tasks
-                         ? PENDRES_INTERRUPTED
-                         : c->status);
+                       ? PENDRES_INTERRUPTED
+                       : c->status);
   send_to_others(&n, NULL);
   ranks_flush();
 }

@@ -1,5 +1,5 @@
 /*
- * passage.h -- the one way of a pendulum into lanes, and out of them again.
+ * coordinates.h -- the one way of a pendulum into lanes, and out of them again.
  *
  * Owns: what a state is inside the engine; whole turns, taken out and put back in one order; and
  * the use of a block: its steps, loading its lanes, running it by periods, reading it by rows.
@@ -9,8 +9,8 @@
  * within half a turn of zero while whole turns are counted apart (y = x where the coordinate has no
  * period), and w = dy/dtheta = v/omega.
  */
-#ifndef PENDRES_PASSAGE_H
-#define PENDRES_PASSAGE_H
+#ifndef PENDRES_COORDINATES_H
+#define PENDRES_COORDINATES_H
 
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
@@ -20,34 +20,35 @@
 
 /* ---- states ---- */
 
-typedef struct pendres_place {
+typedef struct pendres_coordinates {
   double y, w;
   long turns;
-} pendres_place;
+} pendres_coordinates;
 
 /* Why double precision cannot follow a pendulum from a state, a static sentence; NULL if it can. */
-const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double v);
+const char *pendres_coordinates_refuses(const pendres_pendulum *p, double x, double v);
 
 /* In, with whole turns taken out: -pi <= y <= pi. y is NaN beyond 1e15, where an angle is not
    known to a tenth of a radian. */
-pendres_place pendres_passage_in(const pendres_pendulum *p, double x, double v);
+pendres_coordinates pendres_coordinates_in(const pendres_pendulum *p, double x, double v);
 
 /* In, with all turns left in y: for orbits, which stay together as one curve. */
-pendres_place pendres_passage_in_whole(const pendres_pendulum *p, double x, double v);
+pendres_coordinates pendres_coordinates_in_whole(const pendres_pendulum *p, double x, double v);
 
 /* Out; v may be NULL. */
-void pendres_passage_out(const pendres_pendulum *p, const pendres_place *s, double *x, double *v);
+void pendres_coordinates_out(const pendres_pendulum *p, const pendres_coordinates *s, double *x,
+                             double *v);
 
 /* Take whole turns out of an angle: -pi <= y <= pi afterwards, or NaN where it is beyond 1e15. A
    coordinate without a period has none. */
-void pendres_passage_wrap(const pendres_pendulum *p, double *y, long *turns);
+void pendres_coordinates_wrap(const pendres_pendulum *p, double *y, long *turns);
 
 /*
  * A state at the end of a period: whole turns are taken out. A damped pendulum without a drive dies
  * down to denormal numbers and stays there, in steps that take forty times as long: below 1e-290 it
  * is put to rest.
  */
-void pendres_passage_arrive(const pendres_pendulum *p, double *y, double *w, long *turns);
+void pendres_coordinates_arrive(const pendres_pendulum *p, double *y, double *w, long *turns);
 
 /* ---- blocks ---- */
 

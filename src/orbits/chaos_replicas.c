@@ -1,12 +1,12 @@
-/* chaos_walkers.c -- pendulums that carry tangent vectors along; see chaos_walkers.h. */
-#include "orbits/chaos_walkers.h"
+/* chaos_replicas.c -- pendulums that carry tangent vectors along; see chaos_replicas.h. */
+#include "orbits/chaos_replicas.h"
 
 #include <math.h>
 
 #include "base/angles.h"
-#include "orbits/catalogue.h"
+#include "orbits/attractor_set.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
 
@@ -19,13 +19,13 @@ static const double extrapolated = 15.0;
 /* Tangent vectors are put back to length one where they are longer, or shorter than its inverse. */
 static const double longest = 1e100;
 
-pendres_walker pendres_walker_at(double y, double w)
+pendres_replica pendres_replica_at(double y, double w)
 {
-  return (pendres_walker){
+  return (pendres_replica){
     .y = y, .w = w, .u = {{0.6, 0.8}, {0.6, 0.8}}, .low = {y, y}, .high = {y, y}};
 }
 
-static int in_trap(const pendres_catalogue *c, const pendres_walker *a)
+static int in_trap(const pendres_attractor_set *c, const pendres_replica *a)
 {
   for (size_t i = 0; i < c->traps; i++)
     if (pendres_trap_norm2(&c->trap[i], a->y, a->w) <= c->trap[i].radius * c->trap[i].radius)
@@ -39,7 +39,7 @@ typedef struct watched_block {
   const pendres_pendulum *pendulum;
   size_t n;
   int steps;
-  pendres_walker *a;
+  pendres_replica *a;
 } watched_block;
 
 /*
@@ -58,7 +58,7 @@ static double turning_angle(double spacing, double y0, double w0, double y1, dou
   return y0 + spacing * t * (w0 + t * (0.5 * b + t * a / 3.0));
 }
 
-static void reach(pendres_walker *a, double y)
+static void reach(pendres_replica *a, double y)
 {
   if (y < a->low[1]) a->low[1] = y;
   if (y > a->high[1]) a->high[1] = y;
@@ -68,9 +68,9 @@ static void reach(pendres_walker *a, double y)
  * At the end of each half period the latest two halves make a whole one, and its amplitude counts
  * for a half. The mirror image of a motion, half a period later, thus has the same sum.
  */
-static void end_half(pendres_walker *a, double y)
+static void end_half(pendres_replica *a, double y)
 {
-  a->sum[PENDRES_WALKER_AMPLITUDE] +=
+  a->sum[PENDRES_REPLICA_AMPLITUDE] +=
     0.25 * (fmax(a->high[0], a->high[1]) - fmin(a->low[0], a->low[1]));
   a->low[0] = a->low[1];
   a->high[0] = a->high[1];
@@ -95,12 +95,12 @@ static void watch(void *arg, int step, const pendres_rows *rows)
   const watched_block *b = arg;
   const double spacing = two_pi / b->steps, cosine = cos(two_pi * step / b->steps);
   for (size_t i = 0; i < b->n; i++) {
-    pendres_walker *a = &b->a[i];
+    pendres_replica *a = &b->a[i];
     const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
     const double w = pendres_rows_get(rows, PENDRES_ROW_W, i);
-    a->sum[PENDRES_WALKER_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
-    a->sum[PENDRES_WALKER_OTHER] += spacing * w * other_force(b->pendulum, y, cosine);
-    a->sum[PENDRES_WALKER_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
+    a->sum[PENDRES_REPLICA_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
+    a->sum[PENDRES_REPLICA_OTHER] += spacing * w * other_force(b->pendulum, y, cosine);
+    a->sum[PENDRES_REPLICA_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
                                   w * w;
     reach(a, y);
     if (a->last_w * w < 0.0) reach(a, turning_angle(spacing, a->last_y, a->last_w, y, w));
@@ -113,7 +113,7 @@ static void watch(void *arg, int step, const pendres_rows *rows)
 /* ---- periods ---- */
 
 /* Put tangent vectors back to length one, and take their growth over. */
-static void shorten(pendres_walker *a)
+static void shorten(pendres_replica *a)
 {
   double growth[2];
   for (int i = 0; i < 2; i++) {
@@ -123,13 +123,13 @@ static void shorten(pendres_walker *a)
     a->u[i][1] /= length;
   }
   const double coarse = (growth[1] - growth[0]) / extrapolated;
-  a->sum[PENDRES_WALKER_GROWTH] += growth[0] - coarse;
-  a->sum[PENDRES_WALKER_COARSE] += coarse;
+  a->sum[PENDRES_REPLICA_GROWTH] += growth[0] - coarse;
+  a->sum[PENDRES_REPLICA_COARSE] += coarse;
 }
 
 /* Tangent vectors after a period, which are put back to length one in the last one, and where they
    must be. */
-static void turn(pendres_block *block, size_t lane, int last, pendres_walker *a)
+static void turn(pendres_block *block, size_t lane, int last, pendres_replica *a)
 {
   double size[2];
   for (int i = 0; i < 2; i++) {
@@ -141,16 +141,16 @@ static void turn(pendres_block *block, size_t lane, int last, pendres_walker *a)
   for (int i = 0; i < 2; i++) pendres_block_put_tangent(block, lane, i, a->u[i]);
 }
 
-/* Take over what the flow has made of a walker in one period. */
-static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *rows, int watched,
-                   pendres_walker *a)
+/* Take over what the flow has made of a replica in one period. */
+static void arrive(const pendres_attractor_set *c, size_t i, const pendres_rows *rows, int watched,
+                   pendres_replica *a)
 {
   const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
-  a->sum[PENDRES_WALKER_TURNS] += (y - a->y) / two_pi;
+  a->sum[PENDRES_REPLICA_TURNS] += (y - a->y) / two_pi;
   a->y = y;
   a->w = pendres_rows_get(rows, PENDRES_ROW_W, i);
-  a->sum[PENDRES_WALKER_SPEED] += a->w;
-  pendres_passage_wrap(&c->pendulum, &a->y, &a->turns);
+  a->sum[PENDRES_REPLICA_SPEED] += a->w;
+  pendres_coordinates_wrap(&c->pendulum, &a->y, &a->turns);
   for (int k = 0; k < 2; k++) {
     /* Of a period that was not watched its end is all that is known. */
     a->low[k] = watched ? a->low[k] + (a->y - y) : a->y;
@@ -173,7 +173,7 @@ static void load(pendres_block *block, const watched_block *b)
 }
 
 static pendres_status advance_block(pendres_block *block, watched_block *b,
-                                    const pendres_catalogue *c, int watched, int last)
+                                    const pendres_attractor_set *c, int watched, int last)
 {
   for (size_t i = 0; i < b->n; i++) {
     b->a[i].last_y = b->a[i].y;
@@ -191,15 +191,17 @@ static pendres_status advance_block(pendres_block *block, watched_block *b,
   return status;
 }
 
-static void record(pendres_walker_trace *t, long filled, size_t walker, const pendres_walker *a)
+static void record(pendres_replica_trace *t, long filled, size_t replica, const pendres_replica *a)
 {
-  const size_t at = walker * (size_t)t->length + (size_t)(filled % t->length);
+  const size_t at = replica * (size_t)t->length + (size_t)(filled % t->length);
   t->y[at] = a->y + two_pi * (double)a->turns;
   t->w[at] = a->w;
 }
 
-pendres_status pendres_walkers_advance(pendres_context *ctx, const pendres_catalogue *c, size_t n,
-                                       pendres_walker *a, long periods, pendres_walker_trace *trace)
+pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attractor_set *c,
+                                        size_t n,
+                                        pendres_replica *a, long periods,
+                                        pendres_replica_trace *trace)
 {
   pendres_block block;
   int steps = 0;

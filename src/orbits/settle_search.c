@@ -1,5 +1,5 @@
-/* settle_hunt.c -- what attracts pendulums that are in no known trap; see settle_hunt.h. */
-#include "orbits/settle_hunt.h"
+/* settle_search.c -- what attracts pendulums that are in no known trap; see settle_search.h. */
+#include "orbits/settle_search.h"
 
 #include <stdlib.h>
 
@@ -14,7 +14,7 @@ enum {
 };
 
 /* Guess the orbit that a pendulum with this history is near; 0 if it does not come back. */
-static int recurrence(const pendres_settle_history *h, double turn, pendres_scout *s)
+static int recurrence(const pendres_settle_history *h, double turn, pendres_initial_guess *s)
 {
   double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY];
   pendres_recurrence r;
@@ -40,7 +40,7 @@ typedef struct lost_lanes {
   pendres_strobe_lane *lanes;
   pendres_outcome *outcome;
   pendres_settle_history *histories;
-  pendres_scout *guesses;
+  pendres_initial_guess *guesses;
   const pendres_strobe_lane **suspects;
   size_t *known;   /* attractors of each set when the hunt began */
   size_t *watched; /* covers of each set when the latest round began */
@@ -85,27 +85,27 @@ static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t 
 }
 
 /* Whether a lane is lost while the budget of its set is not yet spent. */
-static int hunted(const lost_lanes *l, size_t i)
+static int searched(const lost_lanes *l, size_t i)
 {
   return !pendres_settle_ended(&l->outcome[i]) && !l->over[l->set[i]];
 }
 
 /* Look for orbits near the lost lanes, a few in each set. */
 static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
-                                      pendres_catalogue *catalogues)
+                                      pendres_attractor_set *attractor_sets)
 {
   size_t n = 0, in_set = 0;
   for (size_t i = 0; i < l->count; i++) {
     if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
-    if (!hunted(l, i) || l->histories[i].filled == 0) continue;
+    if (!searched(l, i) || l->histories[i].filled == 0) continue;
     l->guesses[n].set = l->set[i];
-    const double turn = pendres_model_turn(&catalogues[l->set[i]].pendulum);
+    const double turn = pendres_model_turn(&attractor_sets[l->set[i]].pendulum);
     if (in_set < MOST_GUESSES && recurrence(&l->histories[i], turn, &l->guesses[n])) {
       n++;
       in_set++;
     }
   }
-  return pendres_catalogue_add(ctx, catalogues, n, l->guesses);
+  return pendres_attractor_set_add(ctx, attractor_sets, n, l->guesses);
 }
 
 /*
@@ -114,12 +114,12 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
  * not be lost. It only passes through them, as chaos does whose bands lie beside those of its
  * mirror image.
  */
-static int nowhere(const pendres_catalogue *c, size_t watched, const pendres_strobe_lane *lane)
+static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres_strobe_lane *lane)
 {
   long well;
   for (size_t k = watched; k < c->covers; k++)
     if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return 0;
-  return pendres_catalogue_locate(c, lane, &well) < 0;
+  return pendres_attractor_set_locate(c, lane, &well) < 0;
 }
 
 /*
@@ -127,18 +127,19 @@ static int nowhere(const pendres_catalogue *c, size_t watched, const pendres_str
  * their way to what has been found, or that have left a chaos which ends, will settle in the next
  * round.
  */
-static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_catalogue *catalogues)
+static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l,
+                                pendres_attractor_set *attractor_sets)
 {
   pendres_status status = PENDRES_OK;
   for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
-    pendres_catalogue *c = &catalogues[l->set[first]];
+    pendres_attractor_set *c = &attractor_sets[l->set[first]];
     pendres_chaos_verdict verdict = PENDRES_CHAOS_NEW;
     for (last = first; last < l->count && l->set[last] == l->set[first];) last++;
     if (l->over[l->set[first]]) continue;
     while (verdict == PENDRES_CHAOS_NEW && status == PENDRES_OK) {
       size_t n = 0;
       for (size_t i = first; i < last; i++)
-        if (hunted(l, i) && nowhere(c, l->watched[l->set[i]], &l->lanes[i]))
+        if (searched(l, i) && nowhere(c, l->watched[l->set[i]], &l->lanes[i]))
           l->suspects[n++] = &l->lanes[i];
       status = pendres_chaos_find(ctx, c, n, l->suspects, &verdict);
       l->found[l->set[first]] |= verdict == PENDRES_CHAOS_NEW || verdict == PENDRES_CHAOS_KNOWN;
@@ -149,7 +150,7 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_cat
 
 /* Run lanes that have settled on an attractor found by the hunt once more from the start: only then
    is the time known in which they settle. */
-static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_quarry *q,
+static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_remaining *q,
                              pendres_settle_labelling *job)
 {
   size_t n = 0;
@@ -175,11 +176,11 @@ static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_
  * Where all has been spent the hunt is over, but if chaos was found in the last round, there is one
  * more round, in which lanes may be found to be on it.
  */
-static void raise_budgets(const pendres_context *ctx, const pendres_settle_quarry *q, int round,
+static void raise_budgets(const pendres_context *ctx, const pendres_settle_remaining *q, int round,
                           lost_lanes *l)
 {
   for (size_t s = 0; s < q->sets; s++) {
-    const pendres_catalogue *c = &q->catalogues[s];
+    const pendres_attractor_set *c = &q->attractor_sets[s];
     long *budget = &q->budget[s];
     const long most = pendres_settle_last_budget(ctx, c);
     const long first = pendres_settle_first_budget(&c->pendulum) + FIRST_HISTORY;
@@ -193,7 +194,7 @@ static void raise_budgets(const pendres_context *ctx, const pendres_settle_quarr
   }
 }
 
-pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_quarry *q)
+pendres_status pendres_settle_search(pendres_context *ctx, const pendres_settle_remaining *q)
 {
   lost_lanes l = {0};
   pendres_status status = PENDRES_OK;
@@ -208,18 +209,19 @@ pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_qu
     l.outcome[k] = pendres_settle_unresolved;
     l.lanes[k++] = q->lanes[i];
   }
-  for (size_t s = 0; s < q->sets; s++) l.known[s] = q->catalogues[s].count;
+  for (size_t s = 0; s < q->sets; s++) l.known[s] = q->attractor_sets[s].count;
 
-  pendres_settle_labelling job = {.catalogues = q->catalogues, .set = l.set, .budget = q->budget,
+  pendres_settle_labelling job = {.attractor_sets = q->attractor_sets, .set = l.set,
+                                  .budget = q->budget,
                                   .outcome = l.outcome, .histories = l.histories};
   for (int round = 0; status == PENDRES_OK; round++) {
     size_t left = 0;
     raise_budgets(ctx, q, round, &l);
     status = pendres_settle_lanes(ctx, l.count, l.lanes, &job);
-    for (size_t i = 0; i < l.count; i++) left += (size_t)hunted(&l, i);
+    for (size_t i = 0; i < l.count; i++) left += (size_t)searched(&l, i);
     if (status != PENDRES_OK || left == 0) break;
-    status = add_recurrences(ctx, &l, q->catalogues);
-    if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, q->catalogues);
+    status = add_recurrences(ctx, &l, q->attractor_sets);
+    if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, q->attractor_sets);
   }
   if (status == PENDRES_OK)
     for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];

@@ -1,5 +1,5 @@
-/* catalogue.c -- the attractors of parameter sets, with their traps; see catalogue.h. */
-#include "orbits/catalogue.h"
+/* attractor_set.c -- the attractors of parameter sets, with their traps; see attractor_set.h. */
+#include "orbits/attractor_set.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/label.h"
 #include "orbits/orbit_table.h"
@@ -21,17 +21,18 @@ const char *pendres_label_name(pendres_label label)
   return (unsigned)label < PENDRES_LABEL_COUNT ? names[label] : NULL;
 }
 
-void pendres_catalogue_clear(pendres_catalogue *c)
+void pendres_attractor_set_clear(pendres_attractor_set *c)
 {
   free(c->attractors);
   free(c->trap);
   free(c->owner);
   for (size_t i = 0; i < c->covers; i++) free(c->cover[i]);
-  *c = (pendres_catalogue){.pendulum = c->pendulum, .effort = c->effort, .any_well = c->any_well};
+  *c = (pendres_attractor_set){.pendulum = c->pendulum, .effort = c->effort,
+                               .any_well = c->any_well};
 }
 
-const pendres_trap *pendres_catalogue_trap(const pendres_catalogue *c,
-                                           const pendres_strobe_lane *lane)
+const pendres_trap *pendres_attractor_set_trap(const pendres_attractor_set *c,
+                                               const pendres_strobe_lane *lane)
 {
   for (size_t i = 0; i < c->traps; i++) {
     const pendres_trap *t = &c->trap[i];
@@ -40,10 +41,10 @@ const pendres_trap *pendres_catalogue_trap(const pendres_catalogue *c,
   return NULL;
 }
 
-int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane,
-                             long *well)
+int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
+                                 long *well)
 {
-  const pendres_trap *t = pendres_catalogue_trap(c, lane);
+  const pendres_trap *t = pendres_attractor_set_trap(c, lane);
   if (t == NULL) return -1;
   *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / t->turn);
   return c->owner[t - c->trap];
@@ -51,7 +52,7 @@ int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_la
 
 /* ---- numbering and labels ---- */
 
-static void label_all(pendres_catalogue *c)
+static void label_all(pendres_attractor_set *c)
 {
   pendres_label_states states = {.count = 0};
   for (size_t i = 0; i < c->count; i++)
@@ -63,13 +64,14 @@ static void label_all(pendres_catalogue *c)
   }
 }
 
-pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank)
+pendres_status pendres_attractor_set_order(pendres_context *ctx, pendres_attractor_set *c,
+                                           int *rank)
 {
   pendres_attractor *old = malloc((c->count + 1) * sizeof *old);
   int *order = malloc((c->count + 1) * sizeof *order);
   int *moved = malloc((c->count + 1) * sizeof *moved);
   pendres_status status = PENDRES_OK;
-  if (old == NULL || order == NULL || moved == NULL || pendres_catalogue_sort(c, order) != 0) {
+  if (old == NULL || order == NULL || moved == NULL || pendres_attractor_set_sort(c, order) != 0) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
     goto done;
   }
@@ -82,7 +84,7 @@ pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *
   for (size_t i = 0; i < c->covers; i++) c->cover[i]->attractor = moved[c->cover[i]->attractor];
   if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
-  pendres_catalogue_compare_images(c);
+  pendres_attractor_set_compare_images(c);
 done:
   free(old);
   free(order);
@@ -92,7 +94,7 @@ done:
 
 /* ---- what is added ---- */
 
-int pendres_catalogue_reserve(pendres_catalogue *c, size_t more_traps)
+int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_traps)
 {
   if (c->count == c->capacity) {
     const size_t capacity = c->capacity + 4;
@@ -145,11 +147,11 @@ static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_m
   return o;
 }
 
-pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
+pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_attractor_set *c,
                                            const pendres_chaos_measures *m, pendres_cover *cover)
 {
   const double tau = two_pi / c->pendulum.drive_frequency;
-  if (pendres_catalogue_reserve(c, 0) != 0) {
+  if (pendres_attractor_set_reserve(c, 0) != 0) {
     free(cover);
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   }

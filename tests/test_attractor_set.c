@@ -1,5 +1,5 @@
 /*
- * test_catalogue.c -- the order of attractors does not depend on the order of their discovery.
+ * test_attractor_set.c -- the order of attractors does not depend on the order of their discovery.
  */
 #include "check.h"
 
@@ -7,8 +7,8 @@
 
 #include <pendres/pendres.h>
 
-#include "engine/passage.h"
-#include "orbits/catalogue.h"
+#include "engine/coordinates.h"
+#include "orbits/attractor_set.h"
 
 enum { ALL = 6 };
 
@@ -17,9 +17,9 @@ static void order_of(const pendres_attractor *a, const int *discovered, size_t n
 {
   pendres_attractor found[ALL];
   int order[ALL];
-  const pendres_catalogue c = {.count = n, .attractors = found};
+  const pendres_attractor_set c = {.count = n, .attractors = found};
   for (size_t i = 0; i < n; i++) found[i] = a[discovered[i]];
-  assert_int_equal(pendres_catalogue_sort(&c, order), 0);
+  assert_int_equal(pendres_attractor_set_sort(&c, order), 0);
   for (size_t i = 0; i < n; i++) names[i] = found[order[i]].orbit.phase_lag;
 }
 
@@ -73,11 +73,11 @@ static void chaos_last(void **state)
   pendres_cover one = {.attractor = 0, .mean_w = 0.5}, two = {.attractor = 2, .mean_w = -0.5};
   pendres_attractor a[4] = {{.lyapunov = 0.1}, {.orbit = {.amplitude = NAN}}, {.lyapunov = 0.1},
                             {.orbit = {.amplitude = 2.0}}};
-  const pendres_catalogue c = {
+  const pendres_attractor_set c = {
     .count = 4, .attractors = a, .covers = 2, .cover = {&one, &two}};
   int order[4];
   (void)state;
-  assert_int_equal(pendres_catalogue_sort(&c, order), 0);
+  assert_int_equal(pendres_attractor_set_sort(&c, order), 0);
   assert_memory_equal(order, ((int[4]){3, 1, 2, 0}), sizeof order);
 }
 
@@ -104,12 +104,12 @@ static void images_compared(void **state)
   found[1].orbit.phase_lag += 1e-10;
   found[2].orbit.multiplier_re[0] += 1e-9; /* its even harmonics are not turned */
   /* A torque breaks the symmetry: no two orbits need to agree then. */
-  pendres_catalogue c = {.count = 3, .attractors = found, .pendulum = {.torque = 1e-9}};
-  pendres_catalogue_compare_images(&c);
+  pendres_attractor_set c = {.count = 3, .attractors = found, .pendulum = {.torque = 1e-9}};
+  pendres_attractor_set_compare_images(&c);
   check_near(found[0].orbit.multiplier_error, 1e-11, 0.0);
   check_near(found[1].orbit.multiplier_error, 1e-11, 0.0);
   c.pendulum.torque = 0.0;
-  pendres_catalogue_compare_images(&c);
+  pendres_attractor_set_compare_images(&c);
   for (int i = 0; i < 2; i++) {
     /* Rounding of numbers of order one. */
     check_near(found[i].orbit.multiplier_error, 1e-9, 1e-15);
@@ -178,7 +178,7 @@ static void test_long_orbits(void **state)
 static void multiple_of_period(void **state)
 {
   const pendres_options options = {.tolerance = 1e-8};
-  pendres_catalogue c = {.pendulum = {0.12, 0.2, 0.8}};
+  pendres_attractor_set c = {.pendulum = {0.12, 0.2, 0.8}};
   pendres_orbit_guess guess = {.pendulum = c.pendulum, .period = 1};
   pendres_context *ctx = NULL;
   pendres_orbit orbit;
@@ -189,15 +189,15 @@ static void multiple_of_period(void **state)
   check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
   check_ok(outcome);
   assert_true(orbit.stable);
-  const pendres_place at = pendres_passage_in(&c.pendulum, orbit.x, orbit.v);
-  const pendres_scout scout = {.y = at.y, .w = at.w, .period = 50};
+  const pendres_coordinates at = pendres_coordinates_in(&c.pendulum, orbit.x, orbit.v);
+  const pendres_initial_guess scout = {.y = at.y, .w = at.w, .period = 50};
   pendres_context_cost_reset(ctx);
-  check_ok(pendres_catalogue_add(ctx, &c, 1, &scout));
+  check_ok(pendres_attractor_set_add(ctx, &c, 1, &scout));
   pendres_context_cost(ctx, &cost);
   assert_int_equal(c.count, 0);
   /* 1.2e5 as it is, 4e6 with all points refined: in the middle, by ratio. */
   assert_true(cost.rhs_evaluations < 7e5);
-  pendres_catalogue_clear(&c);
+  pendres_attractor_set_clear(&c);
   pendres_context_free(ctx);
 }
 

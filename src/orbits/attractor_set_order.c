@@ -1,5 +1,6 @@
-/* catalogue_order.c -- one order of attractors, whatever that of discovery; see catalogue.h. */
-#include "orbits/catalogue.h"
+/* attractor_set_order.c -- one order of attractors, whatever that of discovery; see
+   attractor_set.h. */
+#include "orbits/attractor_set.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,7 @@ static int by_group_and_key(const void *a, const void *b)
   return (p->key > q->key) - (p->key < q->key);
 }
 
-static const pendres_cover *cover_of(const pendres_catalogue *c, int attractor)
+static const pendres_cover *cover_of(const pendres_attractor_set *c, int attractor)
 {
   for (size_t i = 0; i < c->covers; i++)
     if (c->cover[i]->attractor == attractor) return c->cover[i];
@@ -31,7 +32,7 @@ static const pendres_cover *cover_of(const pendres_catalogue *c, int attractor)
  * An attractor's key number k, and *same: how far apart two such keys may be by rounding alone. The
  * amplitudes of mirror images, for one, differ by rounding, which must not decide their order.
  */
-static double key_of(const pendres_catalogue *c, int attractor, int k, double *same)
+static double key_of(const pendres_attractor_set *c, int attractor, int k, double *same)
 {
   static const double rounding[KEYS] = {1e-7, 1e-6, 0.0};
   const pendres_attractor *a = &c->attractors[attractor];
@@ -45,7 +46,7 @@ static double key_of(const pendres_catalogue *c, int attractor, int k, double *s
 }
 
 /* Give a group of their own to attractors that are further from their neighbour than rounding. */
-static void part(const pendres_catalogue *c, placed *p, int k)
+static void part(const pendres_attractor_set *c, placed *p, int k)
 {
   int group = 0, before = 0; /* the new group, and the old one of the attractor before */
   for (size_t i = 0; i < c->count; i++) {
@@ -58,7 +59,7 @@ static void part(const pendres_catalogue *c, placed *p, int k)
   }
 }
 
-int pendres_catalogue_sort(const pendres_catalogue *c, int *order)
+int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order)
 {
   double same;
   placed *p = malloc((c->count + 1) * sizeof *p);

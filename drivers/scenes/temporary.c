@@ -1,6 +1,6 @@
-/* spill.c -- see spill.h. */
+/* temporary.c -- see temporary.h. */
 #define _POSIX_C_SOURCE 200809L /* mkstemp */
-#include "scenes/spill.h"
+#include "scenes/temporary.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "system/bytes.h"
 
 /* A file without a name, in TMPDIR or, without that, beside the output. */
-static pendres_status open_file(scene_run *run, scene_spill *s)
+static pendres_status open_file(scene_run *run, scene_temporary *s)
 {
   char path[DECK_PATH + 32];
   const char *folder = getenv("TMPDIR"), *output = run->deck->output;
@@ -25,10 +25,10 @@ static pendres_status open_file(scene_run *run, scene_spill *s)
   return scene_fail(run, PENDRES_IO, "a temporary file, %s: %s", path, strerror(errno));
 }
 
-pendres_status scene_spill_create(scene_run *run, size_t n, size_t element, size_t memory,
-                                  scene_spill *out)
+pendres_status scene_temporary_create(scene_run *run, size_t n, size_t element, size_t memory,
+                                      scene_temporary *out)
 {
-  *out = (scene_spill){.element = element, .file = -1};
+  *out = (scene_temporary){.element = element, .file = -1};
   if (n > memory / element) return open_file(run, out);
   out->memory = calloc(n + 1, element);
   return out->memory != NULL ? PENDRES_OK
@@ -36,12 +36,12 @@ pendres_status scene_spill_create(scene_run *run, size_t n, size_t element, size
                                           "out of memory for %zu points", n);
 }
 
-void scene_spill_free(scene_spill *s)
+void scene_temporary_free(scene_temporary *s)
 {
   if (s->element == 0) return;
   free(s->memory);
   if (s->file >= 0) (void)close(s->file);
-  *s = (scene_spill){.element = 0};
+  *s = (scene_temporary){.element = 0};
 }
 
 static pendres_status conclude(int done, char *why, size_t size)
@@ -50,8 +50,9 @@ static pendres_status conclude(int done, char *why, size_t size)
   return done ? PENDRES_OK : PENDRES_IO;
 }
 
-pendres_status scene_spill_put(const scene_spill *s, size_t first, size_t n, const void *data,
-                               char *why, size_t size)
+pendres_status scene_temporary_put(const scene_temporary *s, size_t first, size_t n,
+                                   const void *data,
+                                   char *why, size_t size)
 {
   const size_t at = first * s->element, bytes = n * s->element;
   if (s->memory == NULL)
@@ -60,8 +61,9 @@ pendres_status scene_spill_put(const scene_spill *s, size_t first, size_t n, con
   return PENDRES_OK;
 }
 
-pendres_status scene_spill_get(const scene_spill *s, size_t first, size_t n, void *data, char *why,
-                               size_t size)
+pendres_status scene_temporary_get(const scene_temporary *s, size_t first, size_t n, void *data,
+                                   char *why,
+                                   size_t size)
 {
   const size_t at = first * s->element, bytes = n * s->element;
   if (s->memory == NULL)

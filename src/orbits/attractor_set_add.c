@@ -1,5 +1,5 @@
-/* catalogue_add.c -- orbits that are added to catalogues; see catalogue.h. */
-#include "orbits/catalogue.h"
+/* attractor_set_add.c -- orbits that are added to sets of attractors; see attractor_set.h. */
+#include "orbits/attractor_set.h"
 
 #include <pendres/strobe.h>
 
@@ -11,7 +11,7 @@
 #include "base/angles.h"
 #include "base/turns.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_prime.h"
 
@@ -21,16 +21,16 @@ static const double same_point = 1e-6;
 /* Guesses closer than this lead to the same orbit, so one of them is enough. */
 static const double same_guess = 0.05;
 
-/* ---- what is in a catalogue ---- */
+/* ---- what is in a set of attractors ---- */
 
-/* Whether an orbit, or another point of the same orbit, is in the catalogue. */
-static int known(const pendres_catalogue *c, const pendres_orbit *o)
+/* Whether an orbit, or another point of the same orbit, is in the set of attractors. */
+static int known(const pendres_attractor_set *c, const pendres_orbit *o)
 {
   for (size_t t = 0; t < c->traps; t++) {
     const pendres_trap *at = &c->trap[t];
-    const pendres_place place = {.y = at->y, .w = at->w};
+    const pendres_coordinates place = {.y = at->y, .w = at->w};
     double x, v;
-    pendres_passage_out(&o->pendulum, &place, &x, &v);
+    pendres_coordinates_out(&o->pendulum, &place, &x, &v);
     if (at->period == o->period && at->winding == o->winding &&
         pendres_orbit_apart(o, x, v) < same_point)
       return 1;
@@ -73,14 +73,14 @@ static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
 }
 
 /* The point with the largest x represents the orbit. */
-static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
+static pendres_status append(pendres_context *ctx, pendres_attractor_set *c,
                              const pendres_orbit *points, const pendres_trap *traps)
 {
   const int q = points[0].period;
   int representative = 0;
   for (int j = 1; j < q; j++)
     if (points[j].x > points[representative].x) representative = j;
-  if (pendres_catalogue_reserve(c, (size_t)q) != 0)
+  if (pendres_attractor_set_reserve(c, (size_t)q) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   pendres_attractor *a = &c->attractors[c->count];
   *a = (pendres_attractor){.orbit = points[representative],
@@ -272,7 +272,7 @@ typedef struct candidates {
  * takes several periods to close. *next is its number, or the number after the set's last. Once a
  * long orbit has been added, its other points among the candidates are found to be known.
  */
-static pendres_status add_up_to_long(pendres_context *ctx, pendres_catalogue *c,
+static pendres_status add_up_to_long(pendres_context *ctx, pendres_attractor_set *c,
                                      const candidates *k, size_t first, size_t *next)
 {
   pendres_status status = PENDRES_OK;
@@ -291,7 +291,7 @@ static pendres_status add_up_to_long(pendres_context *ctx, pendres_catalogue *c,
 
 /* Add all candidates. The next long orbit of each set is completed side by side with those of the
    other sets. */
-static pendres_status add_orbits(pendres_context *ctx, pendres_catalogue *catalogues,
+static pendres_status add_orbits(pendres_context *ctx, pendres_attractor_set *attractor_sets,
                                  const candidates *k)
 {
   long_orbits l = {0};
@@ -301,18 +301,18 @@ static pendres_status add_orbits(pendres_context *ctx, pendres_catalogue *catalo
   for (int more = 1; more && status == PENDRES_OK;) {
     l.count = 0;
     for (size_t first = 0, next; first < k->count && status == PENDRES_OK; first = next) {
-      status = add_up_to_long(ctx, &catalogues[k->set[first]], k, first, &next);
+      status = add_up_to_long(ctx, &attractor_sets[k->set[first]], k, first, &next);
       if (next < k->count && k->set[next] == k->set[first]) l.orbit[l.count++] = &k->orbit[next];
       while (next < k->count && k->set[next] == k->set[first]) next++;
     }
     more = l.count > 0;
-    if (more && status == PENDRES_OK) status = complete_long(ctx, &l, catalogues[0].effort);
+    if (more && status == PENDRES_OK) status = complete_long(ctx, &l, attractor_sets[0].effort);
     for (size_t i = 0; i < l.count && status == PENDRES_OK; i++) {
       const size_t number = (size_t)(l.orbit[i] - k->orbit), at = l.first[i];
       k->done[number] = 1;
       k->added[number] = l.complete[i];
       if (l.complete[i])
-        status = append(ctx, &catalogues[k->set[number]], l.point + at, l.trap + at);
+        status = append(ctx, &attractor_sets[k->set[number]], l.point + at, l.trap + at);
     }
   }
   free_long(&l);
@@ -321,14 +321,15 @@ static pendres_status add_orbits(pendres_context *ctx, pendres_catalogue *catalo
 
 /* ---- from guesses to orbits ---- */
 
-/* Turn scouts into guesses, and leave out those near an earlier guess of their set. */
-static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_catalogue *c,
+/* Turn initial guesses into guesses, and leave out those near an earlier guess of their set. */
+static size_t distinct_guesses(size_t n, const pendres_initial_guess *s,
+                               const pendres_attractor_set *c,
                                pendres_orbit_guess *g, size_t *set)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum *p = &c[s[i].set].pendulum;
-    int new = pendres_passage_refuses(p, s[i].y, s[i].w * p->drive_frequency) == NULL;
+    int new = pendres_coordinates_refuses(p, s[i].y, s[i].w * p->drive_frequency) == NULL;
     for (size_t j = count; j-- > 0 && set[j] == s[i].set && new;) {
       const double dx =
         pendres_less_turns(g[j].x - pendres_model_origin(p) - s[i].y, pendres_model_turn(p));
@@ -337,23 +338,24 @@ static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_c
     }
     if (!new) continue;
     set[count] = s[i].set;
-    const pendres_place at = {.y = s[i].y, .w = s[i].w};
+    const pendres_coordinates at = {.y = s[i].y, .w = s[i].w};
     g[count] = (pendres_orbit_guess){
       .pendulum = *p, .period = s[i].period, .winding = s[i].winding};
-    pendres_passage_out(p, &at, &g[count].x, &g[count].v);
+    pendres_coordinates_out(p, &at, &g[count].x, &g[count].v);
     count++;
   }
   return count;
 }
 
-/* Keep the stable orbits that are not in the catalogues, drop repetitions within a set. */
+/* Keep the stable orbits that are not in the sets of attractors, drop repetitions within a set. */
 static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
-                              const pendres_status *outcome, const pendres_catalogue *catalogues)
+                              const pendres_status *outcome,
+                              const pendres_attractor_set *attractor_sets)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     if (outcome[i] == PENDRES_NOT_CONVERGED || !o[i].stable) continue;
-    int new = !known(&catalogues[set[i]], &o[i]);
+    int new = !known(&attractor_sets[set[i]], &o[i]);
     for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
       new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
             pendres_orbit_apart(&o[j], o[i].x, o[i].v) > same_point;
@@ -366,7 +368,7 @@ static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
 
 /* Where the mirror image of an orbit crosses drive phase 0: half a period later, reflected. */
 static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendres_orbit *o,
-                                   pendres_scout *out)
+                                   pendres_initial_guess *out)
 {
   double *x = malloc(4 * (size_t)o->period * sizeof *x);
   if (x == NULL)
@@ -374,7 +376,7 @@ static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendr
   double *v = x + 2 * o->period;
   const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v);
   if (status == PENDRES_OK)
-    *out = (pendres_scout){.set = set,
+    *out = (pendres_initial_guess){.set = set,
                            .y = 2.0 * pendres_model_centre(&o->pendulum, 0.0) -
                                 (x[1] - pendres_model_origin(&o->pendulum)),
                            .w = -v[1] / o->pendulum.drive_frequency,
@@ -403,9 +405,9 @@ static pendres_status trap_short(pendres_context *ctx, size_t n, const pendres_o
 }
 
 /* Add what guesses lead to; mirrors[0 .. *more) are guesses for the mirror images of new orbits. */
-static pendres_status add_guesses(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
-                                  const pendres_scout *guesses, pendres_scout *mirrors,
-                                  size_t *more)
+static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *attractor_sets,
+                                  size_t n, const pendres_initial_guess *guesses,
+                                  pendres_initial_guess *mirrors, size_t *more)
 {
   pendres_status status = PENDRES_OK;
   pendres_orbit_guess *g = calloc(n, sizeof *g);
@@ -420,14 +422,14 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_catalogue *catal
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
     goto done;
   }
-  size_t count = distinct_guesses(n, guesses, catalogues, g, set);
+  size_t count = distinct_guesses(n, guesses, attractor_sets, g, set);
   status = pendres_orbit_refine(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
   if (status != PENDRES_OK) goto done;
-  count = distinct_orbits(count, orbits, set, outcome, catalogues);
-  status = trap_short(ctx, count, orbits, catalogues[0].effort, traps);
+  count = distinct_orbits(count, orbits, set, outcome, attractor_sets);
+  status = trap_short(ctx, count, orbits, attractor_sets[0].effort, traps);
   const candidates k = {.count = count, .orbit = orbits, .set = set, .trap = traps,
                         .done = marks, .added = marks + n};
-  if (status == PENDRES_OK) status = add_orbits(ctx, catalogues, &k);
+  if (status == PENDRES_OK) status = add_orbits(ctx, attractor_sets, &k);
   for (size_t i = 0; i < count && status == PENDRES_OK; i++)
     if (k.added[i] && !orbits[i].symmetric && pendres_pendulum_symmetric(&orbits[i].pendulum))
       status = mirror_guess(ctx, set[i], &orbits[i], &mirrors[(*more)++]);
@@ -441,17 +443,18 @@ done:
   return status;
 }
 
-pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
-                                     const pendres_scout *guesses)
+pendres_status pendres_attractor_set_add(pendres_context *ctx,
+                                         pendres_attractor_set *attractor_sets, size_t n,
+                                         const pendres_initial_guess *guesses)
 {
   size_t more = 0, last = 0;
   if (n == 0) return PENDRES_OK;
-  pendres_scout *mirrors = malloc(2 * n * sizeof *mirrors);
+  pendres_initial_guess *mirrors = malloc(2 * n * sizeof *mirrors);
   if (mirrors == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
-  pendres_status status = add_guesses(ctx, catalogues, n, guesses, mirrors, &more);
+  pendres_status status = add_guesses(ctx, attractor_sets, n, guesses, mirrors, &more);
   if (status == PENDRES_OK && more > 0)
-    status = add_guesses(ctx, catalogues, more, mirrors, mirrors + n, &last);
+    status = add_guesses(ctx, attractor_sets, more, mirrors, mirrors + n, &last);
   free(mirrors);
   return status;
 }

@@ -1,9 +1,9 @@
 /*
- * crew_internal.h -- the tasks of a stage while they are computed, on threads and on other ranks:
- * crew.c knows which are done, deal.c hands them to other ranks.
+ * pool_internal.h -- the tasks of a stage while they are computed, on threads and on other ranks:
+ * pool.c knows which are done, dispatch.c hands them to other ranks.
  */
-#ifndef CREW_INTERNAL_H
-#define CREW_INTERNAL_H
+#ifndef POOL_INTERNAL_H
+#define POOL_INTERNAL_H
 
 #include <stdatomic.h>
 #include <stdint.h>
@@ -27,8 +27,8 @@ typedef struct at_work {
 
 /* The point that a thread works on, point.c's: only that thread touches it. */
 typedef struct farm_watch {
-  struct crew *crew;
-  int thread;      /* of the crew's bench */
+  struct pool *pool;
+  int thread;      /* of the pool's bench */
   double start;    /* of this thread's processor time, seconds */
   size_t points;   /* that were begun together; 0: none */
   int over;        /* the budget has ended them ... */
@@ -39,7 +39,7 @@ typedef struct farm_watch {
 } farm_watch;
 
 /* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
-typedef struct crew {
+typedef struct pool {
   farm *farm;
   const farm_stage *stage;
   uint64_t number;      /* of the stage: journal_stage() */
@@ -61,22 +61,22 @@ typedef struct crew {
   double point_seconds;
   int threads;          /* of them */
   atomic_llong look;    /* when somebody is to look at the clock again, milliseconds */
-  /* deal.c's: */
+  /* dispatch.c's: */
   pthread_t server;
   atomic_int idle;      /* the rank's own threads have no more to do */
   atomic_int halted;    /* of another rank: rank 0 wants no more of it */
   atomic_int ended;     /* of another rank: rank 0 has told how the stage ended */
-} crew;
+} pool;
 
-long long crew_milliseconds(void);
+long long pool_milliseconds(void);
 
 /* A line for the user, while others work. */
-void crew_tell(crew *c, const char *words);
+void pool_tell(pool *c, const char *words);
 
 /* The next task that nobody has; 0: there is none. */
-int crew_take(crew *c, size_t *task);
+int pool_take(pool *c, size_t *task);
 
 /* Note a task's end; takes over the record's data. */
-void crew_finish(crew *c, size_t task, pendres_status status, farm_record *record);
+void pool_finish(pool *c, size_t task, pendres_status status, farm_record *record);
 
 #endif

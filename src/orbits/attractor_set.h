@@ -1,0 +1,109 @@
+/*
+ * attractor_set.h -- the attractors of parameter sets, with their traps.
+ *
+ * Owns: finding attractors from initial guesses, numbering and labelling them, and telling which
+ * trap a state lies in. Attractors keep the order of their discovery until
+ * pendres_attractor_set_order() puts them into their physical order. Works on many parameter sets
+ * at a time, so that blocks stay full.
+ */
+#ifndef PENDRES_ATTRACTOR_SET_H
+#define PENDRES_ATTRACTOR_SET_H
+
+#include <pendres/attractor.h>
+
+#include "engine/strobe_run.h"
+#include "orbits/chaos_cover.h"
+#include "orbits/trap.h"
+
+enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };
+
+typedef struct pendres_attractor_set {
+  pendres_pendulum pendulum;
+  pendres_trap_effort effort;
+  int any_well; /* 1: nobody asks for the well that a pendulum settles in */
+  size_t count, capacity;
+  pendres_attractor *attractors;
+  size_t traps, trap_capacity;
+  pendres_trap *trap;
+  int *owner; /* attractor of each trap */
+  size_t covers;
+  pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
+  int grows;        /* the force is linear, and all motions grow without bound */
+  double transient; /* drive periods that chaos which ends has lasted on average; 0: none met */
+} pendres_attractor_set;
+
+/* A state of a parameter set to start from, or to look for an orbit near. */
+typedef struct pendres_initial_guess {
+  size_t set;       /* index of its set of attractors */
+  double y, w;
+  int period, winding; /* of the orbit it is thought to be near */
+} pendres_initial_guess;
+
+void pendres_attractor_set_clear(pendres_attractor_set *c);
+
+/*
+ * Where initial guesses of a pendulum in canonical units start from unless told: all over a turn,
+ * or about as far under other forces; and of these in each of up to four wells that have a
+ * barrier, across it. Returns their number. What attracts little of these places may still be
+ * missed.
+ */
+enum { PENDRES_ATTRACTOR_SET_STARTS = 180 };
+size_t pendres_attractor_set_starts(const pendres_pendulum *p,
+                                    double x[PENDRES_ATTRACTOR_SET_STARTS],
+                                    double v[PENDRES_ATTRACTOR_SET_STARTS]);
+
+/* Integrate initial guesses (their period and winding are not read, but overwritten), and add the
+   orbits that they lead to. */
+pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
+                                             pendres_attractor_set *attractor_sets, size_t n,
+                                             pendres_initial_guess *guesses);
+
+/* Refine guesses to orbits, and add the stable ones that are new, with their traps. Where there is
+   mirror symmetry, the image of an orbit that is not its own image is added, too. */
+pendres_status pendres_attractor_set_add(pendres_context *ctx,
+                                         pendres_attractor_set *attractor_sets, size_t n,
+                                         const pendres_initial_guess *guesses);
+
+/* Make room for one more attractor with so many traps; nonzero if out of memory. */
+int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_traps);
+
+/* An orbit of which nothing but the pendulum is known: all of its numbers are NaN. */
+pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
+
+/* Add a chaotic attractor; the cover becomes the set's. */
+pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_attractor_set *c,
+                                           const pendres_chaos_measures *m, pendres_cover *cover);
+
+/*
+ * The physical order of attractors: order[place] = number. Orbits come first, in the order of their
+ * amplitudes and then of their Poincaré points; chaotic attractors follow in the order of their
+ * means. A difference that rounding alone can make does not decide: attractors whose amplitudes are
+ * that close are compared by the next number. The order thus does not depend on that of discovery.
+ * Nonzero if out of memory.
+ */
+int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order);
+
+/* Put attractors into their physical order, and label them. rank[old number] = new number is
+   written for all of them; rank may be NULL. */
+pendres_status pendres_attractor_set_order(pendres_context *ctx, pendres_attractor_set *c,
+                                           int *rank);
+
+/* Whether two orbits of a pendulum with the mirror symmetry are each other's images. */
+int pendres_attractor_set_are_images(const pendres_orbit *a, const pendres_orbit *b);
+
+/*
+ * Measures and multipliers of an orbit and of its mirror image are exactly the same. Where those
+ * of two differ by more than their errors, at least one of the errors is too small, and both are
+ * raised to the difference. Without the mirror symmetry nothing is compared.
+ */
+void pendres_attractor_set_compare_images(pendres_attractor_set *c);
+
+/* The trap that a lane is in: its attractor and well; -1 if in none. */
+int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
+                                 long *well);
+
+/* The same trap itself; NULL if in none. */
+const pendres_trap *pendres_attractor_set_trap(const pendres_attractor_set *c,
+                                               const pendres_strobe_lane *lane);
+
+#endif

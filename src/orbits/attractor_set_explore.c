@@ -1,0 +1,82 @@
+/* attractor_set_explore.c -- pendulums that go ahead to find attractors; see attractor_set.h. */
+#include "orbits/attractor_set.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/angles.h"
+#include "engine/context_internal.h"
+#include "engine/steps.h"
+#include "model/model.h"
+
+/* An initial guess that moves by less than this from strobe to strobe is near enough for Newton's
+   method. */
+static const double at_rest = 0.03;
+
+typedef struct guess_run {
+  pendres_initial_guess *guesses; /* y and w: one period ago */
+  double *angle;         /* the angle then, with its whole turns */
+  const long *periods;   /* of each set */
+} guess_run;
+
+/* An initial guess stops where it hardly moves, or after the time in which transients should have
+   faded. */
+static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const guess_run *s = arg;
+  pendres_initial_guess *me = &s->guesses[index];
+  const double angle = lane->y + two_pi * (double)lane->turns;
+  const double turn = pendres_model_turn(lane->pendulum);
+  const double advance = angle - s->angle[index], turns = rint(advance / turn);
+  const double moved = hypot(advance - turn * turns, lane->w - me->w);
+  s->angle[index] = angle;
+  me->y = lane->y;
+  me->w = lane->w;
+  me->period = 1;
+  /* An initial guess on its way to infinity finds nothing: the NaN marks that it is no guess. */
+  if (pendres_model_escapes(lane->pendulum, lane->y, lane->w)) me->y = NAN;
+  if (!(isfinite(advance) && isfinite(me->y))) return 1;
+  me->winding = (int)turns;
+  return moved < at_rest || lane->period >= s->periods[me->set];
+}
+
+/* Periods after which a transient has faded to a hundredth, but at least 4 and at most 60. */
+static long guess_periods(const pendres_pendulum *p)
+{
+  const double rate = 0.5 * p->damping * two_pi / p->drive_frequency;
+  return (long)ceil(fmin(fmax(4.6 / rate, 4.0), 60.0));
+}
+
+pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
+                                             pendres_attractor_set *attractor_sets, size_t n,
+                                             pendres_initial_guess *guesses)
+{
+  pendres_status status = PENDRES_OK;
+  if (n == 0) return status;
+  pendres_strobe_lane *lanes = malloc(n * sizeof *lanes);
+  long *periods = malloc((sets + 1) * sizeof *periods);
+  double *angle = malloc(n * sizeof *angle);
+  if (lanes == NULL || periods == NULL || angle == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY,
+                                  "out of memory for %zu initial guesses", n);
+    goto done;
+  }
+  for (size_t i = 0; i < sets; i++) periods[i] = guess_periods(&attractor_sets[i].pendulum);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_pendulum *p = &attractor_sets[guesses[i].set].pendulum;
+    lanes[i] = (pendres_strobe_lane){.pendulum = p, .y = guesses[i].y, .w = guesses[i].w};
+    angle[i] = guesses[i].y;
+    /* A low accuracy is enough: initial guesses only have to come near an orbit. */
+    const double speed = pendres_steps_speed(p, guesses[i].y + pendres_model_origin(p),
+                                             guesses[i].w * p->drive_frequency);
+    status = pendres_steps_choose(ctx, p, speed, 1e-4, &lanes[i].steps);
+  }
+  guess_run s = {.guesses = guesses, .angle = angle, .periods = periods};
+  if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, guess_look, &s);
+  if (status == PENDRES_OK) status = pendres_attractor_set_add(ctx, attractor_sets, n, guesses);
+done:
+  free(lanes);
+  free(periods);
+  free(angle);
+  return status;
+}
