@@ -43,9 +43,10 @@ static void reasons_of_statuses(void **state)
                              s == PENDRES_BUSY;
     assert_int_equal(scene_failure_of((pendres_status)s) == SCENE_FAILURE_NONE, ends_the_run);
   }
+  scene_run run = { 0 };
   scene_failures f;
   scene_verdict v = { 0 };
-  check_ok(scene_failures_create(2, &f));
+  check_ok(scene_failures_create(&run, 2, &f));
   assert_int_equal(scene_verdict_note(&v, PENDRES_INTERRUPTED, "x"), PENDRES_INTERRUPTED);
   scene_failures_take(&f, 0, &v);
   assert_int_equal(f.reason[0], SCENE_FAILURE_NONE);
@@ -53,7 +54,7 @@ static void reasons_of_statuses(void **state)
   scene_failures_take(&f, 1, &v);
   assert_int_equal(f.reason[1], SCENE_FAILURE_NOT_FOUND);
   assert_string_equal(f.words[1], "nothing there");
-  scene_failures_free(&f);
+  scene_end(&run);
 }
 
 /* Steps go with one over a weak damping, and with the square of a strong one. */

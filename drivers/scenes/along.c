@@ -255,7 +255,7 @@ int scene_along_closed(const pendres_hysteresis_point *point)
 
 scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
 {
-  scene_along_row *rows = scene_rows(run, path->points, sizeof *rows);
+  scene_along_row *rows = scene_array(run, path->points, sizeof *rows);
   for (size_t i = 0; i < path->points && rows != NULL; i++) {
     const pendres_hysteresis_point *p = &path->point[i];
     const pendres_orbit *o = &p->attractor.orbit;
@@ -272,7 +272,7 @@ pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *p
                                        const scene_column *columns)
 {
   char words[60];
-  scene_along_jump *rows = scene_rows(run, path->jumps, sizeof *rows);
+  scene_along_jump *rows = scene_array(run, path->jumps, sizeof *rows);
   const scene_table table = {.dimensions = {what}, .prefix = what, .n = path->jumps,
                              .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -289,7 +289,6 @@ pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *p
   snprintf(words, sizeof words, "number of the %s", what);
   pendres_status status = scene_numbering(run, what, table.n, words);
   if (status == PENDRES_OK) status = scene_columns_write(run, &table, count, columns);
-  free(rows);
   return status;
 }
 

@@ -77,7 +77,7 @@ typedef struct scene_along_jump {
   int direction, kind, from, to, gradual, certain, to_period;
 } scene_along_jump;
 
-/* All points of a path as rows; see scene_rows(). */
+/* All points of a path as rows; see scene_array(). */
 scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path);
 
 /* Write the jumps of a path as a table of scene_along_jump over a dimension `what`, which is before

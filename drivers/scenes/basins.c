@@ -235,7 +235,7 @@ static pendres_status sweep_once(basins *b, size_t *grown, int last)
   pendres_status status = restart(b);
   *grown = 0;
   if (status != PENDRES_OK) return status;
-  s.index = scene_rows(b->run, tasks * LOST_A_TASK, sizeof *s.index);
+  s.index = scene_array(b->run, tasks * LOST_A_TASK, sizeof *s.index);
   if (s.index == NULL) return PENDRES_OUT_OF_MEMORY;
   status = scene_compute(b->run, &(farm_stage){ .what = "groups of rows", .tasks = tasks,
                                                 .element = sizeof(pendres_basin_state),
@@ -243,7 +243,6 @@ static pendres_status sweep_once(basins *b, size_t *grown, int last)
                                                 .collect = collect_rows,
                                                 .arg = &s });
   if (status == PENDRES_OK && !last) status = extend(b, s.lost, s.index, grown);
-  free(s.index);
   return status;
 }
 
@@ -291,8 +290,9 @@ static pendres_status collect_slice(void *arg, size_t task, const farm_record *i
 static pendres_status integrate(basins *b, size_t n, const size_t *index,
                                 pendres_basin_state **state)
 {
-  *state = scene_rows(b->run, n, sizeof **state);
-  if (*state == NULL) return PENDRES_OUT_OF_MEMORY;
+  *state = calloc(n + 1, sizeof **state);
+  if (*state == NULL)
+    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
   slices s = {.b = b, .n = n, .index = index, .state = *state};
   if (n > SMALL)
     return scene_compute(b->run, &(farm_stage){ .what = "slices", .tasks = (n + SLICE - 1) / SLICE,
@@ -408,13 +408,12 @@ static pendres_status compute_cut(basins *b)
 {
   static const double rest = 0.0;
   basins line = *b;
-  size_t *index = scene_rows(b->run, b->grid.nx, sizeof *index);
+  size_t *index = scene_array(b->run, b->grid.nx, sizeof *index);
   line.grid.nv = 1;
   line.grid.v = &rest;
   if (index == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < b->grid.nx; i++) index[i] = i;
   const pendres_status status = integrate(&line, b->grid.nx, index, &b->cut);
-  free(index);
   return status;
 }
 

@@ -183,8 +183,8 @@ static pendres_status compute(scene_run *run, cloud_work *w)
   w->x = malloc(n * w->strobes * sizeof *w->x);
   w->v = malloc(n * w->strobes * sizeof *w->v);
   if (w->clouds == NULL || w->part == NULL || w->x == NULL || w->v == NULL ||
-      scene_failures_create(n, &w->failed) != PENDRES_OK ||
-      scene_failures_create(n, &w->parts_failed) != PENDRES_OK)
+      scene_failures_create(run, n, &w->failed) != PENDRES_OK ||
+      scene_failures_create(run, n, &w->parts_failed) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu clouds", n);
   for (size_t i = 0; i < n * w->strobes; i++) w->x[i] = w->v[i] = NAN;
   pendres_status status =
@@ -289,7 +289,7 @@ static pendres_cloud_verdict verdict_of(const cloud_work *w, size_t number)
 static pendres_status write_clouds(scene_run *run, const cloud_work *w)
 {
   const size_t n = w->temperatures * w->attractors;
-  row *rows = scene_rows(run, n, sizeof *rows);
+  row *rows = scene_array(run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"temperature", "attractor"}, .n = n,
                              .stride = sizeof *rows, .rows = rows, .missing = w->failed.reason};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -301,7 +301,6 @@ static pendres_status write_clouds(scene_run *run, const cloud_work *w)
     rows[i].of.verdict = verdict_of(w, i);
   }
   const pendres_status status = SCENE_WRITE(run, &table, columns);
-  free(rows);
   return status;
 }
 
@@ -363,8 +362,6 @@ pendres_status basins_write_clouds(scene_run *run, const pendres_attractors *set
   status = compute(run, &w);
   if (status == PENDRES_OK) status = write_results(run, &w);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
-  scene_failures_free(&w.failed);
-  scene_failures_free(&w.parts_failed);
   free(w.clouds);
   free(w.part);
   free(w.x);

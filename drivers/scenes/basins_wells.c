@@ -71,7 +71,7 @@ static pendres_status make_wells(const basins *b, size_t n, const pendres_basin_
 
 static pendres_status write_each(basins *b, size_t n, const pendres_basin_well *wells)
 {
-  well *rows = scene_rows(b->run, n, sizeof *rows);
+  well *rows = scene_array(b->run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
                              .stride = sizeof *rows, .rows = rows};
   pendres_status status =
@@ -82,7 +82,6 @@ static pendres_status write_each(basins *b, size_t n, const pendres_basin_well *
   if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_wells);
   if (status == PENDRES_OK && b->grid.by == PENDRES_BASIN_BY_WELL)
     status = scene_columns_write(b->run, &table, 1, &of_shares);
-  free(rows);
   return status;
 }
 

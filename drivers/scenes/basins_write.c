@@ -82,7 +82,7 @@ pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
   const size_t nv = b->grid.nv;
   pendres_status status = PENDRES_OK;
   const scene_variables of = variables_of(b);
-  state_row *some = scene_rows(b->run, (rows < ROWS ? rows : ROWS) * nv, sizeof *some);
+  state_row *some = calloc((rows < ROWS ? rows : ROWS) * nv + 1, sizeof *some);
   if (some == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < rows && status == PENDRES_OK; i += ROWS) {
     const size_t n = rows - i < ROWS ? rows - i : ROWS;
@@ -99,12 +99,11 @@ static pendres_status write_cut(basins *b)
   const size_t n = b->grid.nx;
   pendres_status status = scene_dimension(b->run, "cut", DECK_AXIS_X);
   if (status != PENDRES_OK) return status;
-  state_row *rows = scene_rows(b->run, n, sizeof *rows);
+  state_row *rows = scene_array(b->run, n, sizeof *rows);
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   const scene_table table = state_table("cut", NULL, n, rows);
   state_rows(n, b->cut, rows);
   status = SCENE_WRITE(b->run, &table, b->column);
-  free(rows);
   if (status != PENDRES_OK) return status;
   status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",
                                         "the line v = 0");

@@ -249,7 +249,6 @@ static pendres_status write_values(scene_run *run, const work *w)
     status = scene_columns_write(run, &counts, 1, &of_attractors);
   if (status == PENDRES_OK)
     status = scene_along_write_verdicts(run, &w->path, &points);
-  free(rows);
   scene_along_tell(run, w->axis, &w->path, 1);
   return status;
 }

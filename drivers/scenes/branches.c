@@ -110,7 +110,7 @@ static size_t take_points(const scene_lines *l, row *rows)
 static pendres_status write_branches(const scene_lines *l)
 {
   const size_t n = take_points(l, NULL);
-  row *rows = scene_rows(l->run, n, sizeof *rows);
+  row *rows = scene_array(l->run, n, sizeof *rows);
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   (void)take_points(l, rows);
   const scene_table table = {.dimensions = {"point"}, .prefix = "branch", .inner = "multiplier",
@@ -125,7 +125,6 @@ static pendres_status write_branches(const scene_lines *l)
                                       of_points);
   if (status == PENDRES_OK)
     status = scene_columns_write_orbits(l->run, &table, offsetof(row, of));
-  free(rows);
   return status;
 }
 
@@ -306,14 +305,13 @@ static pendres_status print_table(FILE *out, const scene_lines *l)
     {.heading = "", .format = "%-17s", .type = SCENE_TEXT, .value = offsetof(part, why[1])},
   };
   const size_t n = take_parts(l, NULL);
-  part *rows = scene_rows(l->run, n, sizeof *rows);
+  part *rows = scene_array(l->run, n, sizeof *rows);
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   (void)take_parts(l, rows);
   snprintf(line, sizeof line, "%-15s  ", scene_lines_words(l->grid.across));
   snprintf(from, sizeof from, "attracts from %s", scene_lines_words(l->grid.options.parameter));
   SCENE_PRINT(out, &table, n, cells, NULL);
-  free(rows);
   scene_lines_print(l, out);
   return PENDRES_OK;
 }

@@ -50,6 +50,27 @@ static int meanings_of(scene_names names, const char *meanings[MOST_NAMES])
   return n;
 }
 
+/* All codes that a column can have: their number or, of sums of bits, the sum of all. */
+static int most_of(const scene_column *c)
+{
+  const char *unused[MOST_NAMES];
+  int n = c->names != NULL ? meanings_of(c->names, unused) : 2, sum = 0;
+  if (c->codes == NULL) return n - 1;
+  while (n-- > 0) sum |= c->codes[n];
+  return sum;
+}
+
+int scene_columns_fit(size_t count, const scene_column *columns, const void *row)
+{
+  for (size_t k = 0; k < count; k++) {
+    int code = 0;
+    if (columns[k].type != SCENE_FLAG) continue;
+    memcpy(&code, (const char *)row + columns[k].value, sizeof code);
+    if (code < 0 || code > most_of(&columns[k])) return 0;
+  }
+  return 1;
+}
+
 static const char *field(const scene_table *t, size_t row, size_t offset)
 {
   return (const char *)t->rows + row * t->stride + offset;
@@ -188,6 +209,7 @@ static pendres_status write_column(scene_run *run, const scene_table *t, size_t 
   const size_t all = t->first > 0 ? t->first : 1;
   variable v;
   int id = -1, error_id = -1;
+  if (c->when != NULL && !c->when(run->deck)) return run->status;
   describe(run, t, c, &v);
   pendres_status status = c->type == SCENE_REAL
                             ? pendres_store_result(run->store, &v.spec, &id, &error_id)
@@ -230,6 +252,7 @@ static pendres_status reserve(scene_run *run, size_t n, buffers *b)
 pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t count,
                                    const scene_column *columns)
 {
+  if (!scene_going(run)) return run->status;
   const size_t each = t->first > 0 ? t->n / t->first : t->n, bytes = each * t->stride;
   const size_t most = bytes > 0 && bytes < PIECE ? PIECE / bytes : 1;
   const size_t room = most * each < t->n ? most * each : t->n;
@@ -310,10 +333,10 @@ void scene_columns_print(FILE *out, const scene_table *t, size_t lines, size_t c
   fputc('\n', out);
   for (size_t i = 0; i < t->n; i++) {
     if (i % step != 0 && i + 1 != t->n) continue;
-    const int whole = !missing(t, i);
-    for (size_t k = 0; k < (whole ? count : 1); k++)
+    const char *words = instead != NULL ? instead(field(t, i, 0)) : NULL;
+    for (size_t k = 0; k < (words == NULL ? count : 1); k++)
       print_cell(out, field(t, i, cells[k].value), &cells[k]);
-    if (!whole && instead != NULL) fputs(instead(field(t, i, 0)), out);
+    if (words != NULL) fputs(words, out);
     fputc('\n', out);
   }
 }

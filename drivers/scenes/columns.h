@@ -31,6 +31,7 @@ typedef struct scene_column {
   scene_names names;           /* of a SCENE_FLAG; NULL: it is a plain 0 or 1 */
   const int8_t *codes;         /* of a SCENE_FLAG that is a sum of bits: these; names are those
                                   of 0, 1, 2 ... */
+  int (*when)(const deck *d);  /* not NULL: only decks of which this is so have the column */
   int pairs;                   /* nonzero: two elements a row, over `inner` */
   const char *comment;
 } scene_column;
@@ -75,6 +76,10 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *table, siz
 #define SCENE_WRITE(run, table, columns) \
   scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
 
+/* Can this be a row, from a journal: are its codes among those of the columns? Doubles and numbers
+   may be anything. */
+int scene_columns_fit(size_t count, const scene_column *columns, const void *row);
+
 /* Write the principal measures of the orbits that stand at that offset in the rows. */
 pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);
 
@@ -118,7 +123,8 @@ typedef struct scene_cell {
   {.heading = words, .format = form, .value = offsetof(row, field)}
 
 /* A line of headings and at most `lines` rows of the table, evenly chosen, with the last one; all
-   if there are not many more. A row that is missing has its first cell and the words instead.
+   if there are not many more. Where instead (may be NULL) gives words for a row, they stand behind
+   its first cell instead of the others.
    SCENE_PRINT takes all cells of an array. */
 void scene_columns_print(FILE *out, const scene_table *table, size_t lines, size_t count,
                          const scene_cell *cells, const char *(*instead)(const void *row));

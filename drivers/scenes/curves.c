@@ -108,11 +108,10 @@ static size_t take_curves(const scene_lines *l, int folds, row *rows)
 static pendres_status write_curves(const scene_lines *l, int folds)
 {
   const size_t n = take_curves(l, folds, NULL);
-  row *rows = scene_rows(l->run, n, sizeof *rows);
+  row *rows = scene_array(l->run, n, sizeof *rows);
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   (void)take_curves(l, folds, rows);
   const pendres_status status = write_table(l, folds ? "fold" : "flip", n, rows);
-  free(rows);
   return status;
 }
 
@@ -121,7 +120,7 @@ static pendres_status write_bifurcations(const scene_lines *l)
 {
   size_t n = 0;
   const pendres_bifurcation *b = pendres_phase_diagram_bifurcations(l->diagram, &n);
-  row *rows = scene_rows(l->run, n, sizeof *rows);
+  row *rows = scene_array(l->run, n, sizeof *rows);
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) {
     rows[i] = row_of(l, &b[i].orbit, (const double[2]){b[i].value_error, 0.0}, b[i].kind,
@@ -129,7 +128,6 @@ static pendres_status write_bifurcations(const scene_lines *l)
     rows[i].curvature_error = b[i].curvature_error;
   }
   const pendres_status status = write_table(l, "bifurcation", n, rows);
-  free(rows);
   return status;
 }
 

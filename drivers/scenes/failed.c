@@ -65,31 +65,20 @@ int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double run
   return 1;
 }
 
-pendres_status scene_failures_create(size_t n, scene_failures *out)
+pendres_status scene_failures_create(scene_run *run, size_t n, scene_failures *out)
 {
-  *out = (scene_failures){ .n = n, .reason = calloc(n + 1, 1),
-                           .words = calloc(n + 1, sizeof *out->words) };
-  if (out->reason != NULL && out->words != NULL) return PENDRES_OK;
-  scene_failures_free(out);
-  return PENDRES_OUT_OF_MEMORY;
-}
-
-void scene_failures_free(scene_failures *f)
-{
-  for (size_t i = 0; f->words != NULL && i < f->n; i++) free(f->words[i]);
-  free(f->words);
-  free(f->reason);
-  *f = (scene_failures){ 0 };
+  *out = (scene_failures){.run = run, .n = n, .reason = scene_array(run, n, 1),
+                          .words = scene_array(run, n, sizeof *out->words)};
+  return run->status;
 }
 
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words)
 {
-  char *copy = NULL;
-  if (words != NULL && words[0] != '\0') copy = malloc(strlen(words) + 1);
-  if (copy != NULL) strcpy(copy, words); /* else the list's own words do */
-  free(f->words[point]);
-  f->words[point] = copy;
   f->reason[point] = (int8_t)reason;
+  f->words[point] = NULL;
+  if (words == NULL || words[0] == '\0') return;
+  f->words[point] = scene_array(f->run, strlen(words), 1);
+  if (f->words[point] != NULL) strcpy(f->words[point], words);
 }
 
 void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v)
@@ -216,13 +205,12 @@ pendres_status scene_failures_write(scene_run *run, const scene_failures *f, con
   snprintf(words, sizeof words, "why there is no whole result for the %s", what);
   scene_failure_flags(&spec);
   for (int i = 0; i < axes; i++) spec.dimensions[i] = deck_axis_name(axis[i]);
-  const pendres_status status = pendres_store_put(run->store, &spec, f->reason, f->n);
-  if (status != PENDRES_OK) return scene_stored(run, status);
-  for (size_t i = 0; i < f->n; i++) {
+  (void)scene_put(run, &spec, f->reason, f->n);
+  for (size_t i = 0; i < f->n && scene_going(run); i++) {
     if (f->reason[i] == SCENE_FAILURE_NONE) continue;
     run->failed_points++;
     scene_point_name(run->deck, i, axes, axis, where, sizeof where);
     scene_failure_tell(run, (scene_failure)f->reason[i], f->words[i], "%s at %s", what, where);
   }
-  return PENDRES_OK;
+  return run->status;
 }

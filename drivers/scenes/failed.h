@@ -90,16 +90,15 @@ pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, cons
 void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
                              double multiplier, char words[SCENE_TOLD]);
 
-/* The reasons of n points; all SCENE_FAILURE_NONE at first. */
+/* The reasons of n points; all SCENE_FAILURE_NONE at first. The run's, see scene_array(). */
 typedef struct scene_failures {
+  scene_run *run;
   size_t n;
   int8_t *reason; /* [n] */
   char **words;   /* [n] the library's own; NULL: those of the list */
 } scene_failures;
 
-/* Free it in any case. */
-pendres_status scene_failures_create(size_t n, scene_failures *out);
-void scene_failures_free(scene_failures *f);
+pendres_status scene_failures_create(scene_run *run, size_t n, scene_failures *out);
 
 /* Mark a point; the last mark counts. words are copied; NULL: those of the list. */
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);

@@ -108,7 +108,6 @@ static pendres_status write_points(scene_run *run, const work *w)
   if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_points);
   if (status == PENDRES_OK)
     status = scene_along_write_verdicts(run, &w->path, &table);
-  free(rows);
   scene_along_tell(run, w->axis, &w->path, DIRECTIONS);
   return status;
 }

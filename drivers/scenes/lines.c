@@ -276,7 +276,7 @@ pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *
   l->grid = grid_of(run->deck, l->axis, spacing);
   l->n = l->grid.lines * l->grid.values;
   l->points = malloc((l->n + 1) * sizeof *l->points);
-  pendres_status status = l->points != NULL ? scene_failures_create(l->n, &l->failed)
+  pendres_status status = l->points != NULL ? scene_failures_create(run, l->n, &l->failed)
                                             : PENDRES_OUT_OF_MEMORY;
   if (status == PENDRES_OK) status = pendres_phase_diagram_create(&l->grid, &l->diagram);
   if (status != PENDRES_OK)
@@ -298,7 +298,6 @@ void scene_lines_free(scene_lines *l)
 {
   pendres_phase_diagram_free(l->diagram);
   free(l->points);
-  scene_failures_free(&l->failed);
 }
 
 /* ---- results ------------------------------------------------------------------------------- */

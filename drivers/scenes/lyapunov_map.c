@@ -4,11 +4,8 @@
  */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "scenes/along.h"
-#include "scenes/check.h"
-#include "scenes/failed.h"
+#include "scenes/points.h"
 
 enum {
   AXES = 2,
@@ -21,15 +18,13 @@ enum {
 typedef struct row {
   double lyapunov, lyapunov_error, rotation, rotation_error;
   double period, period_error, winding, winding_error;
-  int label, uncertain, failed;
+  int label, uncertain;
 } row;
 
 typedef struct work {
   const deck *d;
   pendres_sweep sweep;
-  deck_axis_id axis[AXES]; /* the second one runs fastest */
-  size_t count, chunk; /* points, and those of a task */
-  row *rows;
+  scene_points points; /* of rows */
 } work;
 
 static size_t chunk_of(size_t count)
@@ -38,25 +33,16 @@ static size_t chunk_of(size_t count)
   return some < FEWEST ? FEWEST : some < MOST ? some : MOST;
 }
 
-static size_t count_of(const work *w, size_t task)
-{
-  const size_t left = w->count - task * w->chunk;
-  return left < w->chunk ? left : w->chunk;
-}
-
-static double coordinate(const work *w, size_t point, int axis)
-{
-  const deck_axis *last = &w->d->axis[w->axis[AXES - 1]];
-  return axis == 0 ? w->d->axis[w->axis[0]].value[point / last->count]
-                   : last->value[point % last->count];
-}
-
 /* ---- computing ----------------------------------------------------------------------------- */
 
-static const row no_row = {.lyapunov = NAN, .lyapunov_error = NAN, .rotation = NAN,
-                           .rotation_error = NAN, .period = NAN, .period_error = NAN,
-                           .winding = NAN, .winding_error = NAN,
-                           .label = PENDRES_LABEL_UNRESOLVED, .failed = SCENE_FAILURE_OUT_OF_TIME};
+static void leave_out(const scene_points *p, size_t point, void *out)
+{
+  (void)p;
+  (void)point;
+  *(row *)out = (row){.lyapunov = NAN, .lyapunov_error = NAN, .rotation = NAN,
+                      .rotation_error = NAN, .period = NAN, .period_error = NAN, .winding = NAN,
+                      .winding_error = NAN, .label = PENDRES_LABEL_UNRESOLVED};
+}
 
 static row row_of(const pendres_lyapunov *l)
 {
@@ -67,96 +53,44 @@ static row row_of(const pendres_lyapunov *l)
                .rotation = l->rotation, .rotation_error = l->rotation_error,
                .period = l->period + closed, .period_error = whole,
                .winding = l->winding + closed, .winding_error = whole, .label = (int)l->label,
-               .uncertain = uncertain,
-               .failed = l->label == PENDRES_LABEL_UNRESOLVED ? SCENE_FAILURE_UNRESOLVED
-                                                              : SCENE_FAILURE_NONE};
+               .uncertain = uncertain};
 }
 
-/* Points from the first on; where their budget ends them, or one of them fails by itself,
-   their halves, down to single ones. */
-typedef struct some {
-  size_t first, n;
-  const pendres_pendulum *p;
-  const double *x, *v;
-  pendres_lyapunov *found; /* room */
-  row *rows;
-} some;
-
-/* Whether one of them would not settle in a time that one waits, unless the deck says how long. */
-static int too_long(const work *w, const some *s)
+/* Whether a point would not settle in a time that one waits, unless the deck says how long. */
+static int too_long(const scene_points *p, size_t point, char *words, size_t size)
 {
-  char words[SCENE_TOLD];
-  int any = 0;
-  for (size_t i = 0; i < s->n && w->d->lyapunov.transient == 0 && !any; i++)
-    any = scene_failure_too_long(&s->p[i], 1.0, words, sizeof words);
-  return any;
+  const work *w = p->arg;
+  const pendres_pendulum at = pendres_sweep_pendulum(&w->sweep, point, NULL, NULL);
+  return w->d->lyapunov.transient == 0 && scene_failure_too_long(&at, 1.0, words, size);
 }
 
-static pendres_status find(const work *w, const some *s, pendres_context *ctx, farm_record *out)
+static pendres_status compute(const scene_some *some)
 {
+  const work *w = some->of->arg;
   const pendres_lyapunov_options options = {.transient = (long)w->d->lyapunov.transient,
                                             .periods = (long)w->d->lyapunov.periods};
-  const size_t half = s->n / 2;
-  scene_point_begin(out, w->d, s->first, s->n, AXES, w->axis);
-  pendres_status status = PENDRES_OK;
-  scene_failure own = too_long(w, s) ? SCENE_FAILURE_TOO_LONG : SCENE_FAILURE_NONE;
-  if (own == SCENE_FAILURE_NONE)
-    status = pendres_lyapunov_find(ctx, s->n, s->p, s->x, s->v, &options, s->found);
-  for (size_t i = 0; i < s->n && status == PENDRES_OK && own == SCENE_FAILURE_NONE; i++)
-    s->rows[i] = row_of(&s->found[i]);
-  const int late = farm_gave_up(out, status);
-  if (own == SCENE_FAILURE_NONE) own = scene_failure_of(status);
-  if (!late && own == SCENE_FAILURE_NONE) return status;
-  if (half == 0) {
-    if (late) farm_lost(out, NULL, 0);
-    s->rows[0] = no_row;
-    if (!late) s->rows[0].failed = (int)own;
-    return PENDRES_OK;
-  }
-  const some one = {s->first, half, s->p, s->x, s->v, s->found, s->rows};
-  const some two = {s->first + half, s->n - half, s->p + half, s->x + half, s->v + half, s->found,
-                    s->rows + half};
-  status = find(w, &one, ctx, out);
-  return status == PENDRES_OK ? find(w, &two, ctx, out) : status;
-}
-
-static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
-{
-  const work *w = arg;
-  const size_t n = count_of(w, task), first = task * w->chunk;
+  const size_t n = some->n;
+  row *rows = some->rows;
   pendres_pendulum *p = malloc(n * sizeof *p);
   pendres_lyapunov *found = malloc(n * sizeof *found);
   double *x = malloc(2 * n * sizeof *x);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n && p != NULL && x != NULL; i++) {
-    p[i] = pendres_sweep_pendulum(&w->sweep, first + i, NULL, NULL);
+    p[i] = pendres_sweep_pendulum(&w->sweep, some->first + i, NULL, NULL);
     x[i] = w->d->orbit.x;
     x[n + i] = w->d->orbit.v;
   }
   if (p != NULL && found != NULL && x != NULL)
-    status = find(w, &(some){first, n, p, x, x + n, found, out->data}, ctx, out);
+    status = pendres_lyapunov_find(some->ctx, n, p, x, x + n, &options, found);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    rows[i] = row_of(&found[i]);
+    if (found[i].label == PENDRES_LABEL_UNRESOLVED)
+      scene_mark(some, i, SCENE_FAILURE_UNRESOLVED, NULL);
+  }
   free(p);
   free(found);
   free(x);
   return status;
-}
-
-static int check(const void *arg, size_t task, const farm_record *in)
-{
-  const work *w = arg;
-  const row *rows = in->data;
-  int good = in->size == w->chunk * sizeof *rows;
-  for (size_t i = 0; good && i < count_of(w, task); i++)
-    good = scene_check_code(rows[i].label, PENDRES_LABEL_COUNT) &&
-           scene_check_code(rows[i].failed, SCENE_FAILURE_COUNT);
-  return good;
-}
-
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  memcpy(w->rows + task * w->chunk, in->data, count_of(w, task) * sizeof *w->rows);
-  return PENDRES_OK;
 }
 
 /* ---- writing ------------------------------------------------------------------------------- */
@@ -176,18 +110,6 @@ static const char *words_for(scene_failure reason)
   }
 }
 
-static void tell_failed(scene_run *run, const work *w)
-{
-  for (size_t i = 0; i < w->count; i++) {
-    if (w->rows[i].failed == SCENE_FAILURE_NONE) continue;
-    const scene_failure reason = (scene_failure)w->rows[i].failed;
-    char where[200];
-    run->failed_points++;
-    scene_point_name(w->d, i, AXES, w->axis, where, sizeof where);
-    scene_failure_tell(run, reason, words_for(reason), "%s", where);
-  }
-}
-
 static const scene_column columns[] = {
   SCENE_COLUMN(row, lyapunov, "largest Lyapunov exponent a unit time", "1"),
   SCENE_COLUMN(row, rotation, "mean whole turns a drive period", "1"),
@@ -198,64 +120,54 @@ static const scene_column columns[] = {
    .names = scene_doubt_names,
    .long_name = "whether errors that the start amplifies may have chosen the motion",
    .comment = "no: they have not, or there is no verdict"},
-  SCENE_CODE(row, failed, "why there is no verdict", scene_failure_names),
 };
-
-static pendres_status write_all(scene_run *run, const work *w)
-{
-  const scene_table table = {
-    .dimensions = {deck_axis_name(w->axis[0]), deck_axis_name(w->axis[1])},
-    .n = w->count, .stride = sizeof *w->rows, .rows = w->rows,
-    .first = w->d->axis[w->axis[0]].count};
-  pendres_status status = scene_dimension(run, NULL, w->axis[0]);
-  if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis[1]);
-  return status == PENDRES_OK ? SCENE_WRITE(run, &table, columns) : status;
-}
 
 static void tabulate(FILE *out, const work *w)
 {
+  const size_t count = w->points.n;
+  const row *rows = w->points.rows;
   size_t counts[PENDRES_LABEL_COUNT] = {0}, most = 0, uncertain = 0;
-  if (out == NULL) return;
-  for (size_t i = 0; i < w->count; i++) {
-    counts[w->rows[i].label]++;
-    uncertain += w->rows[i].uncertain != 0;
-    if (w->rows[i].label == PENDRES_LABEL_CHAOTIC &&
-        (w->rows[most].label != PENDRES_LABEL_CHAOTIC ||
-         w->rows[i].lyapunov > w->rows[most].lyapunov))
+  for (size_t i = 0; i < count; i++) {
+    counts[rows[i].label]++;
+    uncertain += rows[i].uncertain != 0;
+    if (rows[i].label == PENDRES_LABEL_CHAOTIC &&
+        (rows[most].label != PENDRES_LABEL_CHAOTIC || rows[i].lyapunov > rows[most].lyapunov))
       most = i;
   }
   fprintf(out, "%-12s %10s %8s\n", "motion", "points", "share");
   for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
     if (counts[i] > 0)
       fprintf(out, "%-12s %10zu %8.4f\n", pendres_label_name((pendres_label)i), counts[i],
-              (double)counts[i] / (double)w->count);
+              (double)counts[i] / (double)count);
   if (uncertain > 0)
     fprintf(out, "%zu uncertain: errors as small as rounding choose what they do\n", uncertain);
-  if (counts[PENDRES_LABEL_CHAOTIC] > 0)
-    fprintf(out, "largest exponent %.4f +- %.0e at %s %g, %s %g\n", w->rows[most].lyapunov,
-            w->rows[most].lyapunov_error, deck_axis_name(w->axis[0]), coordinate(w, most, 0),
-            deck_axis_name(w->axis[1]), coordinate(w, most, 1));
+  if (counts[PENDRES_LABEL_CHAOTIC] == 0) return;
+  const deck_axis_id *axis = w->points.axis;
+  const deck_axis *slow = &w->d->axis[axis[0]], *fast = &w->d->axis[axis[1]];
+  fprintf(out, "largest exponent %.4f +- %.0e at %s %g, %s %g\n", rows[most].lyapunov,
+          rows[most].lyapunov_error, deck_axis_name(axis[0]), slow->value[most / fast->count],
+          deck_axis_name(axis[1]), fast->value[most % fast->count]);
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
 static pendres_status run_scene(scene_run *run)
 {
-  work w = {.d = run->deck, .sweep = scene_sweep(run->deck)};
-  (void)deck_moving(run->deck, AXES, w.axis);
-  w.count = run->deck->axis[w.axis[0]].count * run->deck->axis[w.axis[1]].count;
-  w.chunk = chunk_of(w.count);
-  const farm_stage stage = {.what = "parts of the map", .last = 1,
-                            .tasks = (w.count + w.chunk - 1) / w.chunk,
-                            .record_size = w.chunk * sizeof(row), .task = compute,
-                            .check = check, .collect = collect, .arg = &w};
-  w.rows = scene_rows(run, w.count, sizeof *w.rows);
-  pendres_status status = w.rows != NULL ? scene_compute(run, &stage) : PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK) status = write_all(run, &w);
-  if (status == PENDRES_OK) tell_failed(run, &w);
-  if (status == PENDRES_OK) tabulate(run->table, &w);
-  free(w.rows);
-  return status;
+  deck_axis_id axis[AXES];
+  work w = {.d = run->deck, .sweep = scene_sweep(run->deck),
+            .points = {.size = sizeof(row), .compute = compute, .too_long = too_long,
+                       .leave_out = leave_out, SCENE_COLUMNS(columns), .words = words_for,
+                       .arg = &w}};
+  scene_points *p = &w.points;
+  (void)deck_moving(run->deck, AXES, axis);
+  scene_points_over(p, run->deck, AXES, axis);
+  p->chunk = chunk_of(p->n);
+  SCENE_COMPUTE(run, p, "parts of the map", .last = 1);
+  for (int i = 0; i < AXES; i++) scene_dimension(run, NULL, axis[i]);
+  scene_points_write(run, p);
+  scene_points_write_failed(run, p, "failed", "why there is no verdict");
+  if (scene_prints(run)) tabulate(run->table, &w);
+  return run->status;
 }
 
 static void describe(const deck *d, FILE *out)

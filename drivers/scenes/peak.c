@@ -13,12 +13,25 @@ static double free_error(double amplitude, double error)
   return fmax(free, pendres_free_frequency(fmax(0.0, amplitude - error)) - free);
 }
 
+/* Without a resonance. */
+static scene_peak no_peak(double at, pendres_status outcome)
+{
+  scene_peak p = {.at = at, .outcome = outcome, .kind = PENDRES_PEAK_COUNT};
+  p.resonance_frequency = p.resonance_frequency_error = NAN;
+  p.resonance_period = p.resonance_period_error = NAN;
+  p.mean_loop_area = p.mean_loop_area_error = NAN;
+  p.mean_loop_amplitude = p.mean_loop_amplitude_error = NAN;
+  p.mean_amplitude = p.mean_amplitude_error = p.phase_lag = p.phase_lag_error = NAN;
+  p.mean_power = p.mean_power_error = p.sa_fraction = p.sa_fraction_error = NAN;
+  p.free_frequency = p.free_frequency_error = p.fold_frequency = p.fold_frequency_error = NAN;
+  return p;
+}
+
 scene_peak scene_peak_of(double at, pendres_status outcome, const pendres_resonance *r)
 {
+  if (outcome != PENDRES_OK) return no_peak(at, outcome);
   const pendres_response *a = &r->response;
-  scene_peak p = {.at = at, .outcome = outcome, .uncertain = a->uncertain,
-                  .kind = outcome == PENDRES_OK ? (int)r->peak : PENDRES_PEAK_COUNT};
-  if (outcome != PENDRES_OK) return p;
+  scene_peak p = {.at = at, .outcome = outcome, .uncertain = a->uncertain, .kind = (int)r->peak};
   const double loop = a->mean_loop_amplitude, loop_error = a->mean_loop_amplitude_error;
   const double period = 2.0 * PENDRES_PI / r->frequency;
   p.resonance_frequency = r->frequency;
@@ -78,6 +91,7 @@ const char *scene_peak_names(int kind)
 
 const char *scene_peak_instead(const void *row)
 {
-  return ((const scene_peak *)row)->outcome == PENDRES_NOT_FOUND ? "no peak in the range"
-    : "failed";
+  const pendres_status outcome = ((const scene_peak *)row)->outcome;
+  if (outcome == PENDRES_OK) return NULL;
+  return outcome == PENDRES_NOT_FOUND ? "no peak in the range" : "failed";
 }

@@ -22,7 +22,7 @@ typedef struct scene_peak {
   pendres_status outcome;
 } scene_peak;
 
-/* Of what a search came to. */
+/* Of what a search came to; r is not looked at without a resonance, of which all is NaN. */
 scene_peak scene_peak_of(double at, pendres_status outcome, const pendres_resonance *r);
 
 /*
@@ -36,7 +36,7 @@ size_t scene_peak_printed(const deck *d, size_t n, const scene_peak *rows,
 /* The names of kinds, and "none". */
 const char *scene_peak_names(int kind);
 
-/* What a table says of a row without a resonance. */
+/* What a table says of a row without a resonance; NULL: it has one. */
 const char *scene_peak_instead(const void *row);
 
 #endif

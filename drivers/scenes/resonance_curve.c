@@ -8,19 +8,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scenes/check.h"
-#include "scenes/failed.h"
 #include "scenes/peak.h"
+#include "scenes/points.h"
 
 typedef struct curve {
   const deck *d;
   pendres_sweep sweep;
   pendres_ensemble ensemble;
-  deck_axis_id axis;         /* damping or another parameter */
-  size_t group;              /* points of a task */
-  scene_peak *points;        /* one a value of the axis */
-  int8_t *no_peak;           /* not 0: the point has none */
-  scene_failures failed;
+  deck_axis_id axis;    /* damping or another parameter */
+  scene_points points;  /* of scene_peak, one a value of the axis */
 } curve;
 
 static deck_axis_id axis_of(const deck *d)
@@ -55,81 +51,39 @@ static size_t group_of(size_t points)
   return group < 1 ? 1 : group < MOST ? group : MOST;
 }
 
-/* What a task finds of each of its points. */
-typedef struct record {
-  pendres_status outcome;
-  pendres_resonance point;
-  scene_verdict verdict;
-} record;
-
-static size_t points_of(const curve *c, size_t task)
+/* What a search has found. A pendulum whose area has no peak in the range is a point without a
+   result. */
+static pendres_status judge(const scene_some *some, size_t i, const pendres_resonance_search *s)
 {
-  const size_t left = c->d->axis[c->axis].count - task * c->group;
-  return left < c->group ? left : c->group;
+  const curve *c = some->of->arg;
+  scene_peak *peak = some->rows;
+  peak[i] = scene_peak_of(c->d->axis[c->axis].value[some->first + i], s->outcome, &s->resonance);
+  if (s->outcome == PENDRES_OK && !s->resonance.complete)
+    scene_mark(some, i, SCENE_FAILURE_BUDGET, NULL);
+  return scene_mark_status(some, i, s->outcome, s->message);
 }
 
-static pendres_status judge(record *r, const pendres_resonance_search *s, farm_record *out)
+/* Resonances next to each other. */
+static pendres_status compute(const scene_some *some)
 {
-  r->outcome = s->outcome;
-  r->point = s->resonance;
-  if (r->outcome == PENDRES_OK && !r->point.complete)
-    scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
-  /* A pendulum whose area has no peak in the range is a point without a result, not a failure. */
-  return scene_verdict_point(&r->verdict, r->outcome, s->message, out);
-}
-
-/* Look for n resonances next to each other, the first of which has the number `first`. */
-static pendres_status find(const curve *c, size_t first, size_t n, pendres_context *ctx,
-                           pendres_resonance_search *s, farm_record *out)
-{
-  scene_point_begin(out, c->d, first, n, 1, &c->axis);
-  for (size_t i = 0; i < n; i++) {
-    s[i].pendulum = pendres_sweep_pendulum(&c->sweep, first + i, NULL, NULL);
+  const curve *c = some->of->arg;
+  pendres_resonance_search *s = calloc(some->n, sizeof *s);
+  if (s == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < some->n; i++) {
+    s[i].pendulum = pendres_sweep_pendulum(&c->sweep, some->first + i, NULL, NULL);
     s[i].lowest = s[i].pendulum.drive_frequency = c->d->search[0];
     s[i].highest = c->d->search[1];
   }
-  return pendres_resonance_find_many(ctx, n, s, &c->ensemble);
-}
-
-static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
-{
-  const curve *c = arg;
-  record *r = out->data;
-  const size_t first = task * c->group, n = points_of(c, task);
-  pendres_resonance_search *s = calloc(n, sizeof *s);
-  if (s == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_status status = find(c, first, n, ctx, s, out);
-  const int over = farm_gave_up(out, status), alone = over && n > 1;
-  if (over) status = PENDRES_OK;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    if (alone) status = find(c, first + i, 1, ctx, &s[i], out);
-    if (status == PENDRES_OK || farm_gave_up(out, status)) status = judge(&r[i], &s[i], out);
-  }
+  pendres_status status = pendres_resonance_find_many(some->ctx, some->n, s, &c->ensemble);
+  for (size_t i = 0; i < some->n && status == PENDRES_OK; i++) status = judge(some, i, &s[i]);
   free(s);
   return status;
 }
 
-static int check(const void *arg, size_t task, const farm_record *in)
+static void leave_out(const scene_points *p, size_t point, void *row)
 {
-  const curve *c = arg;
-  const record *r = in->data;
-  int good = in->size == c->group * sizeof *r;
-  for (size_t i = 0; good && i < points_of(c, task); i++)
-    good = scene_check_resonance(&r[i].point, r[i].outcome) && scene_check_verdict(&r[i].verdict);
-  return good;
-}
-
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  curve *c = arg;
-  const record *r = in->data;
-  for (size_t i = 0; i < points_of(c, task); i++) {
-    const size_t point = task * c->group + i;
-    c->points[point] = scene_peak_of(c->d->axis[c->axis].value[point], r[i].outcome, &r[i].point);
-    c->no_peak[point] = r[i].outcome != PENDRES_OK;
-    scene_failures_take(&c->failed, point, &r[i].verdict);
-  }
-  return PENDRES_OK;
+  const curve *c = p->arg;
+  *(scene_peak *)row = scene_peak_of(c->d->axis[c->axis].value[point], PENDRES_INTERRUPTED, NULL);
 }
 
 /* ---- results ---- */
@@ -144,27 +98,16 @@ static const scene_column columns[] = {
   SCENE_COLUMN(scene_peak, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
   SCENE_COLUMN(scene_peak, mean_power, "mean power taken up from the drive", "1"),
   SCENE_COLUMN(scene_peak, sa_fraction, "share of the members on the small-amplitude state", "1"),
-};
-
-/* Of the plain pendulum. */
-static const scene_column free_frequency[] = {
-  SCENE_COLUMN(scene_peak, free_frequency,
-               "frequency of the free undamped pendulum of that loop amplitude", "1"),
-};
-
-static const scene_column more_columns[] = {
+  {.name = "free_frequency", .units = "1", .when = deck_is_plain,
+   .long_name = "frequency of the free undamped pendulum of that loop amplitude",
+   .value = offsetof(scene_peak, free_frequency),
+   .error = offsetof(scene_peak, free_frequency_error)},
   SCENE_COLUMN(scene_peak, fold_frequency, "drive frequency of the fold that makes the edge", "1"),
   SCENE_UNCERTAIN(scene_peak, uncertain),
   {.name = "peak", .long_name = "a smooth maximum, the largest value at a jump, or the largest "
                                 "found where jumps have no end",
    .type = SCENE_FLAG, .value = offsetof(scene_peak, kind), .names = scene_peak_names},
 };
-
-static scene_table table_of(const curve *c)
-{
-  return (scene_table){.dimensions = {deck_axis_name(c->axis)}, .n = c->d->axis[c->axis].count,
-                       .stride = sizeof *c->points, .rows = c->points, .missing = c->no_peak};
-}
 
 static void print_table(FILE *out, const curve *c)
 {
@@ -179,22 +122,8 @@ static void print_table(FILE *out, const curve *c)
     {.heading = "peak", .format = "%s", .type = SCENE_FLAG, .value = offsetof(scene_peak, kind),
      .names = scene_peak_names},
   };
-  const scene_table table = table_of(c);
+  const scene_table table = scene_points_table(&c->points, c->d);
   SCENE_PRINT(out, &table, 20, cells, scene_peak_instead);
-}
-
-static pendres_status write_results(scene_run *run, const curve *c)
-{
-  const scene_table table = table_of(c);
-  pendres_status status = scene_dimension_short(run, c->axis);
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, columns);
-  if (status == PENDRES_OK && deck_is_plain(c->d))
-    status = scene_columns_write(run, &table, 1, free_frequency);
-  if (status == PENDRES_OK)
-    status = SCENE_WRITE(run, &table, more_columns);
-  return status == PENDRES_OK
-           ? scene_failures_write(run, &c->failed, "failed", "resonance", 1, &c->axis)
-           : status;
 }
 
 /* ---- the paper's figures ---- */
@@ -210,13 +139,14 @@ static pendres_status turning_point(scene_run *run, const curve *c, pendres_reso
                                     int *there)
 {
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
+  const scene_peak *points = c->points.rows;
   size_t top = 0;
   *there = 0;
   for (size_t i = 1; i + 1 < axis->count; i++)
-    if (!c->no_peak[i] && (top == 0 || c->points[i].resonance_frequency >
-                                         c->points[top].resonance_frequency))
+    if (points[i].outcome == PENDRES_OK && (top == 0 || points[i].resonance_frequency >
+                                         points[top].resonance_frequency))
       top = i;
-  if (top == 0 || c->points[top].kind != PENDRES_PEAK_SMOOTH) return PENDRES_OK;
+  if (top == 0 || points[top].kind != PENDRES_PEAK_SMOOTH) return PENDRES_OK;
   pendres_context *ctx = scene_context(run);
   if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
   const pendres_pendulum near = {.damping = axis->value[top],
@@ -231,8 +161,9 @@ static pendres_status turning_point(scene_run *run, const curve *c, pendres_reso
 static int break_off(const curve *c, double *damping, double *error)
 {
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
+  const scene_peak *points = c->points.rows;
   for (size_t i = 0; i + 1 < axis->count; i++)
-    if (c->points[i].kind == PENDRES_PEAK_EDGE && c->points[i + 1].kind == PENDRES_PEAK_SMOOTH) {
+    if (points[i].kind == PENDRES_PEAK_EDGE && points[i + 1].kind == PENDRES_PEAK_SMOOTH) {
       *damping = 0.5 * (axis->value[i] + axis->value[i + 1]);
       *error = 0.5 * (axis->value[i + 1] - axis->value[i]);
       return 1;
@@ -246,7 +177,8 @@ static pendres_status write_paper(scene_run *run, const curve *c)
   scene_printed values[MOST];
   size_t n = 0;
   const double f0 = c->d->pendulum.drive_amplitude;
-  if (c->axis != DECK_AXIS_DAMPING || !deck_is_plain(c->d)) return PENDRES_OK;
+  if (!scene_going(run) || c->axis != DECK_AXIS_DAMPING || !deck_is_plain(c->d))
+    return run->status;
   for (size_t k = 0; k < sizeof printed_turns / sizeof printed_turns[0]; k++) {
     double damping, error;
     if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
@@ -260,7 +192,7 @@ static pendres_status write_paper(scene_run *run, const curve *c)
     if (break_off(c, &damping, &error))
       values[n++] = (scene_printed){"damping_of_break", printed_turns[k].break_off, damping, error};
   }
-  n += scene_peak_printed(c->d, c->d->axis[DECK_AXIS_DAMPING].count, c->points, values + n);
+  n += scene_peak_printed(c->d, c->points.n, c->points.rows, values + n);
   return n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
 }
 
@@ -269,31 +201,20 @@ static pendres_status run_scene(scene_run *run)
   curve c = {.d = run->deck,
              .sweep = scene_sweep(run->deck),
              .ensemble = scene_ensemble(run->deck),
-             .axis = axis_of(run->deck)};
+             .axis = axis_of(run->deck),
+             .points = {.size = sizeof(scene_peak), .compute = compute, .leave_out = leave_out,
+                        SCENE_COLUMNS(columns), .what = "resonance", .arg = &c}};
   const scene_parameter *of = scene_parameter_of(c.axis);
-  const size_t n = run->deck->axis[c.axis].count;
-  c.group = group_of(n);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  c.points = calloc(n, sizeof *c.points);
-  c.no_peak = calloc(n, 1);
-  if (c.points == NULL || c.no_peak == NULL || scene_failures_create(n, &c.failed) != PENDRES_OK) {
-    (void)scene_fail(run, status, "out of memory for %zu resonances", n);
-    goto done;
-  }
-  status = scene_compute(run, &(farm_stage){ .what = c.group > 1 ? of->groups : of->many,
-                                             .last = 1,
-                                             .tasks = (n + c.group - 1) / c.group,
-                                             .task = compute, .check = check, .collect = collect,
-                                             .record_size = c.group * sizeof(record),
-                                             .arg = &c });
-  if (status == PENDRES_OK) status = write_results(run, &c);
-  if (status == PENDRES_OK) status = write_paper(run, &c);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &c);
-done:
-  free(c.points);
-  free(c.no_peak);
-  scene_failures_free(&c.failed);
-  return status;
+  scene_points *p = &c.points;
+  scene_points_over(p, run->deck, 1, &c.axis);
+  p->chunk = group_of(p->n);
+  SCENE_COMPUTE(run, p, p->chunk > 1 ? of->groups : of->many, .last = 1);
+  scene_dimension_short(run, c.axis);
+  scene_points_write(run, p);
+  scene_points_write_failed(run, p, "failed", "why there is no whole result for the resonance");
+  write_paper(run, &c);
+  if (scene_prints(run)) print_table(run->table, &c);
+  return run->status;
 }
 
 const scene_kind scene_resonance_curve = {

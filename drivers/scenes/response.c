@@ -445,8 +445,8 @@ static pendres_status run_scene(scene_run *run)
   g.peaks = calloc(g.lines, sizeof *g.peaks);
   g.no_peak = calloc(g.lines, 1);
   if (g.peaks == NULL || g.no_peak == NULL ||
-      scene_failures_create(g.lines * g.values, &g.failed) != PENDRES_OK ||
-      scene_failures_create(g.lines, &g.peak_failed) != PENDRES_OK) {
+      scene_failures_create(run, g.lines * g.values, &g.failed) != PENDRES_OK ||
+      scene_failures_create(run, g.lines, &g.peak_failed) != PENDRES_OK) {
     (void)scene_fail(run, status, "out of memory for %zu points", g.lines * g.values);
     goto done;
   }
@@ -459,8 +459,6 @@ done:
   scene_temporary_free(&g.rows);
   free(g.peaks);
   free(g.no_peak);
-  scene_failures_free(&g.failed);
-  scene_failures_free(&g.peak_failed);
   return status;
 }
 

@@ -176,7 +176,7 @@ pendres_status scene_response_write_noise(scene_run *run, const scene_response_g
   const size_t n = w.temperatures * grid->dampings * grid->drives;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   w.points = calloc(n, sizeof *w.points);
-  if (w.points == NULL || scene_failures_create(n, &w.failed) != PENDRES_OK) {
+  if (w.points == NULL || scene_failures_create(run, n, &w.failed) != PENDRES_OK) {
     free(w.points);
     return scene_fail(run, status, "out of memory for %zu points", n);
   }
@@ -186,7 +186,6 @@ pendres_status scene_response_write_noise(scene_run *run, const scene_response_g
   if (status == PENDRES_OK) status = write_results(run, &w);
   if (status == PENDRES_OK) status = write_failed(run, &w);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
-  scene_failures_free(&w.failed);
   free(w.points);
   return status;
 }

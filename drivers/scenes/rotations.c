@@ -48,7 +48,7 @@ static row row_of(const pendres_pendulum *p)
 
 pendres_status scene_rotations_write(const scene_lines *l)
 {
-  row *rows = scene_rows(l->run, l->n, sizeof *rows);
+  row *rows = scene_array(l->run, l->n, sizeof *rows);
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < l->n; i++) {
     const pendres_pendulum p = scene_lines_pendulum(l, i);
@@ -58,6 +58,5 @@ pendres_status scene_rotations_write(const scene_lines *l)
     .dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])}, .prefix = "rotation",
     .n = l->n, .stride = sizeof *rows, .rows = rows};
   const pendres_status status = SCENE_WRITE(l->run, &table, columns);
-  free(rows);
   return status;
 }

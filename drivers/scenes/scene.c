@@ -3,6 +3,8 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,10 +57,21 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
 
 /* ---- failures ------------------------------------------------------------------------------ */
 
+int scene_going(const scene_run *run)
+{
+  return run->status == PENDRES_OK;
+}
+
+int scene_prints(const scene_run *run)
+{
+  return run->table != NULL && scene_going(run);
+}
+
 pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
 {
   va_list args;
-  if (run->message[0] != '\0') return status;
+  if (!scene_going(run)) return run->status;
+  run->status = status;
   va_start(args, format);
   (void)vsnprintf(run->message, sizeof run->message, format, args);
   va_end(args);
@@ -67,35 +80,83 @@ pendres_status scene_fail(scene_run *run, pendres_status status, const char *for
 
 pendres_status scene_stored(scene_run *run, pendres_status status)
 {
-  return status == PENDRES_OK ? status
-                              : scene_fail(run, status, "%s", pendres_store_message(run->store));
+  if (status != PENDRES_OK) (void)scene_fail(run, status, "%s", pendres_store_message(run->store));
+  return run->status;
 }
 
 pendres_context *scene_context(scene_run *run)
 {
-  pendres_context *ctx = farm_context(run->farm);
+  pendres_context *ctx = scene_going(run) ? farm_context(run->farm) : NULL;
   if (ctx == NULL) (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for a context");
   return ctx;
 }
 
 pendres_status scene_asked(scene_run *run, pendres_status status)
 {
-  if (status == PENDRES_OK) return status;
-  return scene_fail(run, status, "%s", pendres_context_message(farm_context(run->farm)));
-}
-
-void *scene_rows(scene_run *run, size_t n, size_t size)
-{
-  void *rows = calloc(n + 1, size);
-  if (rows == NULL)
-    (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
-  return rows;
+  if (status != PENDRES_OK)
+    (void)scene_fail(run, status, "%s", pendres_context_message(farm_context(run->farm)));
+  return run->status;
 }
 
 pendres_status scene_compute(scene_run *run, const farm_stage *stage)
 {
+  if (!scene_going(run)) return run->status;
   const pendres_status status = farm_run(run->farm, stage);
-  return status == PENDRES_OK ? status : scene_fail(run, status, "%s", farm_message(run->farm));
+  return status == PENDRES_OK ? run->status : scene_fail(run, status, "%s",
+                                                         farm_message(run->farm));
+}
+
+pendres_status scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
+                         size_t n)
+{
+  if (!scene_going(run)) return run->status;
+  return scene_stored(run, pendres_store_put(run->store, spec, values, n));
+}
+
+pendres_status scene_put_result(scene_run *run, const pendres_store_spec *spec,
+                                const double *values, const double *errors, size_t n)
+{
+  if (!scene_going(run)) return run->status;
+  return scene_stored(run, pendres_store_put_result(run->store, spec, values, errors, n));
+}
+
+pendres_status scene_put_dimension(scene_run *run, const pendres_store_spec *spec,
+                                   const void *values, size_t n)
+{
+  if (!scene_going(run)) return run->status;
+  return scene_stored(run, pendres_store_dimension(run->store, spec, n, values));
+}
+
+/* ---- arrays -------------------------------------------------------------------------------- */
+
+/* Before the elements of an array, which are aligned as those of malloc are. */
+typedef struct scene_held {
+  struct scene_held *next;
+  max_align_t elements[];
+} scene_held;
+
+void *scene_array(scene_run *run, size_t n, size_t size)
+{
+  if (!scene_going(run)) return NULL;
+  const size_t head = sizeof(scene_held);
+  scene_held *held = size == 0 || n < (SIZE_MAX - head) / size ? calloc(1, head + (n + 1) * size)
+                                                               : NULL;
+  if (held == NULL) {
+    (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+    return NULL;
+  }
+  held->next = run->held;
+  run->held = held;
+  return held->elements;
+}
+
+void scene_end(scene_run *run)
+{
+  while (run->held != NULL) {
+    scene_held *next = run->held->next;
+    free(run->held);
+    run->held = next;
+  }
 }
 
 /* ---- axes, fixed parameters and ensembles -------------------------------------------------- */
@@ -143,10 +204,9 @@ static pendres_status write_dimension(scene_run *run, const char *group, deck_ax
                                       const char *words)
 {
   const deck_axis *a = &run->deck->axis[axis];
-  return scene_stored(run, pendres_store_dimension(
-    run->store,
-    &(pendres_store_spec){.group = group, .name = deck_axis_name(axis), .long_name = words,
-                          .units = about[axis].units}, a->count, a->value));
+  return scene_put_dimension(
+    run, &(pendres_store_spec){.group = group, .name = deck_axis_name(axis), .long_name = words,
+                               .units = about[axis].units}, a->value, a->count);
 }
 
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
@@ -164,8 +224,7 @@ pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis)
 
 pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words)
 {
-  return scene_stored(run, pendres_store_dimension(
-    run->store, &(pendres_store_spec){.name = name, .long_name = words}, n, NULL));
+  return scene_put_dimension(run, &(pendres_store_spec){.name = name, .long_name = words}, NULL, n);
 }
 
 void scene_plane(const deck *d, deck_axis_id axis[2])

@@ -27,7 +27,9 @@ typedef struct scene_run {
   size_t failed_points; /* points without a result (marked in the file): exit code 3 */
   char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines about the first of them, see failed.h */
   size_t told_count;
-  char message[512];    /* why run() failed */
+  pendres_status status; /* the first failure; nothing is computed or written any more after it */
+  char message[512];     /* what it was */
+  struct scene_held *held; /* see scene_array() */
 } scene_run;
 
 /*
@@ -58,24 +60,46 @@ const scene_kind *scene_find(deck_kind kind);
    more than the library can do. */
 pendres_status scene_precision(const deck *d, pendres_options *out, const char **why);
 
-/* Record why a scene failed, unless an earlier failure is on record; returns the status. Not for
-   tasks on threads: what they report comes from their context. */
+/*
+ * A scene goes on until something fails. What fails is on record in the run, and the functions of
+ * this folder that take one do nothing from then on: so their callers need not ask after each.
+ * All of them return the status of the run.
+ */
+int scene_going(const scene_run *run);
+
+/* Whether the short table is to be printed: it is wanted, and nothing has failed. */
+int scene_prints(const scene_run *run);
+
+/* Record a failure, unless an earlier one is on record. Not for tasks on threads: what they report
+   comes from their context. */
 pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Of what the store was asked for: its own words, if it has failed. Returns the status. */
+/* Of what the store was asked for: its own words, if it has failed. */
 pendres_status scene_stored(scene_run *run, pendres_status status);
 
 /* The context for work outside of tasks, and the status of such work: its words, if it has failed.
-   NULL without memory, which is on record then. */
+   NULL if something has. */
 pendres_context *scene_context(scene_run *run);
 pendres_status scene_asked(scene_run *run, pendres_status status);
 
-/* Room for n rows of results, to be freed; NULL without memory, which is on record then. */
-void *scene_rows(scene_run *run, size_t n, size_t size);
+/* Room for n elements, all zero, that lasts until scene_end(): not for tasks on threads. NULL
+   without memory, which is on record then, or if something has failed before. */
+void *scene_array(scene_run *run, size_t n, size_t size);
+
+/* Let go of all arrays of a run. */
+void scene_end(scene_run *run);
 
 /* Run a stage on the run's farm; on failure the run has the farm's words. */
 pendres_status scene_compute(scene_run *run, const farm_stage *stage);
+
+/* Write a variable, or a dimension of n values (NULL: numbers from 0 on); see pendres/store.h. */
+pendres_status scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
+                         size_t n);
+pendres_status scene_put_result(scene_run *run, const pendres_store_spec *spec,
+                                const double *values, const double *errors, size_t n);
+pendres_status scene_put_dimension(scene_run *run, const pendres_store_spec *spec,
+                                   const void *values, size_t n);
 
 /* An axis of the deck as a dimension of a group, with its usual name, words and units. */
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);

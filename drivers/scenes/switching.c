@@ -236,8 +236,8 @@ static pendres_status compute(scene_run *run, work *w)
   w->sums = calloc(w->temperatures, sizeof *w->sums);
   w->rates = calloc(w->temperatures, sizeof *w->rates);
   if (w->sums == NULL || w->rates == NULL ||
-      scene_failures_create(STATES, &w->choices) != PENDRES_OK ||
-      scene_failures_create(w->temperatures, &w->failed) != PENDRES_OK)
+      scene_failures_create(run, STATES, &w->choices) != PENDRES_OK ||
+      scene_failures_create(run, w->temperatures, &w->failed) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu temperatures",
                       w->temperatures);
   pendres_status status =
@@ -430,13 +430,12 @@ static pendres_status print_table(scene_run *run, const work *w)
     SCENE_CELL(line, rate.events, "events", "%.0f"),
   };
   const size_t n = (size_t)w->told * w->temperatures;
-  line *rows = scene_rows(run, n, sizeof *rows);
+  line *rows = scene_array(run, n, sizeof *rows);
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++)
     rows[i] = line_of(w, w->way[i / w->temperatures], i % w->temperatures);
   SCENE_PRINT(run->table, &table, n, cells, NULL);
-  free(rows);
   for (int i = 0; i < w->ways; i++) {
     const pendres_switching_way k = w->way[i];
     const pendres_switching_activation *f = &w->activation[k];
@@ -456,8 +455,6 @@ static pendres_status run_scene(scene_run *run)
   if (status == PENDRES_OK) status = write_results(run, &w);
   if (status == PENDRES_OK && run->table != NULL) status = print_table(run, &w);
   pendres_attractors_free(w.set);
-  scene_failures_free(&w.choices);
-  scene_failures_free(&w.failed);
   free(w.sums);
   free(w.rates);
   return status;

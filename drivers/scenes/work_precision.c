@@ -325,7 +325,7 @@ static void print_table(FILE *out, const work *w, const scene_table *contests)
 static pendres_status tell(scene_run *run, const work *w)
 {
   const size_t n = w->methods * w->tolerances;
-  row *rows = scene_rows(run, n, sizeof *rows);
+  row *rows = scene_array(run, n, sizeof *rows);
   const scene_table contests = {.dimensions = {"method", "tolerance"}, .n = n,
                                 .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -335,7 +335,6 @@ static pendres_status tell(scene_run *run, const work *w)
   }
   const pendres_status status = write_results(run, w, &contests);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, w, &contests);
-  free(rows);
   return status;
 }
 

@@ -1,0 +1,277 @@
+/* points.c -- the points of a scene, some at a time; see points.h. */
+#include "scenes/points.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "system/grow.h"
+
+/* Of a point that has failed, behind the records of a task's points. */
+typedef struct mark {
+  uint64_t point; /* of the task */
+  int32_t reason; /* a scene_failure */
+  char words[SCENE_TOLD];
+} mark;
+
+struct scene_marks {
+  mark *list;
+  size_t count, room;
+  int full; /* there was no memory for one */
+};
+
+/* The points of a stage. */
+typedef struct stage_points {
+  scene_run *run;
+  scene_points *const *points;
+} stage_points;
+
+/* Points of a task: of which kind, number of the first, and how many. */
+typedef struct part {
+  scene_points *of;
+  size_t first, n;
+} part;
+
+static size_t tasks_of(const scene_points *p)
+{
+  return (p->n + p->chunk - 1) / p->chunk;
+}
+
+static part part_of(const stage_points *s, size_t task)
+{
+  size_t k = 0;
+  for (; task >= tasks_of(s->points[k]); k++) task -= tasks_of(s->points[k]);
+  scene_points *p = s->points[k];
+  const size_t first = task * p->chunk, left = p->n - first;
+  return (part){p, first, left < p->chunk ? left : p->chunk};
+}
+
+/* ---- computing ----------------------------------------------------------------------------- */
+
+static void add_mark(struct scene_marks *m, size_t point, scene_failure reason, const char *words)
+{
+  if (!grow_to(&m->list, m->count + 1, &m->room, sizeof *m->list)) {
+    m->full = 1;
+    return;
+  }
+  mark *to = &m->list[m->count++];
+  *to = (mark){.point = point, .reason = (int32_t)reason};
+  snprintf(to->words, sizeof to->words, "%s", words != NULL ? words : "");
+}
+
+void scene_mark(const scene_some *some, size_t i, scene_failure reason, const char *words)
+{
+  add_mark(some->marks, some->first + i, reason, words);
+}
+
+pendres_status scene_mark_status(const scene_some *some, size_t i, pendres_status status,
+                                 const char *words)
+{
+  const scene_failure reason = scene_failure_of(status);
+  if (reason == SCENE_FAILURE_NONE) return status;
+  scene_mark(some, i, reason, words);
+  return PENDRES_OK;
+}
+
+static void name_point(const scene_run *run, const scene_points *p, size_t point, char *text,
+                       size_t size)
+{
+  if (p->name != NULL) {
+    p->name(p, point, text, size);
+    return;
+  }
+  const int used = p->what != NULL ? snprintf(text, size, "%s at ", p->what) : 0;
+  scene_point_name(run->deck, point, p->axes, p->axis, text + used, size - (size_t)used);
+}
+
+/* A task under way. */
+typedef struct work {
+  const scene_run *run;
+  const scene_points *p;
+  pendres_context *ctx;
+  farm_record *out;
+  struct scene_marks marks;
+} work;
+
+static void begin(const work *w, size_t first, size_t n)
+{
+  char name[SCENE_TOLD], more[40] = "";
+  if (w->p->axes == 0 && w->p->name == NULL) return;
+  name_point(w->run, w->p, first, name, sizeof name);
+  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
+  farm_point(w->out, scene_find(w->run->deck->kind)->budget ? n : 0, "%s%s", name, more);
+}
+
+/* Whether one of the points is left out. */
+static int too_long(const scene_points *p, size_t first, size_t n, char *words, size_t size)
+{
+  int any = 0;
+  for (size_t i = first; i < first + n && p->too_long != NULL && !any; i++)
+    any = p->too_long(p, i, words, size);
+  return any;
+}
+
+/* Compute points and say why that fails; *status: what it ends with where the reason is none of the
+   points'. */
+static scene_failure attempt(work *w, size_t first, size_t n, void *rows, char words[SCENE_TOLD],
+                             pendres_status *status)
+{
+  const scene_some some = {w->p, w->ctx, first, n, rows, &w->marks};
+  *status = PENDRES_OK;
+  if (too_long(w->p, first, n, words, SCENE_TOLD)) return SCENE_FAILURE_TOO_LONG;
+  begin(w, first, n);
+  *status = w->p->compute(&some);
+  if (farm_gave_up(w->out, *status)) {
+    if (n == 1) farm_lost(w->out, words, SCENE_TOLD);
+    return SCENE_FAILURE_OUT_OF_TIME;
+  }
+  const scene_failure reason = scene_failure_of(*status);
+  if (reason != SCENE_FAILURE_NONE)
+    snprintf(words, SCENE_TOLD, "%s", pendres_context_message(w->ctx));
+  return reason;
+}
+
+static pendres_status find(work *w, size_t first, size_t n, char *rows)
+{
+  char words[SCENE_TOLD] = "";
+  const size_t before = w->marks.count, half = n / 2;
+  pendres_status status;
+  const scene_failure reason = attempt(w, first, n, rows, words, &status);
+  if (reason == SCENE_FAILURE_NONE) return status;
+  w->marks.count = before;
+  memset(rows, 0, n * w->p->size);
+  if (n > 1) {
+    status = find(w, first, half, rows);
+    return status == PENDRES_OK ? find(w, first + half, n - half, rows + half * w->p->size)
+                                : status;
+  }
+  if (w->p->leave_out != NULL) w->p->leave_out(w->p, first, rows);
+  add_mark(&w->marks, first, reason, w->p->words == NULL ? words : NULL);
+  return PENDRES_OK;
+}
+
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const stage_points *s = arg;
+  const part t = part_of(s, task);
+  const size_t bytes = t.n * t.of->size;
+  work w = {.run = s->run, .p = t.of, .ctx = ctx, .out = out};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (farm_record_resize(out, bytes) != NULL) status = find(&w, t.first, t.n, out->data);
+  const size_t more = w.marks.count * sizeof *w.marks.list;
+  if (status == PENDRES_OK && (w.marks.full || farm_record_resize(out, bytes + more) == NULL))
+    status = PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK && more > 0) memcpy((char *)out->data + bytes, w.marks.list, more);
+  free(w.marks.list);
+  return status;
+}
+
+/* ---- records ------------------------------------------------------------------------------- */
+
+/* Number k of the marks behind the records of a task; 0: there are no more. */
+static int mark_at(const part *t, const farm_record *in, size_t k, mark *out)
+{
+  const size_t at = t->n * t->of->size + k * sizeof *out;
+  if (at >= in->size) return 0;
+  memcpy(out, (const char *)in->data + at, sizeof *out);
+  return 1;
+}
+
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const part t = part_of(arg, task);
+  const scene_points *p = t.of;
+  const size_t bytes = t.n * p->size;
+  mark m;
+  if (in->size < bytes || (in->size - bytes) % sizeof m != 0) return 0;
+  for (size_t k = 0; mark_at(&t, in, k, &m); k++)
+    if (m.point < t.first || m.point >= t.first + t.n || m.reason < 0 ||
+        m.reason >= SCENE_FAILURE_COUNT || memchr(m.words, '\0', sizeof m.words) == NULL)
+      return 0;
+  if (p->check != NULL) return p->check(p, t.first, t.n, in->data);
+  for (size_t i = 0; i < t.n; i++)
+    if (!scene_columns_fit(p->column_count, p->columns, (const char *)in->data + i * p->size))
+      return 0;
+  return 1;
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  const part t = part_of(arg, task);
+  scene_points *p = t.of;
+  mark m;
+  for (size_t k = 0; mark_at(&t, in, k, &m); k++)
+    scene_failures_mark(&p->failed, m.point, (scene_failure)m.reason, m.words);
+  if (p->collect != NULL) return p->collect(p, t.first, t.n, in->data);
+  memcpy((char *)p->rows + t.first * p->size, in->data, t.n * p->size);
+  return PENDRES_OK;
+}
+
+pendres_status scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
+                                    scene_points *const *points)
+{
+  stage_points s = {run, points};
+  farm_stage whole = *stage;
+  for (size_t k = 0; k < count; k++) {
+    scene_points *p = points[k];
+    if (p->collect == NULL) p->rows = scene_array(run, p->n, p->size);
+    scene_failures_create(run, p->n, &p->failed);
+    whole.tasks += tasks_of(p);
+  }
+  whole.record_size = points[0]->size;
+  whole.task = compute;
+  whole.check = check;
+  whole.collect = collect;
+  whole.arg = &s;
+  return scene_compute(run, &whole);
+}
+
+/* ---- what has come of it ------------------------------------------------------------------- */
+
+void scene_points_over(scene_points *p, const deck *d, int axes, const deck_axis_id *axis)
+{
+  p->axes = axes;
+  p->n = 1;
+  for (int i = 0; i < axes; i++) {
+    p->axis[i] = axis[i];
+    p->n *= d->axis[axis[i]].count;
+  }
+}
+
+void scene_points_tell(scene_run *run, const scene_points *p)
+{
+  char name[SCENE_TOLD];
+  for (size_t i = 0; i < p->n && scene_going(run); i++) {
+    const scene_failure reason = (scene_failure)p->failed.reason[i];
+    const char *words = p->failed.words[i];
+    if (reason == SCENE_FAILURE_NONE) continue;
+    if (words == NULL && p->words != NULL) words = p->words(reason);
+    name_point(run, p, i, name, sizeof name);
+    run->failed_points++;
+    scene_failure_tell(run, reason, words, "%s", name);
+  }
+}
+
+pendres_status scene_points_write_failed(scene_run *run, const scene_points *p, const char *name,
+                                         const char *long_name)
+{
+  pendres_store_spec spec = {.name = name, .long_name = long_name};
+  scene_failure_flags(&spec);
+  for (int i = 0; i < p->axes; i++) spec.dimensions[i] = deck_axis_name(p->axis[i]);
+  scene_put(run, &spec, p->failed.reason, p->n);
+  scene_points_tell(run, p);
+  return run->status;
+}
+
+scene_table scene_points_table(const scene_points *p, const deck *d)
+{
+  scene_table table = {.n = p->n, .stride = p->size, .rows = p->rows,
+                       .first = d->axis[p->axis[0]].count};
+  for (int i = 0; i < p->axes; i++) table.dimensions[i] = deck_axis_name(p->axis[i]);
+  return table;
+}
+
+pendres_status scene_points_write(scene_run *run, const scene_points *p)
+{
+  const scene_table table = scene_points_table(p, run->deck);
+  return scene_columns_write(run, &table, p->column_count, p->columns);
+}
