@@ -16,7 +16,7 @@ drivers_layers='system terminal farm validation deck scenes .'
 
 # Doors: the headers of a folder that other folders may include.
 src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h base/turns.h
-  model/forces.h model/model.h model/units.h
+  model/forces.h model/model.h model/parameter.h model/units.h
   engine/accuracy.h engine/context_internal.h engine/door.h engine/coordinates.h engine/rank.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/linear.h orbits/label.h orbits/orbit_error.h

@@ -94,6 +94,7 @@ static void parameters(void **state)
   pendres_pendulum p = good;
   (void)state;
   assert_null(pendres_parameter_name(PENDRES_PARAMETER_COUNT));
+  assert_null(pendres_parameter_of(PENDRES_PARAMETER_COUNT));
   assert_null(pendres_special_name(PENDRES_SPECIAL_COUNT));
   assert_true(isnan(pendres_parameter_get(PENDRES_DAMPING, NULL)));
   assert_true(isnan(pendres_parameter_get((pendres_parameter)-1, &p)));

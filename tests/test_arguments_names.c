@@ -13,7 +13,7 @@
 #include <pendres/pendres.h>
 #include <pendres/store.h>
 
-enum { MOST_NAMES = 12 };
+enum { MOST_NAMES = 16 };
 
 /* NAME(short, call): the name of an int. */
 #define NAME(short, call) static const char *short(int value) { return call; }
@@ -32,7 +32,6 @@ NAME(method, pendres_method_name((pendres_method)value))
 NAME(other, pendres_other_name((pendres_other)value))
 NAME(parameter, pendres_parameter_name((pendres_parameter)value))
 NAME(peak, pendres_peak_name((pendres_peak)value))
-NAME(quantity, pendres_quantity_name((pendres_quantity)value))
 NAME(regime, pendres_regime_name((pendres_regime)value))
 NAME(special, pendres_special_name((pendres_special)value))
 NAME(store_type, pendres_store_type_name((pendres_store_type)value))
@@ -69,11 +68,8 @@ static const struct {
   {"other", other, 0, {"asymmetric", "periodic", "running", "chaotic", "unresolved"}},
   {"parameter", parameter, PENDRES_PARAMETER_COUNT,
    {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2",
-    "a3", "a4", "a5"}},
+    "a3", "a4", "a5", "drive_period", "temperature", "x", "v"}},
   {"peak", peak, PENDRES_PEAK_COUNT, {"smooth", "edge", "ragged"}},
-  {"quantity", quantity, PENDRES_QUANTITY_COUNT,
-   {"damping", "drive_amplitude", "drive_frequency", "drive_period", "temperature", "x", "v",
-    "torque", "parametric_amplitude"}},
   {"regime", regime, PENDRES_REGIME_COUNT, {"sa", "la", "coexistence", "single", "other"}},
   {"special", special, PENDRES_SPECIAL_COUNT,
    {"regular", "fold", "period_doubling", "symmetry_breaking", "branch_point"}},

@@ -225,17 +225,17 @@ static void sweeps(void **state)
   assert_true(isnan(pendres_sweep_pendulum(&sweep, 0, NULL, NULL).damping));
   sweep.axes = 1;
   const pendres_axis no_axes[] = {
-    { .quantity = PENDRES_QUANTITY_X, .count = 0, .value = list },
-    { .quantity = PENDRES_QUANTITY_X, .count = 1, .value = NULL },
-    { .quantity = (pendres_quantity)-1, .count = 1, .value = list },
-    { .quantity = PENDRES_QUANTITY_X, .count = 1, .value = list } }; /* but one value */
+    { .parameter = PENDRES_X, .count = 0, .value = list },
+    { .parameter = PENDRES_X, .count = 1, .value = NULL },
+    { .parameter = (pendres_parameter)-1, .count = 1, .value = list },
+    { .parameter = PENDRES_X, .count = 1, .value = list } }; /* but one value */
   for (size_t i = 0; i < COUNT(no_axes); i++) {
     sweep.axis[0] = no_axes[i];
     assert_true(isnan(pendres_sweep_pendulum(&sweep, 1, &x, &v).damping) && isnan(x) && isnan(v));
   }
-  sweep.axis[0] = (pendres_axis){ .quantity = PENDRES_QUANTITY_COUNT, .count = 1, .value = list };
+  sweep.axis[0] = (pendres_axis){ .parameter = PENDRES_PARAMETER_COUNT, .count = 1, .value = list };
   INVALID(pendres_sweep_count(&sweep, &count));
-  sweep.axis[0] = (pendres_axis){ .quantity = PENDRES_QUANTITY_X, .count = 1, .value = NULL };
+  sweep.axis[0] = (pendres_axis){ .parameter = PENDRES_X, .count = 1, .value = NULL };
   INVALID(pendres_sweep_count(&sweep, &count));
   assert_true(isnan(pendres_ensemble_x(NULL, 1)));
   pendres_ensemble_start(NULL, 1, &x, &v);

@@ -150,7 +150,7 @@ static void equilibria_cross(void **state)
                               .force_coefficients = {0.2, 1.0}};
   const pendres_orbit rest = orbit_near(ctx, &p, 0.0, 0.0);
   (void)state;
-  pendres_branch *b = followed(ctx, &rest, PENDRES_FORCE_COEFFICIENT_1, -0.3, 0.3);
+  pendres_branch *b = followed(ctx, &rest, PENDRES_A1, -0.3, 0.3);
   const pendres_bifurcation *at = only(b, PENDRES_BRANCH_POINT);
   assert_non_null(at);
   check_near(at->value, 0.0, at->value_error);
@@ -176,7 +176,7 @@ static void coefficient_that_vanishes(void **state)
                           .force = PENDRES_FORCE_POLYNOMIAL,
                           .force_coefficients = {from[k % 2], !cubic, cubic}};
     const pendres_orbit rest = orbit_near(ctx, &p, 0.0, 0.0);
-    pendres_branch *b = followed(ctx, &rest, PENDRES_FORCE_COEFFICIENT_1, -0.3, 0.3);
+    pendres_branch *b = followed(ctx, &rest, PENDRES_A1, -0.3, 0.3);
     assert_int_equal(pendres_branch_bifurcations(b), 1);
     const pendres_bifurcation *at = pendres_branch_bifurcation(b, 0);
     assert_int_equal(at->kind, cubic ? PENDRES_SYMMETRY_BREAKING : PENDRES_BRANCH_POINT);
@@ -186,7 +186,7 @@ static void coefficient_that_vanishes(void **state)
     const double a1 = other.pendulum.force_coefficients[0];
     if (cubic) check_near(other.x * other.x, -a1, 4.0 * fabs(other.x) * other.x_error);
     else check_near(other.x, -a1, other.x_error);
-    pendres_branch *second = followed(ctx, &other, PENDRES_FORCE_COEFFICIENT_1, -0.3, 0.3);
+    pendres_branch *second = followed(ctx, &other, PENDRES_A1, -0.3, 0.3);
     double lowest = INFINITY, highest = -INFINITY;
     for (size_t i = 0; i < pendres_branch_count(second); i++) {
       const pendres_orbit *o = &pendres_branch_get(second, i)->orbit;

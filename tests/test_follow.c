@@ -35,7 +35,7 @@ static long double *field_of(oracle *o, pendres_parameter parameter)
   case PENDRES_DRIVE_AMPLITUDE: return &o->drive;
   case PENDRES_TORQUE: return &o->torque;
   case PENDRES_PARAMETRIC_AMPLITUDE: return &o->b;
-  default: return &o->a[parameter - PENDRES_FORCE_COEFFICIENT_1];
+  default: return &o->a[parameter - PENDRES_A1];
   }
 }
 
@@ -100,15 +100,15 @@ static void oscillators(void **state)
   {.damping = 0.1, .drive_amplitude = 0.3, .drive_frequency = 0.8,         \
    .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.1}}
     {RING, PENDRES_DRIVE_FREQUENCY, 0.5, 1.2, 1},
-    {RING, PENDRES_FORCE_COEFFICIENT_1, 0.02, 0.8, 2},
+    {RING, PENDRES_A1, 0.02, 0.8, 2},
     {DUFFING, PENDRES_DRIVE_FREQUENCY, 1.3, 2.22, 2},
     {DUFFING, PENDRES_DRIVE_AMPLITUDE, 0.05, 0.6, 2},
     {DUFFING, PENDRES_PARAMETRIC_AMPLITUDE, 0.0, 0.8, 1},
-    {DUFFING, PENDRES_FORCE_COEFFICIENT_3, 0.05, 1.1, 2},
-    {DUFFING, PENDRES_FORCE_COEFFICIENT_4, -0.6, 0.1, 1},
+    {DUFFING, PENDRES_A3, 0.05, 1.1, 2},
+    {DUFFING, PENDRES_A4, -0.6, 0.1, 1},
     {HELMHOLTZ, PENDRES_DRIVE_FREQUENCY, 0.7, 1.0, 1},
     {HELMHOLTZ, PENDRES_TORQUE, -0.1, 0.3, 5},
-    {HELMHOLTZ, PENDRES_FORCE_COEFFICIENT_1, 0.8, 1.2, 2},
+    {HELMHOLTZ, PENDRES_A1, 0.8, 1.2, 2},
   };
   pendres_context *ctx = context(1e-10);
   (void)state;
@@ -366,7 +366,7 @@ static void refusals(void **state)
   const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 1.0, .drive_frequency = 1.6};
   pendres_orbit o = settled(ctx, &p);
   pendres_branch_options options = {
-    .parameter = PENDRES_FORCE_COEFFICIENT_1, .low = 0.0, .high = 1.0};
+    .parameter = PENDRES_A1, .low = 0.0, .high = 1.0};
   pendres_branch *b = NULL;
   pendres_fold fold;
   (void)state;

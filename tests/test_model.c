@@ -10,6 +10,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/flow.h"
+#include "model/parameter.h"
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
 
@@ -153,32 +154,36 @@ static void blocks(void **state)
    third derivatives of order ten. */
 static void tangents(void **state)
 {
-  enum { MOST_COLUMNS = 2 + 5 + PENDRES_FORCE_COEFFICIENTS };
   static const pendres_pendulum cases[] = {
     {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.1},
     {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.1, .torque = 0.3,
      .parametric_amplitude = 0.6},
     {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.1, .torque = 0.3,
      .parametric_amplitude = 0.6, .force = PENDRES_FORCE_POLYNOMIAL,
-     .force_coefficients = {0.7, 0.3, 0.4, 0.1, 0.05}}};
+     .force_coefficients = {0.7, 0.3, 0.4, 0.1, 0.05}},
+    {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.1, .torque = 0.3,
+     .parametric_amplitude = 0.6, .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.4}}};
   const double step = 1e-4;
   pendres_context *ctx = context(1e-8);
   (void)state;
   for (size_t i = 0; i < COUNT(cases); i++) {
     pendres_flow *flow = NULL;
-    const int polynomial = cases[i].force == PENDRES_FORCE_POLYNOMIAL;
-    const int columns = polynomial ? MOST_COLUMNS : 7, runs = 2 * columns;
-    check_ok(pendres_context_flow(ctx, polynomial ? PENDRES_FLOW_ALL : PENDRES_FLOW_DRIVES, &flow));
+    const int own = cases[i].force != PENDRES_FORCE_PENDULUM;
+    int columns = 2;
+    while (columns < 2 + PENDRES_PARAMETER_FOLLOWED &&
+           pendres_parameter_refuses((pendres_parameter)(columns - 2), cases[i].force) == NULL)
+      columns++;
+    const int runs = 2 * columns;
+    check_ok(pendres_context_flow(ctx, own ? PENDRES_FLOW_ALL : PENDRES_FLOW_DRIVES, &flow));
     pendres_flow_clear(flow);
     check_ok(pendres_flow_set_steps(flow, 60));
     pendres_flow_resize(flow, (size_t)runs + 1);
     for (int k = 0; k <= runs; k++) {
       pendres_pendulum p = cases[i];
       const double sign = k % 2 == 0 ? step : -step;
-      double *const by[] = {&p.drive_frequency, &p.damping, &p.drive_amplitude, &p.torque,
-                            &p.parametric_amplitude};
-      double *const a = p.force_coefficients;
-      if (k >= 4 && k < runs) *(k < 14 ? by[(k - 4) / 2] : &a[(k - 14) / 2]) += sign;
+      const pendres_parameter by = (pendres_parameter)((k - 4) / 2);
+      if (k >= 4 && k < runs)
+        pendres_parameter_set(by, pendres_parameter_get(by, &p) + sign, &p);
       pendres_flow_set_lane(flow, (size_t)k, &p, 0.3 + (k < 2 ? sign : 0.0),
                             0.2 + (k == 2 || k == 3 ? sign : 0.0));
     }

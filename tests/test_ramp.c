@@ -115,7 +115,7 @@ static void trajectories(void **state)
     double from, to;
   } cases[] = {{PENDRES_DRIVE_FREQUENCY, 0.6, 1.0}, {PENDRES_DRIVE_AMPLITUDE, 0.1, 0.4},
                {PENDRES_DAMPING, 0.4, 0.1}, {PENDRES_TORQUE, 0.0, 0.4},
-               {PENDRES_PARAMETRIC_AMPLITUDE, 0.0, 0.5}, {PENDRES_FORCE_COEFFICIENT_3, 0.1, 0.6}};
+               {PENDRES_PARAMETRIC_AMPLITUDE, 0.0, 0.5}, {PENDRES_A3, 0.1, 0.6}};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     double x[PERIODS + 1], v[PERIODS + 1], dx[PERIODS + 1], dv[PERIODS + 1], largest = 0.0;
     const pendres_ramp_record record = {.every = 1, .x = x, .v = v, .x_error = dx, .v_error = dv};
@@ -125,7 +125,7 @@ static void trajectories(void **state)
     const pendres_hysteresis_point start = {.value = value[0], .x = 1.2, .v = 0.1};
     pendres_ramp r = {.pendulum = plain, .parameter = cases[k].parameter, .corners = 2,
                       .period = period, .value = value, .points = 1, .point = &start};
-    if (r.parameter == PENDRES_FORCE_COEFFICIENT_3) {
+    if (r.parameter == PENDRES_A3) {
       r.pendulum.force = PENDRES_FORCE_POLYNOMIAL;
       r.pendulum.force_coefficients[0] = 1.0;
     }

@@ -116,9 +116,9 @@ static pendres_sweep three_axes(void)
                          .x = 5.0,
                          .v = 0.25,
                          .axes = 3,
-                         .axis = {{PENDRES_QUANTITY_DAMPING, 2, dampings},
-                                  {PENDRES_QUANTITY_DRIVE_PERIOD, 3, periods},
-                                  {PENDRES_QUANTITY_X, 2, starts}}};
+                         .axis = {{PENDRES_DAMPING, 2, dampings},
+                                  {PENDRES_DRIVE_PERIOD, 3, periods},
+                                  {PENDRES_X, 2, starts}}};
 }
 
 static void last_axis_runs_fastest(void **state)
@@ -144,19 +144,19 @@ static void every_quantity_has_its_place(void **state)
 {
   (void)state;
   const double half = 0.5;
-  for (int q = 0; q < PENDRES_QUANTITY_COUNT; q++) {
-    const pendres_sweep s = {.axes = 1, .axis = {{(pendres_quantity)q, 1, &half}}};
+  for (int q = 0; q < PENDRES_PARAMETER_COUNT; q++) {
+    const pendres_sweep s = {.axes = 1, .axis = {{(pendres_parameter)q, 1, &half}}};
     double x, v;
     const pendres_pendulum p = pendres_sweep_pendulum(&s, 0, &x, &v);
-    const int by_period = q == PENDRES_QUANTITY_DRIVE_PERIOD;
-    assert_true(p.damping == (q == PENDRES_QUANTITY_DAMPING ? half : 0.0));
-    assert_true(p.drive_amplitude == (q == PENDRES_QUANTITY_DRIVE_AMPLITUDE ? half : 0.0));
-    assert_true(p.drive_frequency == (q == PENDRES_QUANTITY_DRIVE_FREQUENCY ? half
+    const int by_period = q == PENDRES_DRIVE_PERIOD;
+    assert_true(p.damping == (q == PENDRES_DAMPING ? half : 0.0));
+    assert_true(p.drive_amplitude == (q == PENDRES_DRIVE_AMPLITUDE ? half : 0.0));
+    assert_true(p.drive_frequency == (q == PENDRES_DRIVE_FREQUENCY ? half
                                       : by_period ? 6.28318530717958647693 / half
                                                   : 0.0));
-    assert_true(p.temperature == (q == PENDRES_QUANTITY_TEMPERATURE ? half : 0.0));
-    assert_true(x == (q == PENDRES_QUANTITY_X ? half : 0.0));
-    assert_true(v == (q == PENDRES_QUANTITY_V ? half : 0.0));
+    assert_true(p.temperature == (q == PENDRES_TEMPERATURE ? half : 0.0));
+    assert_true(x == (q == PENDRES_X ? half : 0.0));
+    assert_true(v == (q == PENDRES_V ? half : 0.0));
   }
 }
 
@@ -165,7 +165,7 @@ static void sweeps_that_are_wrong(void **state)
   (void)state;
   size_t n = 3;
   pendres_sweep s = three_axes();
-  s.axis[2] = (pendres_axis){PENDRES_QUANTITY_DRIVE_FREQUENCY, 2, starts};
+  s.axis[2] = (pendres_axis){PENDRES_DRIVE_FREQUENCY, 2, starts};
   assert_int_equal(pendres_sweep_count(&s, &n), PENDRES_INVALID_ARGUMENT);
   s = three_axes();
   s.axis[1].count = 0;
@@ -174,7 +174,7 @@ static void sweeps_that_are_wrong(void **state)
   s.axis[0].count = (size_t)-1 / 2;
   assert_int_equal(pendres_sweep_count(&s, &n), PENDRES_INVALID_ARGUMENT);
   s = three_axes();
-  s.axes = PENDRES_QUANTITY_COUNT + 1;
+  s.axes = PENDRES_PARAMETER_COUNT + 1;
   assert_int_equal(pendres_sweep_count(&s, &n), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(n, 3);
   s.axes = 0;

@@ -270,7 +270,7 @@ static void ask_paths(const problem *q)
                       drive[] = {0.1, 0.2, 0.4, 0.2, 0.1}, stiff[] = {0.5, 1.0, 2.0, 0.5};
   ask_path(q, PENDRES_DRIVE_FREQUENCY, 0, -1, up, sizeof up / sizeof *up);
   ask_path(q, PENDRES_DRIVE_AMPLITUDE, 1, -2, drive, sizeof drive / sizeof *drive);
-  ask_path(q, PENDRES_FORCE_COEFFICIENT_3, -2, -2, stiff, sizeof stiff / sizeof *stiff);
+  ask_path(q, PENDRES_A3, -2, -2, stiff, sizeof stiff / sizeof *stiff);
   ask_lyapunov(q);
 }
 

@@ -177,7 +177,7 @@ static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
 
 #define PARAMETER(axis, singular, plural, above, in_tables, words, kind) \
   {DECK_AXIS_##axis, singular, plural, "groups of " plural, above, in_tables, words, \
-   PENDRES_QUANTITY_##axis, kind}
+   PENDRES_##axis, kind}
 const scene_parameter scene_parameters[SCENE_PARAMETERS] = {
   PARAMETER(DAMPING, "damping", "dampings", "damping   ", "damping", "friction coefficient",
             PENDRES_DAMPING),

@@ -126,7 +126,7 @@ typedef struct scene_parameter {
   const char *one, *many, *groups; /* "damping", "dampings", "groups of dampings" */
   const char *heading;             /* above its values in a table */
   const char *name, *long_name;    /* in tables of orbits */
-  pendres_quantity quantity;
+  pendres_parameter quantity;
   pendres_parameter parameter;
 } scene_parameter;
 

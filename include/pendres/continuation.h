@@ -27,50 +27,12 @@
 
 #include <pendres/context.h>
 #include <pendres/orbit.h>
+#include <pendres/parameter.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 #pragma GCC visibility push(default)
-
-/** One list makes the codes, their names and the fields: X(code, name, field). */
-#define PENDRES_PARAMETER_LIST(X)                       \
-  X(DRIVE_FREQUENCY, "drive_frequency", drive_frequency) \
-  X(DAMPING, "damping", damping)                         \
-  X(DRIVE_AMPLITUDE, "drive_amplitude", drive_amplitude) \
-  X(TORQUE, "torque", torque)                            \
-  X(PARAMETRIC_AMPLITUDE, "parametric_amplitude", parametric_amplitude) \
-  X(FORCE_COEFFICIENT_1, "a1", force_coefficients[0])    \
-  X(FORCE_COEFFICIENT_2, "a2", force_coefficients[1])    \
-  X(FORCE_COEFFICIENT_3, "a3", force_coefficients[2])    \
-  X(FORCE_COEFFICIENT_4, "a4", force_coefficients[3])    \
-  X(FORCE_COEFFICIENT_5, "a5", force_coefficients[4])
-
-/**
- * A parameter of the pendulum that orbits can be followed in: a field of pendres_pendulum.
- * PENDRES_DRIVE_FREQUENCY: omega; PENDRES_DAMPING: gamma; PENDRES_DRIVE_AMPLITUDE: F0;
- * PENDRES_TORQUE: I; PENDRES_PARAMETRIC_AMPLITUDE: b; of a force with coefficients
- * PENDRES_FORCE_COEFFICIENT_1: a1, PENDRES_FORCE_COEFFICIENT_2: a2, PENDRES_FORCE_COEFFICIENT_3:
- * a3, PENDRES_FORCE_COEFFICIENT_4: a4, PENDRES_FORCE_COEFFICIENT_5: a5 (a pendulum has none of
- * these); PENDRES_PARAMETER_COUNT: how many there are.
- */
-typedef enum pendres_parameter {
-#define PENDRES_PARAMETER_CODE(code, name, field) PENDRES_##code,
-  PENDRES_PARAMETER_LIST(PENDRES_PARAMETER_CODE)
-#undef PENDRES_PARAMETER_CODE
-  PENDRES_PARAMETER_COUNT /**< how many there are; not a parameter */
-} pendres_parameter;
-
-/** "drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", as the fields
-    are called, and "a1" to "a5"; NULL if out of range. The string is static. Thread safe. */
-const char *pendres_parameter_name(pendres_parameter parameter);
-
-/** A pendulum's value of a parameter; NaN if either does not exist. Thread safe. */
-double pendres_parameter_get(pendres_parameter parameter, const pendres_pendulum *pendulum);
-
-/** Set a pendulum's value of a parameter; nothing happens if either does not exist, and no value
-    is refused here. Thread safe. */
-void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pendulum *pendulum);
 
 /** One list makes the codes and their names: X(code, name). */
 #define PENDRES_SPECIAL_LIST(X)      \

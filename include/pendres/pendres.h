@@ -19,6 +19,7 @@
 #include <pendres/version.h>
 #include <pendres/status.h>
 #include <pendres/pendulum.h>
+#include <pendres/parameter.h>
 #include <pendres/sweep.h>
 #include <pendres/context.h>
 #include <pendres/parts.h>

@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <pendres/pendulum.h>
+#include <pendres/parameter.h>
 #include <pendres/status.h>
 
 #pragma GCC visibility push(default)
@@ -49,43 +49,25 @@ double pendres_range_value(const pendres_range *range, size_t i);
 pendres_status pendres_sweep_values(size_t listed, const double *list, const pendres_range *range,
                                     double *value, size_t *count);
 
-/** What an axis of a sweep varies. */
-typedef enum pendres_quantity {
-  PENDRES_QUANTITY_DAMPING,         /**< gamma, in units of omega_0 */
-  PENDRES_QUANTITY_DRIVE_AMPLITUDE, /**< F0, in m g l */
-  PENDRES_QUANTITY_DRIVE_FREQUENCY, /**< omega, in units of omega_0 */
-  PENDRES_QUANTITY_DRIVE_PERIOD,    /**< 2 pi over the drive frequency */
-  PENDRES_QUANTITY_TEMPERATURE,     /**< T, in m g l */
-  PENDRES_QUANTITY_X,               /**< initial position, in rad */
-  PENDRES_QUANTITY_V,               /**< initial velocity, in rad per unit time */
-  PENDRES_QUANTITY_TORQUE,          /**< I, in m g l */
-  PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE, /**< b */
-  PENDRES_QUANTITY_COUNT            /**< how many there are; not a quantity */
-} pendres_quantity;
-
-/** "damping", "drive_amplitude", "drive_frequency", "drive_period", "temperature", "x", "v",
-    "torque", "parametric_amplitude"; NULL if out of range. The string is static. Thread safe. */
-const char *pendres_quantity_name(pendres_quantity quantity);
-
-/** One axis of a sweep: the values of one quantity. */
+/** One axis of a sweep: the values of one parameter. */
 typedef struct pendres_axis {
-  pendres_quantity quantity; /**< what it varies */
-  size_t count;              /**< how many values it has */
-  const double *value;       /**< [count], not owned */
+  pendres_parameter parameter; /**< what it varies */
+  size_t count;                /**< how many values it has */
+  const double *value;         /**< [count], not owned */
 } pendres_axis;
 
-/** The product of some axes. Where quantities have no axis, `pendulum`, x and v hold. */
+/** The product of some axes. Where parameters have no axis, `pendulum`, x and v hold. */
 typedef struct pendres_sweep {
   pendres_pendulum pendulum; /**< parameters that no axis varies */
   double x;                  /**< initial position where no axis varies it, in rad */
   double v;                  /**< initial velocity, likewise, in rad per unit time */
   size_t axes;               /**< how many axes there are */
-  pendres_axis axis[PENDRES_QUANTITY_COUNT]; /**< the last one runs fastest */
+  pendres_axis axis[PENDRES_PARAMETER_COUNT]; /**< the last one runs fastest */
 } pendres_sweep;
 
 /**
- * How many pendulums a sweep has. PENDRES_INVALID_ARGUMENT if a quantity has two axes (the drive
- * period and frequency are one quantity), an axis is empty, or the number does not fit.
+ * How many pendulums a sweep has. PENDRES_INVALID_ARGUMENT if a parameter has two axes (the drive's
+ * period and frequency are one here), an axis is empty, or the number does not fit.
  */
 pendres_status pendres_sweep_count(const pendres_sweep *sweep, size_t *count);
 

@@ -309,7 +309,7 @@ static pendres_status build(pendres_context *ctx, void *call, size_t i, pendres_
 const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
                                    const pendres_orbit *starts)
 {
-  if ((unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  if ((unsigned)o->parameter >= PENDRES_PARAMETER_FOLLOWED) return "unknown parameter";
   if (!(o->low < o->high && isfinite(o->low) && isfinite(o->high)))
     return "the range of the parameter is empty";
   if (o->parameter == PENDRES_DRIVE_FREQUENCY && !(o->low > 0.0))

@@ -214,7 +214,6 @@ static pendres_status build(pendres_context *ctx, void *call, size_t i, pendres_
 static const char *check(size_t n, const pendres_bifurcation *starts,
                          const pendres_curve_options *o)
 {
-  if ((unsigned)o->second >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
   for (int i = 0; i < 2; i++)
     if (!(o->low[i] < o->high[i] && isfinite(o->low[i]) && isfinite(o->high[i])))
       return "a parameter's range is empty";
@@ -223,7 +222,6 @@ static const char *check(size_t n, const pendres_bifurcation *starts,
     if (starts[i].kind == PENDRES_REGULAR ||
         (unsigned)starts[i].kind >= PENDRES_SPECIAL_COUNT)
       return "a start is no bifurcation";
-    if ((unsigned)starts[i].parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
     const char *why = pendres_continuation_refuses(&starts[i].orbit, starts[i].parameter);
     if (why == NULL) why = pendres_continuation_refuses(&starts[i].orbit, o->second);
     if (why != NULL) return why;

@@ -10,17 +10,14 @@
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
+#include "model/parameter.h"
 
 pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
                                                    const double u[PENDRES_U_COUNT])
 {
-  pendres_pendulum p = {.damping = u[PENDRES_U_GAMMA],
-                        .drive_amplitude = u[PENDRES_U_DRIVE],
-                        .drive_frequency = u[PENDRES_U_OMEGA],
-                        .torque = u[PENDRES_U_TORQUE],
-                        .parametric_amplitude = u[PENDRES_U_MODULATION],
-                        .force = force};
-  memcpy(p.force_coefficients, u + PENDRES_U_POWERS, sizeof p.force_coefficients);
+  pendres_pendulum p = {.force = force};
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
+    pendres_parameter_set((pendres_parameter)k, u[PENDRES_U_OMEGA + k], &p);
   return p;
 }
 
@@ -29,12 +26,8 @@ void pendres_continuation_map_point(const pendres_pendulum *p, double y, double 
 {
   u[PENDRES_U_Y] = y;
   u[PENDRES_U_W] = w;
-  u[PENDRES_U_OMEGA] = p->drive_frequency;
-  u[PENDRES_U_GAMMA] = p->damping;
-  u[PENDRES_U_DRIVE] = p->drive_amplitude;
-  u[PENDRES_U_TORQUE] = p->torque;
-  u[PENDRES_U_MODULATION] = p->parametric_amplitude;
-  memcpy(u + PENDRES_U_POWERS, p->force_coefficients, sizeof p->force_coefficients);
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
+    u[PENDRES_U_OMEGA + k] = pendres_parameter_get((pendres_parameter)k, p);
 }
 
 /* Whether pendulums lose a mirror symmetry about a centre when an unknown changes: a power that is

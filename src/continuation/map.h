@@ -34,7 +34,7 @@
 #include <pendres/context.h>
 #include <pendres/orbit.h>
 
-/* Places in a point. */
+/* Places in a point: the state, and the parameters that orbits are followed in, by number. */
 enum {
   PENDRES_U_Y,
   PENDRES_U_W,

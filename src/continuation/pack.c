@@ -116,7 +116,7 @@ static int ends_fit(const pendres_branch_end end[2])
 
 static int branch_fits(const pendres_branch *b)
 {
-  int good = (unsigned)b->parameter < PENDRES_PARAMETER_COUNT && map_fits(&b->map) &&
+  int good = (unsigned)b->parameter < PENDRES_PARAMETER_FOLLOWED && map_fits(&b->map) &&
              ends_fit(b->end);
   for (size_t i = 0; i < b->count && good; i++) {
     const pendres_branch_point *p = &b->point[i];
@@ -127,7 +127,7 @@ static int branch_fits(const pendres_branch *b)
   }
   for (size_t i = 0; i < b->bifurcations && good; i++)
     good = (unsigned)b->bifurcation[i].kind < PENDRES_SPECIAL_COUNT &&
-           (unsigned)b->bifurcation[i].parameter < PENDRES_PARAMETER_COUNT &&
+           (unsigned)b->bifurcation[i].parameter < PENDRES_PARAMETER_FOLLOWED &&
            orbit_fits(&b->bifurcation[i].orbit);
   return good;
 }
@@ -222,14 +222,14 @@ static int curve_fits(const pendres_curve *c)
 {
   int good = (unsigned)c->kind < PENDRES_SPECIAL_COUNT && map_fits(&c->map) && ends_fit(c->end) &&
              (unsigned)c->condition < PENDRES_CONDITION_COUNT;
-  for (int k = 0; k < 2; k++) good = good && (unsigned)c->parameter[k] < PENDRES_PARAMETER_COUNT;
+  for (int k = 0; k < 2; k++) good = good && (unsigned)c->parameter[k] < PENDRES_PARAMETER_FOLLOWED;
   for (size_t i = 0; i < c->count && good; i++)
     good = orbit_fits(&c->point[i].orbit) && c->point[i].cusp >= -1 &&
            (c->point[i].cusp < 0 || (size_t)c->point[i].cusp < c->cusps);
   for (size_t i = 0; i < c->cusps && good; i++)
     good = orbit_fits(&c->cusp[i].orbit) &&
-           (unsigned)c->cusp[i].parameter[0] < PENDRES_PARAMETER_COUNT &&
-           (unsigned)c->cusp[i].parameter[1] < PENDRES_PARAMETER_COUNT;
+           (unsigned)c->cusp[i].parameter[0] < PENDRES_PARAMETER_FOLLOWED &&
+           (unsigned)c->cusp[i].parameter[1] < PENDRES_PARAMETER_FOLLOWED;
   return good;
 }
 

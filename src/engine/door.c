@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine/accuracy.h"
+#include "model/parameter.h"
 
 static const pendres_units none = {1.0, 1.0};
 
@@ -14,22 +15,10 @@ struct pendres_door_memory {
   max_align_t bytes[];
 };
 
-/* Where in a pendulum a parameter stands. */
-static size_t place_of(pendres_parameter parameter)
-{
-  static const size_t place[PENDRES_PARAMETER_COUNT] = {
-#define PLACE_OF(code, name, field) [PENDRES_##code] = offsetof(pendres_pendulum, field),
-    PENDRES_PARAMETER_LIST(PLACE_OF)
-#undef PLACE_OF
-  };
-  return (unsigned)parameter < PENDRES_PARAMETER_COUNT ? place[parameter]
-                                                       : sizeof(pendres_pendulum);
-}
-
 void pendres_door_move(pendres_door *d, pendres_parameter first, pendres_parameter second)
 {
-  d->scales.first = pendres_units_of_field(&d->scales.unit, place_of(first));
-  d->scales.second = pendres_units_of_field(&d->scales.unit, place_of(second));
+  d->scales.first = pendres_units_of_parameter(&d->scales.unit, first);
+  d->scales.second = pendres_units_of_parameter(&d->scales.unit, second);
 }
 
 /* Enter the context; nonzero if that is refused. */
@@ -96,9 +85,7 @@ static pendres_pendulum moved_to(const pendres_pendulum *p, pendres_parameter mo
 {
   pendres_pendulum q = {.damping = 0.0};
   if (p != NULL) q = *p;
-  if ((unsigned)moved < PENDRES_PARAMETER_COUNT)
-    memcpy((char *)&q + place_of(moved), &largest, sizeof largest);
-  return q;
+  return pendres_parameter_with(&q, moved, largest);
 }
 
 static double largest_of(size_t n, const double *value)

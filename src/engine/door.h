@@ -11,7 +11,7 @@
 #ifndef PENDRES_DOOR_H
 #define PENDRES_DOOR_H
 
-#include <pendres/continuation.h>
+#include <pendres/parameter.h>
 
 #include "engine/context_internal.h"
 #include "model/units.h"

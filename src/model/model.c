@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "model/forces.h"
+#include "model/parameter.h"
 
 /* Of the bottoms and the tops, which all are centres: y is an angle, and the bottom stands for
    all of them. */
@@ -321,10 +322,9 @@ int pendres_model_is_linear(const pendres_pendulum *p)
 
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
 {
-  int same = a->damping == b->damping && a->drive_amplitude == b->drive_amplitude &&
-             a->drive_frequency == b->drive_frequency && a->torque == b->torque &&
-             a->parametric_amplitude == b->parametric_amplitude && a->force == b->force;
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
-    same = same && a->force_coefficients[i] == b->force_coefficients[i];
+  int same = a->force == b->force;
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED && same; k++)
+    same = pendres_parameter_get((pendres_parameter)k, a) ==
+           pendres_parameter_get((pendres_parameter)k, b);
   return same;
 }

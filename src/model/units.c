@@ -141,14 +141,11 @@ double pendres_units_factor(const pendres_scales *s, int length, int time)
   return power(s->unit.length, length) * power(s->unit.time, time);
 }
 
-double pendres_units_of_field(const pendres_units *unit, size_t offset)
+double pendres_units_of_parameter(const pendres_units *unit, pendres_parameter parameter)
 {
+  const pendres_parameter_info *info = pendres_parameter_of(parameter);
   const pendres_scales s = {.unit = *unit, .first = 1.0, .second = 1.0};
-  for (size_t r = 0; r < pendres_dim_pendulum.rows; r++)
-    if (pendres_dim_pendulum.row[r].offset == offset)
-      return pendres_units_factor(&s, pendres_dim_pendulum.row[r].length,
-                                  pendres_dim_pendulum.row[r].time);
-  return 1.0;
+  return info != NULL ? pendres_units_factor(&s, info->length, info->time) : 1.0;
 }
 
 static void convert(const pendres_scales *s, const pendres_dimensions *d, size_t n, void *records,

@@ -10,7 +10,7 @@
 
 #include <stddef.h>
 
-#include <pendres/pendulum.h>
+#include <pendres/parameter.h>
 
 /* What a value of a parameter has as its power of length, instead of the power itself: its unit is
    that of the first or of the second parameter that is moved. */
@@ -39,8 +39,8 @@ typedef struct pendres_scales {
 /* The unit of a quantity. */
 double pendres_units_factor(const pendres_scales *scales, int length, int time);
 
-/* The unit of the field of a pendulum that begins at this offset. */
-double pendres_units_of_field(const pendres_units *unit, size_t offset);
+/* The unit of a parameter; 1 if it does not exist. */
+double pendres_units_of_parameter(const pendres_units *unit, pendres_parameter parameter);
 
 /* n records from the user's units to canonical ones, and back. NULL has none. Exact, since units
    are powers of two. */

@@ -6,6 +6,7 @@
  */
 #include <pendres/pendres.h>
 
+#include "model/parameter.h"
 #include "model/units.h"
 
 #define FIELDS(type, field) (sizeof(((type *)0)->field) / sizeof(double))
@@ -30,13 +31,12 @@ TABLE(first, double, first);
 
 /* ---- pendulums and states ---- */
 
-#define P(field, l, t) ROW(pendres_pendulum, field, l, t)
-static const pendres_dimension pendulum[] = {
-  P(damping, 0, -1), P(drive_amplitude, 1, -2), P(drive_frequency, 0, -1), P(temperature, 2, -2),
-  P(torque, 1, -2),
-#define COEFFICIENT(k) \
-  {offsetof(pendres_pendulum, force_coefficients) + (k - 1) * sizeof(double), 1, 1 - k, -2, NULL}
-  COEFFICIENT(1), COEFFICIENT(2), COEFFICIENT(3), COEFFICIENT(4), COEFFICIENT(5)};
+/* Of parameters that are fields of a pendulum themselves. */
+#define P(code, number, name, field, over, positive, length, time, unit, words, brief)    \
+  {offsetof(pendres_parameter_record, field),                                             \
+   (over) == 0 && offsetof(pendres_parameter_record, field) < sizeof(pendres_pendulum),   \
+   length, time, NULL},
+static const pendres_dimension pendulum[] = {PENDRES_PARAMETER_LIST(P)};
 TABLE(pendulum, pendres_pendulum, pendulum);
 typedef pendres_pendulum pendulum_type;
 

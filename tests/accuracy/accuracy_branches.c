@@ -71,7 +71,7 @@ static pendres_parameter direction(accuracy_random *r, const pendres_pendulum *p
   static const pendres_parameter along[] = {
     PENDRES_DRIVE_FREQUENCY, PENDRES_DRIVE_FREQUENCY, PENDRES_DAMPING, PENDRES_DRIVE_AMPLITUDE,
     PENDRES_TORQUE, PENDRES_PARAMETRIC_AMPLITUDE,
-    PENDRES_FORCE_COEFFICIENT_1, PENDRES_FORCE_COEFFICIENT_3};
+    PENDRES_A1, PENDRES_A3};
   const int plain = p->torque == 0.0 && p->parametric_amplitude == 0.0;
   const int all = p->force == PENDRES_FORCE_POLYNOMIAL ? 8 : plain ? 4 : 6;
   pendres_parameter chosen;

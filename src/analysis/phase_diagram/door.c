@@ -4,7 +4,8 @@
 void pendres_phase_open(pendres_door *d, pendres_context *ctx, const pendres_phase_options *o,
                         size_t n, const pendres_pendulum *first, const pendres_pendulum *last)
 {
-  if (n == 0 || o == NULL || first == NULL || (unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) {
+  if (n == 0 || o == NULL || first == NULL ||
+      (unsigned)o->parameter >= PENDRES_PARAMETER_FOLLOWED) {
     pendres_door_open(d, ctx, NULL);
     return;
   }

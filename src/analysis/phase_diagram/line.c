@@ -8,6 +8,7 @@
 #include "continuation/units.h"
 #include "analysis/phase_diagram/door.h"
 #include "model/model.h"
+#include "model/parameter.h"
 #include "analysis/resonance/response_members.h"
 #include "orbits/small_end.h"
 
@@ -149,11 +150,7 @@ static pendres_status judge_branches(line *l, const pendres_response *r,
 static int on_one_line(pendres_parameter parameter, const pendres_pendulum *p, pendres_pendulum q)
 {
   pendres_parameter_set(parameter, pendres_parameter_get(parameter, p), &q);
-  for (int k = 0; k < PENDRES_PARAMETER_COUNT; k++)
-    if (pendres_parameter_get((pendres_parameter)k, p) !=
-        pendres_parameter_get((pendres_parameter)k, &q))
-      return 0;
-  return 1;
+  return pendres_model_same(p, &q);
 }
 
 static const char *refused(size_t n, const pendres_pendulum *p, const pendres_phase_options *o)
@@ -161,14 +158,12 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
   const pendres_ensemble *e = &o->ensemble;
   const char *why = NULL;
   if (!(o->spacing >= 0.0)) return "the spacing must not be negative";
-  if ((unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  if ((unsigned)o->parameter >= PENDRES_PARAMETER_FOLLOWED) return "unknown parameter";
   if (pendres_ensemble_check(e, &why) != PENDRES_OK) return why;
-  const int coefficient = (int)o->parameter - PENDRES_FORCE_COEFFICIENT_1;
   for (size_t i = 0; i < n; i++) {
     if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) return why;
-    if (coefficient >= pendres_model_of(p[i].force)->coefficients)
-      return "this force has no such coefficient";
-    why = pendres_response_refuses(&p[i], e);
+    why = pendres_parameter_refuses(o->parameter, p[i].force);
+    if (why == NULL) why = pendres_response_refuses(&p[i], e);
     if (why != NULL) return why;
     if (!on_one_line(o->parameter, &p[0], p[i]))
       return "the pendulums of a line differ in its parameter alone";
@@ -181,7 +176,7 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
 
 int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter)
 {
-  return pendres_model_kind(p) == PENDRES_MODEL_PLAIN && parameter <= PENDRES_DRIVE_AMPLITUDE;
+  return pendres_model_kind(p) == PENDRES_MODEL_PLAIN && pendres_parameter_of(parameter)->plain;
 }
 
 /* Reach beyond a diagram by a tenth of its width, or of its value if there is only one. Frequencies
@@ -192,8 +187,7 @@ static void reach_beyond(pendres_parameter parameter, double first, double last,
   const double margin = 0.1 * (last > first ? last - first : fmax(fabs(first), 1.0));
   *low = first - margin;
   *high = last + margin;
-  if (parameter == PENDRES_DRIVE_FREQUENCY) *low = fmax(*low, 0.5 * first);
-  if (parameter == PENDRES_DAMPING) *low = fmax(*low, 0.5 * first);
+  if (pendres_parameter_of(parameter)->positive) *low = fmax(*low, 0.5 * first);
 }
 
 void pendres_phase_reach(pendres_parameter parameter, int plain, double first, double last,
@@ -343,7 +337,7 @@ static int bounds_named(const pendres_curve *c)
 
 int pendres_phase_beyond(pendres_parameter across, double value, double cusp)
 {
-  if (across > PENDRES_DRIVE_AMPLITUDE) return 0;
+  if (!pendres_parameter_of(across)->plain) return 0;
   return across == PENDRES_DRIVE_AMPLITUDE ? !(value > cusp) : !(value < cusp);
 }
 

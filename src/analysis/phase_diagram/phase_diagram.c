@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "model/parameter.h"
 #include "analysis/phase_diagram/line.h"
 
 const char *pendres_regime_name(pendres_regime regime)
@@ -44,8 +45,9 @@ static int ascends(size_t n, const double *value)
 static const char *refused(const pendres_phase_grid *g)
 {
   const pendres_parameter along = g->options.parameter;
-  if ((unsigned)along >= PENDRES_PARAMETER_COUNT) return "lines go along a parameter";
-  if ((unsigned)g->across >= PENDRES_PARAMETER_COUNT || g->across == along)
+  if (pendres_parameter_refuses(along, g->pendulum.force) != NULL)
+    return "lines go along a parameter";
+  if (pendres_parameter_refuses(g->across, g->pendulum.force) != NULL || g->across == along)
     return "lines differ in another parameter than changes along them";
   if (g->values == 0 || g->lines == 0 || g->value == NULL || g->line_value == NULL)
     return "a diagram needs values of both its parameters";

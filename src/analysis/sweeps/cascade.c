@@ -5,6 +5,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/door.h"
+#include "model/parameter.h"
 #include "orbits/orbit_newton.h"
 #include "analysis/sweeps/stretch.h"
 
@@ -77,7 +78,7 @@ static pendres_status cascade_find(pendres_context *ctx, const pendres_orbit *or
   *out = (pendres_cascade){.doublings = 0};
   finish(out);
   why = pendres_orbit_refuses(orbit);
-  if (why == NULL && (unsigned)parameter >= PENDRES_PARAMETER_COUNT) why = "unknown parameter";
+  if (why == NULL) why = pendres_parameter_refuses(parameter, orbit->pendulum.force);
   if (why == NULL && !orbit->stable) why = "the orbit must be stable";
   if (why == NULL && !isfinite(limit)) why = "the limit must be finite";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cascade: %s", why);

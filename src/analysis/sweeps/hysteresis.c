@@ -14,6 +14,7 @@
 #include "analysis/sweeps/hysteresis_rotation.h"
 #include "analysis/chaos/lyapunov_move.h"
 #include "model/model.h"
+#include "model/parameter.h"
 
 enum { MOST_TRIES = 4 /* to come from chaos to an orbit on the way from one value to the next */ };
 
@@ -273,8 +274,8 @@ static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
       (along->n > 0 && along->value == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, start, path, its values and out");
   *out = NULL;
-  if ((unsigned)along->parameter >= PENDRES_PARAMETER_COUNT)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown parameter");
+  const char *why = pendres_parameter_refuses(along->parameter, p->force);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   path w = {.ctx = ctx, .pendulum = *p, .parameter = along->parameter, .all = along->value,
             .n = along->n, .value = along->value};
   return pendres_path_run(&w, start->x, start->v, out);

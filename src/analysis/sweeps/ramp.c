@@ -9,6 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
+#include "model/parameter.h"
 #include "noise/langevin_moving.h"
 #include "orbits/escape.h"
 #include "analysis/sweeps/ramp_watch.h"
@@ -63,7 +64,8 @@ static pendres_pendulum pendulum_at(void *arg, double time)
 
 static const char *refuses(const pendres_ramp *r)
 {
-  if ((unsigned)r->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  const char *why = pendres_parameter_refuses(r->parameter, r->pendulum.force);
+  if (why != NULL) return why;
   if (r->corners < 2) return "a ramp has two corners or more";
   if (r->period[0] != 0) return "a ramp starts at time 0";
   for (size_t i = 1; i < r->corners; i++)

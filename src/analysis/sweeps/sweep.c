@@ -8,19 +8,12 @@
 
 #include "base/angles.h"
 #include "base/mix.h"
+#include "model/parameter.h"
 
 const char *pendres_ensemble_shape_name(pendres_ensemble_shape shape)
 {
   static const char *const names[PENDRES_ENSEMBLE_SHAPE_COUNT] = {"line", "rectangle", "random"};
   return (unsigned)shape < PENDRES_ENSEMBLE_SHAPE_COUNT ? names[shape] : NULL;
-}
-
-const char *pendres_quantity_name(pendres_quantity quantity)
-{
-  static const char *const names[PENDRES_QUANTITY_COUNT] = {
-    "damping", "drive_amplitude", "drive_frequency", "drive_period", "temperature", "x", "v",
-    "torque", "parametric_amplitude"};
-  return (unsigned)quantity < PENDRES_QUANTITY_COUNT ? names[quantity] : NULL;
 }
 
 /* The rounding error of the values of a range: three operations, and that of a decimal itself. */
@@ -114,64 +107,49 @@ pendres_status pendres_sweep_values(size_t listed, const double *list, const pen
   return PENDRES_OK;
 }
 
+/* Whether the sweep has an axis before number i of the same quantity. */
+static int comes_twice(const pendres_sweep *sweep, size_t i)
+{
+  for (size_t k = 0; k < i; k++)
+    if (pendres_parameter_place(sweep->axis[k].parameter) ==
+        pendres_parameter_place(sweep->axis[i].parameter))
+      return 1;
+  return 0;
+}
+
 pendres_status pendres_sweep_count(const pendres_sweep *sweep, size_t *count)
 {
-  unsigned seen = 0;
   size_t n = 1;
-  if (sweep == NULL || count == NULL || sweep->axes > PENDRES_QUANTITY_COUNT)
+  if (sweep == NULL || count == NULL || sweep->axes > PENDRES_PARAMETER_COUNT)
     return PENDRES_INVALID_ARGUMENT;
   for (size_t i = 0; i < sweep->axes; i++) {
     const pendres_axis *a = &sweep->axis[i];
-    if (a->quantity < 0 || a->quantity >= PENDRES_QUANTITY_COUNT) return PENDRES_INVALID_ARGUMENT;
-    const unsigned bit = a->quantity == PENDRES_QUANTITY_DRIVE_PERIOD
-                           ? 1u << PENDRES_QUANTITY_DRIVE_FREQUENCY
-                           : 1u << a->quantity;
-    if (a->count == 0 || a->value == NULL || (seen & bit) != 0 || n > (size_t)-1 / a->count)
+    if (pendres_parameter_of(a->parameter) == NULL || a->count == 0 || a->value == NULL ||
+        comes_twice(sweep, i) || n > (size_t)-1 / a->count)
       return PENDRES_INVALID_ARGUMENT;
-    seen |= bit;
     n *= a->count;
   }
   *count = n;
   return PENDRES_OK;
 }
 
-static void set(pendres_quantity quantity, double value, pendres_pendulum *p, double *x, double *v)
-{
-  switch (quantity) {
-  case PENDRES_QUANTITY_DAMPING: p->damping = value; break;
-  case PENDRES_QUANTITY_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
-  case PENDRES_QUANTITY_DRIVE_FREQUENCY: p->drive_frequency = value; break;
-  case PENDRES_QUANTITY_DRIVE_PERIOD: p->drive_frequency = two_pi / value; break;
-  case PENDRES_QUANTITY_TEMPERATURE: p->temperature = value; break;
-  case PENDRES_QUANTITY_X: *x = value; break;
-  case PENDRES_QUANTITY_V: *v = value; break;
-  case PENDRES_QUANTITY_TORQUE: p->torque = value; break;
-  case PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE: p->parametric_amplitude = value; break;
-  case PENDRES_QUANTITY_COUNT: break;
-  }
-}
-
 pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
                                         double *v)
 {
   size_t count = 0;
-  pendres_pendulum p = {.damping = NAN, .drive_amplitude = NAN, .drive_frequency = NAN,
-                        .temperature = NAN};
-  double position = NAN, velocity = NAN;
+  pendres_parameter_record r = {.pendulum = {.damping = NAN, .drive_amplitude = NAN,
+                                             .drive_frequency = NAN, .temperature = NAN},
+                                .state = {NAN, NAN}};
   const int there = pendres_sweep_count(sweep, &count) == PENDRES_OK && index < count;
-  if (there) {
-    p = sweep->pendulum;
-    position = sweep->x;
-    velocity = sweep->v;
-  }
+  if (there) r = (pendres_parameter_record){sweep->pendulum, {sweep->x, sweep->v}};
   for (size_t i = there ? sweep->axes : 0; i-- > 0;) {
     const pendres_axis *a = &sweep->axis[i];
-    set(a->quantity, a->value[index % a->count], &p, &position, &velocity);
+    pendres_parameter_put(a->parameter, a->value[index % a->count], &r);
     index /= a->count;
   }
-  if (x != NULL) *x = position;
-  if (v != NULL) *v = velocity;
-  return p;
+  if (x != NULL) *x = r.state.x;
+  if (v != NULL) *v = r.state.v;
+  return r.pendulum;
 }
 
 pendres_ensemble pendres_ensemble_default(void)
