@@ -1,6 +1,7 @@
 /*
- * accuracy_sweeps.c -- sweeps up and down along any parameter of any model: each state that ends
- * does end, and none ends without a jump.
+ * accuracy_sweeps.c -- sweeps up and down along any parameter of any model, of polynomials in units
+ * of a millionth to a million: each state that ends does end, none ends without a jump, and each
+ * jump leads to another state.
  *
  * What is true is told by a continuation of its own: from each point of a path that is a closed
  * orbit the extended-precision reference's Newton's method leads on to the next value, in steps
@@ -18,7 +19,7 @@ enum {
   VALUES = 12,
   POINTS = 2 * VALUES,
   FAULTS = 4,  /* of a sweep, that are told */
-  SHOWN = 100, /* jumps that are printed where one item is asked for */
+  JUMPS = 200, /* of a sweep; it has fewer */
   HOW = 700,
   WORDS = 60
 };
@@ -37,17 +38,20 @@ typedef struct fault {
   double from, to, value;
 } fault;
 
+/* A sweep. The library is asked in units of its own; what it finds stands here in the powers of two
+   next to these, as does the pendulum. */
 typedef struct item {
   pendres_pendulum pendulum;
   pendres_parameter parameter;
   double low, high, x, v;
+  accuracy_units units;
   pendres_status status;
-  long steps, checked, marked, jumps[PENDRES_JUMP_COUNT];
-  int faults;
+  long steps, checked, marked;
+  int faults, jumps;
   fault fault[FAULTS];
-  int shown;
   pendres_status why; /* the latest of values left out */
-  pendres_jump jump[SHOWN];
+  pendres_jump jump[JUMPS];
+  pendres_hysteresis_point point[POINTS];
 } item;
 
 /* ---- draws ---- */
@@ -57,11 +61,15 @@ static pendres_pendulum model(accuracy_random *r)
   pendres_pendulum p = {.damping = accuracy_logarithmic(r, 0.05, 1.0),
                         .drive_amplitude = accuracy_logarithmic(r, 0.02, 1.5),
                         .drive_frequency = accuracy_uniform(r, 0.3, 2.0)};
-  const int which = accuracy_choice(r, 8);
+  const int which = accuracy_choice(r, 10);
   if (accuracy_choice(r, 3) == 0) p.torque = accuracy_uniform(r, -0.6, 0.6);
   if (accuracy_choice(r, 3) == 0) p.parametric_amplitude = accuracy_uniform(r, -0.8, 0.8);
   if (which < 4) return p;
-  p.force = PENDRES_FORCE_POLYNOMIAL;
+  p.force = which < 8 ? PENDRES_FORCE_POLYNOMIAL : PENDRES_FORCE_SQUID;
+  if (which >= 8) {
+    p.force_coefficients[0] = accuracy_logarithmic(r, 0.03, 1.0);
+    return p;
+  }
   if (which < 7) p.force_coefficients[0] = which == 5 ? -1.0 : 1.0;
   if (which == 6) p.force_coefficients[1] = accuracy_uniform(r, -1.0, 1.0);
   p.force_coefficients[2] = accuracy_choice(r, 6) == 0 && which == 4
@@ -82,6 +90,18 @@ static void draw(accuracy_random *r, item *t)
   if (accuracy_choice(r, 4) == 0) t->high = t->low + 20.0 * (t->high - t->low);
   t->x = accuracy_uniform(r, -1.0, 2.0);
   t->v = accuracy_uniform(r, -0.5, 0.5);
+  /* An angle has its own unit, and its force fixes that of time. */
+  t->units = accuracy_draw_units(r);
+  if (t->pendulum.force != PENDRES_FORCE_POLYNOMIAL) t->units = (accuracy_units){1.0, 1.0};
+}
+
+/* A value of the parameter in units so long, of one in those of the draw. */
+static double value_in(const item *t, double value, accuracy_units u)
+{
+  pendres_pendulum p = t->pendulum;
+  pendres_parameter_set(t->parameter, value, &p);
+  p = accuracy_in_units(&p, u);
+  return pendres_parameter_get(t->parameter, &p);
 }
 
 /* ---- a continuation of its own ---- */
@@ -164,11 +184,11 @@ static void complain(item *t, const char *what, double from, double to, double v
 }
 
 /* The jump on the way to point i that is nearest to a value, the first one for NaN; NULL: none. */
-static const pendres_jump *jump_near(const pendres_hysteresis *h, size_t i, double value)
+static const pendres_jump *jump_near(const item *t, size_t i, double value)
 {
   const pendres_jump *found = NULL;
-  for (size_t k = 0; k < pendres_hysteresis_jumps(h); k++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+  for (int k = 0; k < t->jumps; k++) {
+    const pendres_jump *j = &t->jump[k];
     if (j->step == i && (found == NULL || fabs(j->value - value) < fabs(found->value - value)))
       found = j;
   }
@@ -177,10 +197,10 @@ static const pendres_jump *jump_near(const pendres_hysteresis *h, size_t i, doub
 
 /* The way from point i to the next. Where an orbit grows into the one that it was born from, the
    continuation goes on along that, and comes to later jumps. */
-static void check_step(item *t, const pendres_hysteresis *h, size_t i)
+static void check_step(item *t, size_t i)
 {
-  const pendres_jump *j = jump_near(h, i + 1, NAN);
-  const pendres_hysteresis_point *a = pendres_hysteresis_get(h, i), *b = a + 1;
+  const pendres_jump *j = jump_near(t, i + 1, NAN);
+  const pendres_hysteresis_point *a = &t->point[i], *b = a + 1;
   const pendres_orbit *o = &a->attractor.orbit, *q = &b->attractor.orbit;
   place end;
   if (a->value == b->value) return;
@@ -191,7 +211,7 @@ static void check_step(item *t, const pendres_hysteresis *h, size_t i)
   const double way = fabs(b->value - a->value);
   if (j != NULL && arrives && !j->gradual)
     complain(t, "a jump from a state that goes on", a->value, b->value, j->value);
-  if (j != NULL && !arrives) j = jump_near(h, i + 1, end.value);
+  if (j != NULL && !arrives) j = jump_near(t, i + 1, end.value);
   if (j != NULL && !arrives && fabs(end.value - j->value) > j->value_error + 1e-3 * way)
     complain(t, "a jump elsewhere", a->value, b->value, end.value);
   if (j == NULL && !arrives)
@@ -201,21 +221,63 @@ static void check_step(item *t, const pendres_hysteresis *h, size_t i)
     complain(t, "another state without a jump", a->value, b->value, q->amplitude);
 }
 
-static void check(item *t, const pendres_hysteresis *h)
+/* Whether two attractors are the same state at parameters not far apart, mirror images included. */
+static int alike(const pendres_attractor *a, const pendres_attractor *b)
 {
-  const size_t jumps = pendres_hysteresis_jumps(h);
-  for (size_t k = 0; k < jumps; k++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
-    t->jumps[j->kind]++;
-    if (t->shown < SHOWN) t->jump[t->shown++] = *j;
-    if (!(j->value_error >= 0.0 && isfinite(j->value_error)))
-      complain(t, "a jump without an error", j->value, j->value, j->value_error);
-  }
-  for (size_t i = 0; i + 1 < pendres_hysteresis_count(h); i++) {
-    const pendres_hysteresis_point *a = pendres_hysteresis_get(h, i);
-    if (a->outcome == PENDRES_OK && a[1].outcome == PENDRES_OK) check_step(t, h, i);
+  const pendres_orbit *o = &a->orbit, *q = &b->orbit;
+  if (a->label == PENDRES_LABEL_UNRESOLVED || b->label == PENDRES_LABEL_UNRESOLVED) return 0;
+  if (o->period < 1 || q->period < 1) return a->label == b->label;
+  return o->period == q->period && labs(o->winding) == labs(q->winding) &&
+         fabs(o->amplitude - q->amplitude) <= same + o->amplitude_error + q->amplitude_error;
+}
+
+/* A jump that is the only one between two values leads from the one's state to the other's. */
+static void check_jump(item *t, const pendres_jump *j)
+{
+  const pendres_hysteresis_point *b = &t->point[j->step], *a = b - 1;
+  int others = 0;
+  while (a > t->point && a->outcome != PENDRES_OK) a--; /* left out: as if it were not there */
+  for (int k = 0; k < t->jumps; k++) others += t->jump[k].step == j->step;
+  if (!(j->value_error >= 0.0 && isfinite(j->value_error)))
+    complain(t, "a jump without an error", a->value, b->value, j->value);
+  if (j->to_period < 1 && j->from == j->to && j->to != PENDRES_LABEL_RUNNING)
+    complain(t, "a jump to a state of the same name", a->value, b->value, j->value);
+  if (others == 1 && !j->gradual && alike(&a->attractor, &b->attractor))
+    complain(t, "a jump to the state it came from", a->value, b->value, j->value);
+  if ((j->value - a->value) * j->direction < -j->value_error ||
+      (b->value - j->value) * j->direction < -j->value_error)
+    complain(t, "a jump beside its step", a->value, b->value, j->value);
+}
+
+static void check(item *t)
+{
+  for (int k = 0; k < t->jumps; k++) check_jump(t, &t->jump[k]);
+  for (size_t i = 0; i + 1 < POINTS; i++) {
+    const pendres_hysteresis_point *a = &t->point[i];
+    if (a->outcome == PENDRES_OK && a[1].outcome == PENDRES_OK) check_step(t, i);
     else t->marked++;
     if (a->outcome != PENDRES_OK) t->why = a->outcome;
+  }
+}
+
+/* Take over what was found, in the powers of two next to the units. */
+static void take(item *t, const pendres_hysteresis *h, const pendres_pendulum *asked)
+{
+  const accuracy_units near = accuracy_near_units(t->units);
+  const size_t jumps = pendres_hysteresis_jumps(h);
+  const double unit = value_in(t, 1.0, near);
+  t->pendulum = accuracy_in_units(asked, (accuracy_units){1.0 / near.length, 1.0 / near.time});
+  for (size_t i = 0; i < POINTS; i++) {
+    t->point[i] = *pendres_hysteresis_get(h, i);
+    t->point[i].value /= unit;
+    t->point[i].attractor.orbit = accuracy_out_of_units(&t->point[i].attractor.orbit, near);
+  }
+  if (jumps > JUMPS) complain(t, "too many jumps", t->low, t->high, (double)jumps);
+  for (t->jumps = 0; t->jumps < JUMPS && (size_t)t->jumps < jumps; t->jumps++) {
+    pendres_jump *j = &t->jump[t->jumps];
+    *j = *pendres_hysteresis_jump(h, (size_t)t->jumps);
+    j->value /= unit;
+    j->value_error /= unit;
   }
 }
 
@@ -228,13 +290,18 @@ static void compute(accuracy_random *r, void *of, long number)
   (void)number;
   draw(r, t);
   for (int i = 0; i < VALUES; i++)
-    value[i] = value[POINTS - 1 - i] = t->low + (t->high - t->low) * i / (VALUES - 1.0);
+    value[i] = value[POINTS - 1 - i] =
+      value_in(t, t->low + (t->high - t->low) * i / (VALUES - 1.0), t->units);
   const pendres_hysteresis_path path = {t->parameter, POINTS, value};
+  const pendres_pendulum asked = accuracy_in_units(&t->pendulum, t->units);
+  const pendres_state start = {t->x / t->units.length, t->v * t->units.time / t->units.length};
   t->status = pendres_context_create(NULL, &ctx);
   if (t->status == PENDRES_OK)
-    t->status =
-      pendres_hysteresis_follow(ctx, &t->pendulum, &(pendres_state){t->x, t->v}, &path, &h);
-  if (t->status == PENDRES_OK) check(t, h);
+    t->status = pendres_hysteresis_follow(ctx, &asked, &start, &path, &h);
+  if (t->status == PENDRES_OK) {
+    take(t, h, &asked);
+    check(t);
+  }
   pendres_hysteresis_free(h);
   pendres_context_free(ctx);
 }
@@ -242,14 +309,14 @@ static void compute(accuracy_random *r, void *of, long number)
 /* ---- notes ---- */
 
 typedef struct tally {
-  long sweeps, steps, checked, marked, jumps[PENDRES_JUMP_COUNT];
+  long sweeps, steps, checked, marked, uncertain, jumps[PENDRES_JUMP_COUNT];
 } tally;
 
 static void show(const item *t, const char *how)
 {
   printf("%s\n", how);
   if (t->marked > 0) printf("  left out: %s\n", pendres_status_message(t->why));
-  for (int k = 0; k < t->shown; k++) {
+  for (int k = 0; k < t->jumps; k++) {
     const pendres_jump *j = &t->jump[k];
     printf("  %-4s %-12s %.14g +- %.1g %s to %s, period %d%s%s\n", j->direction > 0 ? "up" : "down",
            pendres_jump_kind_name(j->kind), j->value, j->value_error, pendres_label_name(j->from),
@@ -264,20 +331,25 @@ static void note(accuracy *a, const void *of, long number, void *counts)
   const pendres_pendulum *p = &t->pendulum;
   tally *c = counts;
   char how[HOW];
+  int others = 0;
   c->sweeps++;
   c->steps += t->steps;
   c->checked += t->checked;
   c->marked += t->marked;
-  for (int k = 0; k < PENDRES_JUMP_COUNT; k++) c->jumps[k] += t->jumps[k];
+  for (int k = 0; k < t->jumps; k++) {
+    c->jumps[t->jump[k].kind]++;
+    c->uncertain += !t->jump[k].certain;
+    others += t->jump[k].kind == PENDRES_JUMP_OTHER;
+  }
   const int length = snprintf(
     how, sizeof how, "item %ld: %s, force %.17g %.17g %.17g, damping %.17g, F0 %.17g, omega %.17g, "
-    "I %.17g, b %.17g, x %.17g, v %.17g; %s %.17g to %.17g", number,
-    p->force == PENDRES_FORCE_PENDULUM ? "pendulum" : "polynomial", p->force_coefficients[0],
-    p->force_coefficients[1], p->force_coefficients[2], p->damping, p->drive_amplitude,
-    p->drive_frequency, p->torque, p->parametric_amplitude, t->x, t->v,
+    "I %.17g, b %.17g, x %.17g, v %.17g, units %.3g %.3g; %s %.17g to %.17g", number,
+    pendres_model_of(p->force)->name, p->force_coefficients[0], p->force_coefficients[1],
+    p->force_coefficients[2], p->damping, p->drive_amplitude, p->drive_frequency, p->torque,
+    p->parametric_amplitude, t->x, t->v, t->units.length, t->units.time,
     pendres_parameter_name(t->parameter), t->low, t->high);
   if (t->status != PENDRES_OK) accuracy_complain(a, "a sweep failed", how);
-  if (accuracy_get_options(a)->item >= 0) show(t, how);
+  if (others > 0 || accuracy_get_options(a)->item >= 0) show(t, how);
   for (int k = 0; k < t->faults && k < FAULTS; k++) {
     snprintf(how + length, sizeof how - (size_t)length, ": %.10g to %.10g, at %.10g",
              t->fault[k].from, t->fault[k].to, t->fault[k].value);
@@ -292,7 +364,8 @@ void accuracy_sweeps(accuracy *a)
                                     .size = sizeof(item), .compute = compute, .note = note,
                                     .tally = &c});
   printf("\nsweeps: %ld of %ld values; %ld steps, %ld of them beside a continuation, %ld next to "
-         "values left out; jumps:", c.sweeps, (long)POINTS, c.steps, c.checked, c.marked);
+         "values left out; jumps, %ld of them uncertain:", c.sweeps, (long)POINTS, c.steps,
+         c.checked, c.marked, c.uncertain);
   for (int k = 0; k < PENDRES_JUMP_COUNT; k++)
     printf(" %ld %s%s", c.jumps[k], pendres_jump_kind_name((pendres_jump_kind)k),
            k + 1 < PENDRES_JUMP_COUNT ? "," : "\n");
