@@ -163,6 +163,45 @@ static void doublings_of_a_short_branch(void **state)
   pendres_hysteresis_free(h);
 }
 
+/*
+ * Where an orbit is born by a doubling its branch turns round, and points of the branch may lie
+ * next to that, or between two doublings next to each other. On the way down there is one
+ * bifurcation at each place, and each doubles the period. Both happened.
+ */
+static void one_bifurcation_at_a_place(void **state)
+{
+  enum { N = 12, CASES = 2, DOUBLINGS = 6 /* on the way down, in a row */ };
+  static const pendres_pendulum p[CASES] = {
+    {.damping = 0.16167918053663349, .drive_amplitude = 0.66061728924368002,
+     .torque = -0.030555463448689868},
+    {.damping = 0.088115518405680743, .drive_amplitude = 0.97236988314086892}};
+  static const double low[CASES] = {0.50333193285723676, 0.63005155577537686};
+  static const double high[CASES] = {3.4288453967999333, 2.3619314926512498};
+  static const pendres_state start[CASES] = {{0.079339324159200502, -0.1838289409418945},
+                                             {-0.83548583621790329, -0.18907451341191794}};
+  for (int c = 0; c < CASES; c++) {
+    double value[2 * N], last = INFINITY;
+    pendres_hysteresis *h = NULL;
+    int row = 0, most = 0;
+    for (int i = 0; i < N; i++)
+      value[i] = value[2 * N - 1 - i] = low[c] + (high[c] - low[c]) * i / (N - 1.0);
+    check_ok(pendres_hysteresis_follow(
+      *state, &p[c], &start[c],
+      &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2 * N, value}, &h));
+    for (size_t k = 0; k < pendres_hysteresis_jumps(h); k++) {
+      const pendres_jump *j = pendres_hysteresis_jump(h, k);
+      if (j->direction > 0) continue;
+      assert_true(fabs(j->value - last) > 1e-7);
+      last = j->value;
+      if (j->gradual) assert_true(j->to_period > 0);
+      row = j->gradual && j->kind == PENDRES_JUMP_FLIP ? row + 1 : 0;
+      if (row > most) most = row;
+    }
+    assert_true(most >= DOUBLINGS);
+    pendres_hysteresis_free(h);
+  }
+}
+
 /* The orbit near a guess that is right but for some Newton steps. */
 static pendres_orbit orbit_at(pendres_context *ctx, const pendres_pendulum *p, double x)
 {
@@ -223,6 +262,7 @@ int main(void)
     cmocka_unit_test(no_end_of_rest),
     cmocka_unit_test(only_bifurcations),
     cmocka_unit_test(doublings_of_a_short_branch),
+    cmocka_unit_test(one_bifurcation_at_a_place),
     cmocka_unit_test(one_branch),
     cmocka_unit_test(upright),
   };

@@ -142,8 +142,11 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
   const pendres_status asked = closing_half(ctx, t, found ? m->located.pair.coarse : u, &which);
   if (asked != PENDRES_OK) return asked;
   if (found && which < 0) return fold;
+  /* So close to a birth that the fold is known less well than the zero, the birth is the same. */
+  const double *error = m->located.error;
+  const double near = found ? fmax(reach, hypot(error[0], error[1])) : reach;
   m->at.half = which > 0 ? which : 0;
-  const pendres_status born = locate_birth(ctx, t, u, reach, m);
+  const pendres_status born = locate_birth(ctx, t, u, near, m);
   return born == PENDRES_NOT_CONVERGED ? fold : born;
 }
 

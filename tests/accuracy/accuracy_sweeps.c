@@ -25,7 +25,7 @@ enum {
 };
 
 /* The shortest step of a continuation, in that of the path: how well it knows an end. */
-static const double shortest = 1e-5;
+static const double shortest = 1e-7;
 /* A step leads on along a branch if it ends this close to where it was expected to. */
 static const double expected = 0.02;
 /* Measures of one orbit agree to this. */

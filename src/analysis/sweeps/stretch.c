@@ -280,6 +280,9 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
   const size_t most = most_points(&child);
   for (size_t points = first_points(&child);; points = more(points, most)) {
     double off = INFINITY;
+    /* Between two bifurcations next to each other no point may tell. */
+    s.period = child.period;
+    s.winding = child.winding;
     status = follow(ctx, &child, &way, points, &s.branch);
     if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
     if (status != PENDRES_OK) return status;
