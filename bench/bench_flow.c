@@ -312,20 +312,21 @@ static void print_tables(SUNContext sun, const ensemble *reference, int steps[TA
   printf("%8s %8s %8s %10s %10s %10s %14s\n", "error", "table", "steps", "measured", "block",
          "bare", "block : bare");
   for (pendres_table table = PENDRES_TABLE_TP8; table < PENDRES_TABLE_DP5; table++)
-    if (pendres_table_order(table) >= 8) find_steps(table, reference, &needs[table]);
+    if (pendres_tables_order(table) >= 8) find_steps(table, reference, &needs[table]);
   for (int t = 0; t < TARGETS; t++)
     for (pendres_table table = PENDRES_TABLE_TP8; table < PENDRES_TABLE_DP5; table++) {
-      if (pendres_table_order(table) < 8 || needs[table].steps[t] == 0) continue;
+      if (pendres_tables_order(table) < 8 || needs[table].steps[t] == 0) continue;
       double block, bare;
       duel d = {0};
       duel_open(&d, sun, table, MEMBERS, needs[table].steps[t]);
       duel_run(&d, 0.25, &block, &bare);
       duel_close(&d);
       printf("%8.0e %8s %8d %10.1e %10.2f %10.2f %12.0f %%\n", targets[t],
-             pendres_table_name(table), needs[table].steps[t], needs[table].error[t],
+             pendres_name_get(PENDRES_NAMES_TABLE, table), needs[table].steps[t],
+             needs[table].error[t],
              1e-6 * MEMBERS / block, 1e-6 * MEMBERS / bare, 100.0 * bare / block);
       bench_figure(needs[table].steps[t], '<', bench_count, "flow.steps.%s.%.0e",
-                   pendres_table_name(table), targets[t]);
+                   pendres_name_get(PENDRES_NAMES_TABLE, table), targets[t]);
     }
   memcpy(steps, needs[PENDRES_TABLE_TP8].steps, sizeof needs[PENDRES_TABLE_TP8].steps);
 }
@@ -376,9 +377,11 @@ static void print_singles(const ensemble *reference, const int steps[TARGETS])
       if (tolerance == 0.0 || steps[t] == 0) continue;
       race(&block, &single, &fast, &slow);
       printf("%8.0e %8s %10.1e %16.4f %16.2f %16.0f\n", targets[t],
-             pendres_table_name(tables[i]), tolerance, 1e-6 * slow, 1e-6 * fast, fast / slow);
+             pendres_name_get(PENDRES_NAMES_TABLE, tables[i]), tolerance, 1e-6 * slow, 1e-6 * fast,
+             fast / slow);
       bench_figure(fast / slow, '>', bench_ratio, "flow.block_to_single.%s.%.0e.%s",
-                   pendres_table_name(tables[i]), targets[t], pendres_kernels_select()->name);
+                   pendres_name_get(PENDRES_NAMES_TABLE, tables[i]), targets[t],
+                   pendres_kernels_select()->name);
     }
 }
 

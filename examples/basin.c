@@ -34,7 +34,7 @@ int main(void)
     }
     for (size_t k = 0; k < pendres_attractors_count(set); k++)
       printf("%s: amplitude %.6f, share %.3f +- %.3f\n",
-             pendres_label_name(pendres_attractors_get(set, k)->label),
+             pendres_name_get(PENDRES_NAMES_LABEL, pendres_attractors_get(set, k)->label),
              pendres_attractors_get(set, k)->orbit.amplitude, share[k], share_error[k]);
   }
   pendres_basin_sums_free(sums);

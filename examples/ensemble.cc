@@ -32,6 +32,7 @@ int main()
   for (const pendres_outcome &o : outcome) count[o.label]++;
   for (int label = 0; label < PENDRES_LABEL_COUNT; label++)
     if (count[label])
-      std::printf("%s: %d of %zu\n", pendres_label_name(pendres_label(label)), count[label], n);
+      std::printf("%s: %d of %zu\n", pendres_name_get(PENDRES_NAMES_LABEL, label), count[label],
+                  n);
   std::printf("the first after 10 periods: x = %.9f +- %.0e\n", x[0], error[0]);
 }

@@ -32,8 +32,8 @@ int main(void)
     const pendres_jump *jump = pendres_hysteresis_jump(sweep, i);
 
     printf("going %s it jumps from %s to %s at omega = %.10f +- %.0e\n",
-           jump->direction > 0 ? "up" : "down", pendres_label_name(jump->from),
-           pendres_label_name(jump->to), jump->value, jump->value_error);
+           jump->direction > 0 ? "up" : "down", pendres_name_get(PENDRES_NAMES_LABEL, jump->from),
+           pendres_name_get(PENDRES_NAMES_LABEL, jump->to), jump->value, jump->value_error);
   }
   pendres_hysteresis_free(sweep);
   pendres_context_free(ctx);

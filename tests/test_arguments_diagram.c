@@ -93,9 +93,9 @@ static void parameters(void **state)
   const pendres_pendulum good = {.damping = 0.1, .drive_amplitude = 0.2, .drive_frequency = 0.8};
   pendres_pendulum p = good;
   (void)state;
-  assert_null(pendres_parameter_name(PENDRES_PARAMETER_COUNT));
+  assert_null(pendres_name_get(PENDRES_NAMES_PARAMETER, PENDRES_PARAMETER_COUNT));
   assert_null(pendres_parameter_of(PENDRES_PARAMETER_COUNT));
-  assert_null(pendres_special_name(PENDRES_SPECIAL_COUNT));
+  assert_null(pendres_name_get(PENDRES_NAMES_SPECIAL, PENDRES_SPECIAL_COUNT));
   assert_true(isnan(pendres_parameter_get(PENDRES_DAMPING, NULL)));
   assert_true(isnan(pendres_parameter_get((pendres_parameter)-1, &p)));
   pendres_parameter_set(PENDRES_DAMPING, 1.0, NULL);

@@ -12,17 +12,16 @@ static void nothing(void **state)
 {
   (void)state;
   for (int i = -1; i < 1000; i += 1000) {
-    assert_null(pendres_label_name((pendres_label)i));
-    assert_null(pendres_regime_name((pendres_regime)i));
-    assert_null(pendres_method_name((pendres_method)i));
-    assert_null(pendres_cloud_verdict_name((pendres_cloud_verdict)i));
-    assert_null(pendres_switching_verdict_name((pendres_switching_verdict)i));
-    assert_null(pendres_table_name((pendres_table)i));
-    assert_int_equal(pendres_table_order((pendres_table)i), 0);
+    assert_null(pendres_name_get(PENDRES_NAMES_LABEL, i));
+    assert_null(pendres_name_get(PENDRES_NAMES_REGIME, i));
+    assert_null(pendres_name_get(PENDRES_NAMES_METHOD, i));
+    assert_null(pendres_name_get(PENDRES_NAMES_CLOUD_VERDICT, i));
+    assert_null(pendres_name_get(PENDRES_NAMES_SWITCHING_VERDICT, i));
+    assert_null(pendres_name_get(PENDRES_NAMES_TABLE, i));
     assert_non_null(pendres_status_message((pendres_status)i));
   }
-  assert_int_equal(pendres_method_named(NULL), PENDRES_METHOD_COUNT);
-  assert_int_equal(pendres_table_named(NULL), PENDRES_TABLE_COUNT);
+  assert_int_equal(pendres_name_find(PENDRES_NAMES_METHOD, NULL), -1);
+  assert_int_equal(pendres_name_find(PENDRES_NAMES_COUNT, "tp8"), -1);
   assert_null(pendres_options_check(NULL));
   assert_non_null(pendres_version());
   assert_non_null(pendres_build_info());
@@ -60,7 +59,7 @@ static void nothing(void **state)
   assert_true(isnan(pendres_ramp_value(NULL, 0.0)) && isnan(pendres_ramp_value(&no_ramp, 0.0)));
   assert_int_equal(pendres_ramp_summarize(1, NULL, &summary), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_ramp_summarize(0, NULL, NULL), PENDRES_INVALID_ARGUMENT);
-  assert_null(pendres_jump_kind_name(PENDRES_JUMP_COUNT));
+  assert_null(pendres_name_get(PENDRES_NAMES_JUMP, PENDRES_JUMP_COUNT));
   assert_int_equal(pendres_branches_count(NULL), 0);
   assert_null(pendres_branches_get(NULL, 0));
   assert_int_equal(pendres_branches_skipped(NULL), 0);

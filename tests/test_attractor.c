@@ -394,8 +394,8 @@ static void names(void **state)
                                          "escape",  "quasi_periodic"};
   (void)state;
   for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
-    assert_string_equal(pendres_label_name((pendres_label)i), expected[i]);
-  assert_null(pendres_label_name(PENDRES_LABEL_COUNT));
+    assert_string_equal(pendres_name_get(PENDRES_NAMES_LABEL, i), expected[i]);
+  assert_null(pendres_name_get(PENDRES_NAMES_LABEL, PENDRES_LABEL_COUNT));
 }
 
 int main(void)

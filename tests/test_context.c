@@ -11,6 +11,8 @@
 #include <pendres/free.h>
 #include <pendres/strobe.h>
 
+#include "engine/tables.h"
+
 static const pendres_pendulum fig7 = {
   .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78539816339744830962};
 
@@ -97,24 +99,23 @@ static void names(void **state)
   static const struct {
     const char *name;
     int order;
-  } tables[] = {{"tp8", 8},    {"tp8", 8},   {"ev8", 8}, {"vern8", 8}, {"dop853", 8},
+  } tables[] = {{"default", 8}, {"tp8", 8},   {"ev8", 8}, {"vern8", 8}, {"dop853", 8},
                 {"tsit5", 5},  {"vern9", 9}, {"sh9", 9}, {"dp5", 5}};
   (void)state;
   for (int i = 0; i < PENDRES_METHOD_COUNT; i++) {
-    assert_string_equal(pendres_method_name((pendres_method)i), methods[i]);
-    assert_int_equal(pendres_method_named(methods[i]), i);
+    assert_string_equal(pendres_name_get(PENDRES_NAMES_METHOD, i), methods[i]);
+    assert_int_equal(pendres_name_find(PENDRES_NAMES_METHOD, methods[i]), i);
   }
-  assert_null(pendres_method_name(PENDRES_METHOD_COUNT));
+  assert_null(pendres_name_get(PENDRES_NAMES_METHOD, PENDRES_METHOD_COUNT));
   for (int i = 0; i < PENDRES_TABLE_COUNT; i++) {
-    assert_string_equal(pendres_table_name((pendres_table)i), tables[i].name);
-    assert_int_equal(pendres_table_order((pendres_table)i), tables[i].order);
+    assert_string_equal(pendres_name_get(PENDRES_NAMES_TABLE, i), tables[i].name);
+    assert_int_equal(pendres_name_find(PENDRES_NAMES_TABLE, tables[i].name), i);
+    assert_int_equal(pendres_tables_order((pendres_table)i), tables[i].order);
   }
-  for (int i = PENDRES_TABLE_DEFAULT + 1; i < PENDRES_TABLE_COUNT; i++)
-    assert_int_equal(pendres_table_named(tables[i].name), i);
-  assert_int_equal(pendres_method_named("euler"), PENDRES_METHOD_COUNT);
-  assert_int_equal(pendres_table_named("tp"), PENDRES_TABLE_COUNT);
-  assert_null(pendres_table_name(PENDRES_TABLE_COUNT));
-  assert_int_equal(pendres_table_order(PENDRES_TABLE_COUNT), 0);
+  assert_int_equal(pendres_name_find(PENDRES_NAMES_METHOD, "euler"), -1);
+  assert_int_equal(pendres_name_find(PENDRES_NAMES_TABLE, "tp"), -1);
+  assert_null(pendres_name_get(PENDRES_NAMES_TABLE, PENDRES_TABLE_COUNT));
+  assert_int_equal(pendres_tables_order(PENDRES_TABLE_COUNT), 0);
 }
 
 /* Three pendulums, four periods, ten steps each of thirteen stages (tp8's last serves no other). */

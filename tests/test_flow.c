@@ -115,14 +115,14 @@ static void test_order_of_every_table(void **state)
   for (int t = PENDRES_TABLE_DEFAULT + 1; t < PENDRES_TABLE_COUNT; t++) {
     const pendres_options options = { .table = (pendres_table)t, .block_lanes = LANES };
     pendres_context *ctx = context(&options);
-    const double order = pendres_table_order((pendres_table)t);
+    const double order = pendres_tables_order((pendres_table)t);
     pendres_flow *flow = NULL;
     check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
     const double plain = measured_order(flow, 0, 2);
     check_ok(pendres_context_flow(ctx, PENDRES_FLOW_SENSITIVITY, &flow));
     const double derivatives = measured_order(flow, 2, 12);
     print_message("%-7s order %g: measured %.2f for the state, %.2f for its derivatives\n",
-                  pendres_table_name((pendres_table)t), order, plain, derivatives);
+                  pendres_name_get(PENDRES_NAMES_TABLE, t), order, plain, derivatives);
     assert_true(plain > order - 0.5 && plain < order + 2.3);
     assert_true(derivatives > order - 0.5 && derivatives < order + 2.3);
     pendres_context_free(ctx);
@@ -141,7 +141,7 @@ static void test_order_conditions(void **state)
     const pendres_tables_method *m = pendres_tables_get((pendres_table)t);
     if (m == NULL) continue; /* ARKODE's own */
     double row[PENDRES_TABLES_MOST_STAGES] = { 0.0 };
-    assert_int_equal(m->order, pendres_table_order((pendres_table)t));
+    assert_int_equal(m->order, pendres_tables_order((pendres_table)t));
     for (int k = 0; k < m->entries; k++) {
       assert_true(m->a[k].column < m->a[k].row && m->a[k].row < m->stages);
       row[m->a[k].row] += m->a[k].value;
@@ -308,7 +308,8 @@ static void test_methods_against_reference(void **state)
         check_near(off, 0.0, 1e4 * tolerance);
         if (!(off <= 10.0 * error[i]))
           print_error("%s, tolerance %g, pendulum %zu: off by %g, estimated %g\n",
-                      pendres_method_name(ways[k].method), tolerance, i, off, error[i]);
+                      pendres_name_get(PENDRES_NAMES_METHOD, ways[k].method), tolerance, i, off,
+                      error[i]);
         assert_true(off <= 10.0 * error[i]);
       }
       pendres_context_free(ctx);

@@ -42,11 +42,11 @@ static void each_has_words(void **state)
     const pendres_parameter_info *info = pendres_parameter_of((pendres_parameter)k);
     assert_non_null(info);
     assert_true(info->words[0] != '\0' && info->brief[0] != '\0' && info->unit[0] != '\0');
-    assert_string_equal(info->name, pendres_parameter_name((pendres_parameter)k));
+    assert_string_equal(info->name, pendres_name_get(PENDRES_NAMES_PARAMETER, k));
     const int coefficient = k >= PENDRES_A1 && k <= PENDRES_A5 ? k - PENDRES_A1 + 1 : 0;
     assert_int_equal(info->coefficient, coefficient);
     for (int other = 0; other < k; other++)
-      assert_true(strcmp(info->name, pendres_parameter_name((pendres_parameter)other)) != 0);
+      assert_true(strcmp(info->name, pendres_name_get(PENDRES_NAMES_PARAMETER, other)) != 0);
   }
   assert_null(pendres_parameter_of(PENDRES_PARAMETER_COUNT));
   assert_null(pendres_parameter_of((pendres_parameter)-1));

@@ -23,8 +23,8 @@ static void names_are_the_files(void **state)
   (void)state;
   static const char *const names[] = {"sa", "la", "coexistence", "single", "other"};
   for (int i = 0; i < PENDRES_REGIME_COUNT; i++)
-    assert_string_equal(pendres_regime_name((pendres_regime)i), names[i]);
-  assert_null(pendres_regime_name(PENDRES_REGIME_COUNT));
+    assert_string_equal(pendres_name_get(PENDRES_NAMES_REGIME, i), names[i]);
+  assert_null(pendres_name_get(PENDRES_NAMES_REGIME, PENDRES_REGIME_COUNT));
 }
 
 /* The paper's Fig. 8 at damping 0.13, and above the cusp. */

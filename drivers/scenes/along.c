@@ -34,7 +34,7 @@ static void list_labels(const pendres_attractors *set, char *text, size_t size)
   text[0] = '\0';
   for (size_t i = 0; i < pendres_attractors_count(set); i++)
     snprintf(text + strlen(text), size - strlen(text), "%s%s", i > 0 ? ", " : "",
-             pendres_label_name(pendres_attractors_get(set, i)->label));
+             pendres_name_get(PENDRES_NAMES_LABEL, pendres_attractors_get(set, i)->label));
 }
 
 /* An attractor that is asked for by its name or number. */
@@ -57,7 +57,8 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, req
   size_t chosen = 0;
   for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
     const pendres_attractor *a = pendres_attractors_get(set, i);
-    if (number > 0 ? (long)i + 1 != number : strcmp(pendres_label_name(a->label), start) != 0)
+    const char *label = pendres_name_get(PENDRES_NAMES_LABEL, a->label);
+    if (number > 0 ? (long)i + 1 != number : strcmp(label, start) != 0)
       continue;
     *out = *a;
     chosen = i;

@@ -339,7 +339,7 @@ static void print_table(FILE *out, const cloud_work *w)
     if (c->way == PENDRES_CLOUD_NONE && !broken) continue;
     fprintf(out, "%-12g %zu %-9s %-12.5g %-12.5g %-12.5g %-12.5g %-13s %-8zu %.3g\n",
             cloud_request(w, i).temperature, attractor,
-            pendres_label_name(pendres_attractors_get(w->set, attractor)->label),
+            pendres_name_get(PENDRES_NAMES_LABEL, pendres_attractors_get(w->set, attractor)->label),
             broken ? NAN : c->measured.statistics[XX].value, broken ? NAN : c->linear.xx,
             broken ? NAN : c->measured.statistics[VV].value, broken ? NAN : c->linear.vv,
             agree[verdict_of(w, i)], c->measured.left,

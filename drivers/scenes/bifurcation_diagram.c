@@ -284,7 +284,8 @@ static void tabulate(FILE *out, const work *w)
   fprintf(out, "%-10s %-28s %s\n", "ends by", deck_axis_name(w->axis), "period after");
   for (size_t i = 0; i < w->path.jumps && i < TABLE_ROWS; i++) {
     const pendres_jump *j = &w->path.jump[i];
-    fprintf(out, "%-10s %.14g +- %.0e  %d\n", pendres_jump_kind_name(j->kind), j->value,
+    fprintf(out, "%-10s %.14g +- %.0e  %d\n", pendres_name_get(PENDRES_NAMES_JUMP, j->kind),
+            j->value,
             j->value_error, j->to_period);
   }
   if (scene_along_uncertain(&w->path))

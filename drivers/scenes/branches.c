@@ -61,7 +61,7 @@ static const int8_t doubt_bits[] = {0, PENDRES_DOUBT_SIGN, PENDRES_DOUBT_TURN,
 static const char *doubts(int value)
 {
   if (value == 0) return "none";
-  return value < (int)sizeof doubt_bits ? pendres_doubt_name((pendres_doubt)doubt_bits[value])
+  return value < (int)sizeof doubt_bits ? pendres_name_get(PENDRES_NAMES_DOUBT, doubt_bits[value])
                                         : NULL;
 }
 
@@ -261,8 +261,9 @@ static part part_of(const scene_lines *l, const pendres_branch *b, const pendres
     out.value[i] = pendres_parameter_get(along, &p[k]->orbit.pendulum);
     out.error[i] = p[k]->parameter_error;
     snprintf(out.why[i], sizeof out.why[i], "%s",
-             kind[k] != PENDRES_REGULAR ? pendres_special_name(kind[k])
-                                        : pendres_branch_end_name(pendres_branch_end_of(b, k)));
+             kind[k] != PENDRES_REGULAR ? pendres_name_get(PENDRES_NAMES_SPECIAL, kind[k])
+                                        : pendres_name_get(PENDRES_NAMES_BRANCH_END,
+                                                           pendres_branch_end_of(b, k)));
   }
   return out;
 }

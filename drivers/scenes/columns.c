@@ -22,12 +22,12 @@ typedef struct buffers {
 #define NAMES(function, call) \
   const char *function(int value) { return call; }
 NAMES(scene_doubt_names, value == 0 ? "no" : value == 1 ? "yes" : NULL)
-NAMES(scene_motion_names, pendres_label_name((pendres_label)value))
-NAMES(scene_regime_names, pendres_regime_name((pendres_regime)value))
-NAMES(scene_special_names, pendres_special_name((pendres_special)value))
-NAMES(scene_jump_names, pendres_jump_kind_name((pendres_jump_kind)value))
-NAMES(scene_cloud_names, pendres_cloud_verdict_name((pendres_cloud_verdict)value))
-NAMES(scene_switching_names, pendres_switching_verdict_name((pendres_switching_verdict)value))
+NAMES(scene_motion_names, pendres_name_get(PENDRES_NAMES_LABEL, value))
+NAMES(scene_regime_names, pendres_name_get(PENDRES_NAMES_REGIME, value))
+NAMES(scene_special_names, pendres_name_get(PENDRES_NAMES_SPECIAL, value))
+NAMES(scene_jump_names, pendres_name_get(PENDRES_NAMES_JUMP, value))
+NAMES(scene_cloud_names, pendres_name_get(PENDRES_NAMES_CLOUD_VERDICT, value))
+NAMES(scene_switching_names, pendres_name_get(PENDRES_NAMES_SWITCHING_VERDICT, value))
 
 /* The names without that of rotations which are not locked: only sweeps and maps tell those. */
 const char *scene_fate_names(int value)

@@ -122,8 +122,9 @@ static void tabulate(FILE *out, const work *w)
   for (size_t i = 0; i < w->path.jumps && i < TABLE_JUMPS; i++) {
     const pendres_jump *j = &w->path.jump[i];
     fprintf(out, "%-5s %-9s %.14g +- %.0e  %-11s %-11s %d%s%s\n", j->direction > 0 ? "up" : "down",
-            pendres_jump_kind_name(j->kind), j->value, j->value_error,
-            pendres_label_name(j->from), pendres_label_name(j->to), j->to_period,
+            pendres_name_get(PENDRES_NAMES_JUMP, j->kind), j->value, j->value_error,
+            pendres_name_get(PENDRES_NAMES_LABEL, j->from),
+            pendres_name_get(PENDRES_NAMES_LABEL, j->to), j->to_period,
             j->gradual ? ", gradual" : "", j->certain ? "" : ", uncertain");
   }
   if (scene_along_uncertain(&w->path))

@@ -41,7 +41,7 @@ const char *scene_lines_words(pendres_parameter parameter)
   const scene_parameter *of = scene_parameters;
   for (int i = 0; i < SCENE_PLACES; i++)
     if (of[i].parameter == parameter) return of[i].one;
-  return pendres_parameter_name(parameter);
+  return pendres_name_get(PENDRES_NAMES_PARAMETER, parameter);
 }
 
 void scene_lines_describe(const deck *d, FILE *out)

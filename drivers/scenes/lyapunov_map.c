@@ -137,7 +137,7 @@ static void tabulate(FILE *out, const work *w)
   fprintf(out, "%-12s %10s %8s\n", "motion", "points", "share");
   for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
     if (counts[i] > 0)
-      fprintf(out, "%-12s %10zu %8.4f\n", pendres_label_name((pendres_label)i), counts[i],
+      fprintf(out, "%-12s %10zu %8.4f\n", pendres_name_get(PENDRES_NAMES_LABEL, i), counts[i],
               (double)counts[i] / (double)count);
   if (uncertain > 0)
     fprintf(out, "%zu uncertain: errors as small as rounding choose what they do\n", uncertain);

@@ -250,7 +250,7 @@ void scene_orbit_tabulate(FILE *out, const orbit_work *w)
   const orbit_found *f = &w->found;
   const pendres_orbit *o = &f->orbit;
   if (out == NULL) return;
-  fprintf(out, "%-26s %s%s\n", "label", pendres_label_name(f->label),
+  fprintf(out, "%-26s %s%s\n", "label", pendres_name_get(PENDRES_NAMES_LABEL, f->label),
           f->uncertain ? " (uncertain: errors as small as rounding choose it)" : "");
   if (f->settling_periods >= 0)
     fprintf(out, "%-26s %ld\n", "settling periods", f->settling_periods);

@@ -86,7 +86,7 @@ size_t scene_peak_printed(const deck *d, size_t n, const scene_peak *rows,
 
 const char *scene_peak_names(int kind)
 {
-  return kind == PENDRES_PEAK_COUNT ? "none" : pendres_peak_name((pendres_peak)kind);
+  return kind == PENDRES_PEAK_COUNT ? "none" : pendres_name_get(PENDRES_NAMES_PEAK, kind);
 }
 
 const char *scene_peak_instead(const void *row)

@@ -22,7 +22,7 @@ static const int8_t other_bits[] = {0, PENDRES_OTHER_ASYMMETRIC, PENDRES_OTHER_P
 static const char *others(int value)
 {
   if (value == 0) return "none";
-  return value < (int)sizeof other_bits ? pendres_other_name((pendres_other)other_bits[value])
+  return value < (int)sizeof other_bits ? pendres_name_get(PENDRES_NAMES_OTHER, other_bits[value])
                                         : NULL;
 }
 

@@ -49,8 +49,10 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
   /* Other scenes ask how long chaos lasts, too: their averages are as long as the library's. */
   if (d->kind == DECK_BIFURCATION_DIAGRAM)
     out->exponent_error = d->diagram.exponents ? d->precision.exponent_error : 1.0;
-  if (d->precision.method[0] != '\0') out->method = pendres_method_named(d->precision.method);
-  if (d->precision.table[0] != '\0') out->table = pendres_table_named(d->precision.table);
+  const char *method = d->precision.method, *table = d->precision.table;
+  if (method[0] != '\0')
+    out->method = (pendres_method)pendres_name_find(PENDRES_NAMES_METHOD, method);
+  if (table[0] != '\0') out->table = (pendres_table)pendres_name_find(PENDRES_NAMES_TABLE, table);
   *why = pendres_options_check(out);
   return *why == NULL ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
 }
@@ -351,9 +353,8 @@ pendres_ensemble scene_ensemble(const deck *d)
                          .v_last = d->ensemble.v_last,
                          .rows = (size_t)d->ensemble.rows,
                          .seed = (uint64_t)d->ensemble.seed };
-  for (int i = 0; i < PENDRES_ENSEMBLE_SHAPE_COUNT; i++)
-    if (strcmp(d->ensemble.shape, pendres_ensemble_shape_name((pendres_ensemble_shape)i)) == 0)
-      e.shape = (pendres_ensemble_shape)i;
+  const int shape = pendres_name_find(PENDRES_NAMES_ENSEMBLE_SHAPE, d->ensemble.shape);
+  if (shape >= 0) e.shape = (pendres_ensemble_shape)shape;
   return e;
 }
 

@@ -21,15 +21,15 @@ static pendres_options options_named(const char *name)
 {
   pendres_options o = { 0 };
   for (int m = 0; m < PENDRES_METHOD_COUNT; m++) {
-    const char *method = pendres_method_name((pendres_method)m);
+    const char *method = pendres_name_get(PENDRES_NAMES_METHOD, m);
     const size_t length = strlen(method);
     if (strncmp(name, method, length) != 0) continue;
     if (name[length] != '\0' && name[length] != '_') continue;
     o.method = (pendres_method)m;
     if (name[length] == '\0') continue;
-    const pendres_table table = pendres_table_named(name + length + 1);
+    const int table = pendres_name_find(PENDRES_NAMES_TABLE, name + length + 1);
     if (strcmp(name + length, "_order5") == 0) o.table = PENDRES_TABLE_DP5;
-    else if (table < PENDRES_TABLE_COUNT) o.table = table;
+    else if (table >= 0) o.table = (pendres_table)table;
   }
   return o;
 }

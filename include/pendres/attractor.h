@@ -65,10 +65,6 @@ typedef enum pendres_label {
   PENDRES_LABEL_COUNT           /**< how many there are; not a label */
 } pendres_label;
 
-/** "sa", "la", "periodic", "running", "chaotic", "unresolved", "escape", "quasi_periodic"; NULL if
-    out of range. */
-const char *pendres_label_name(pendres_label label);
-
 /** An attractor of one parameter set. */
 typedef struct pendres_attractor {
   pendres_label label;      /**< what it is called */

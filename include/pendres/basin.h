@@ -36,9 +36,6 @@ typedef enum pendres_basin_end {
   PENDRES_BASIN_END_COUNT         /**< how many there are */
 } pendres_basin_end;
 
-/** "attractor", "well"; NULL if out of range. The string is static. Thread safe. */
-const char *pendres_basin_end_name(pendres_basin_end end);
-
 /** States (x[i], v[j]) at drive phase 0, 0 <= i < nx, 0 <= j < nv; number i * nv + j. */
 typedef struct pendres_basin_grid {
   size_t nx;       /**< how many positions */
@@ -58,10 +55,6 @@ typedef enum pendres_basin_how {
                                     carried were not small (pendres_outcome.certain) */
   PENDRES_BASIN_HOW_COUNT      /**< how many there are */
 } pendres_basin_how;
-
-/** "integrated", "filled", "deferred", "uncertain"; NULL if out of range. The string is static.
-    Thread safe. */
-const char *pendres_basin_how_name(pendres_basin_how how);
 
 /** What became of a state; compact, since there are many. */
 typedef struct pendres_basin_state {

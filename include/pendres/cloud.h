@@ -47,10 +47,6 @@ typedef enum pendres_cloud_way {
   PENDRES_CLOUD_WAY_COUNT /**< how many there are */
 } pendres_cloud_way;
 
-/** "none", "still", "narrow", "followed"; NULL if out of range. The string is static. Thread
-    safe. */
-const char *pendres_cloud_way_name(pendres_cloud_way way);
-
 /** Whether a cloud's covariance agrees with that of linear noise theory. */
 typedef enum pendres_cloud_verdict {
   PENDRES_CLOUD_AGREES = 0,    /**< each element within 3 of its standard errors, bias included */
@@ -62,9 +58,6 @@ typedef enum pendres_cloud_verdict {
                                      of theory */
   PENDRES_CLOUD_VERDICTS       /**< how many there are */
 } pendres_cloud_verdict;
-
-/** "agrees", "too_hot", "not_compared", "uncertain", "below_rounding"; NULL if out of range. */
-const char *pendres_cloud_verdict_name(pendres_cloud_verdict verdict);
 
 /** A cloud around an attractor. Plain data; what does not exist is NaN. */
 typedef struct pendres_cloud {

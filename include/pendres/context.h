@@ -57,16 +57,6 @@ typedef enum pendres_table {
   PENDRES_TABLE_COUNT   /**< how many there are; not a table */
 } pendres_table;
 
-/** Name of a method for decks and messages, "block_fixed", ...; NULL if out of range. Static. */
-const char *pendres_method_name(pendres_method method);
-/** Name of a table, "tp8", ...; NULL if out of range. Static. */
-const char *pendres_table_name(pendres_table table);
-/** The method with a name; PENDRES_METHOD_COUNT if there is none, or name is NULL. */
-pendres_method pendres_method_named(const char *name);
-/** The table with a name; PENDRES_TABLE_COUNT if there is none, or name is NULL. */
-pendres_table pendres_table_named(const char *name);
-/** Order of the method of a table, 0 if out of range. */
-int pendres_table_order(pendres_table table);
 
 /** What a caller may choose. Zero in any field means the default. */
 typedef struct pendres_options {

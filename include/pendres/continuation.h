@@ -56,10 +56,6 @@ typedef enum pendres_special {
   PENDRES_SPECIAL_COUNT /**< how many there are; not a character */
 } pendres_special;
 
-/** "regular", "fold", "period_doubling", "symmetry_breaking", "branch_point"; NULL if out of range.
-    The string is static. Thread safe. */
-const char *pendres_special_name(pendres_special special);
-
 /** A fold, period doubling, symmetry breaking or branch point. Plain data. */
 typedef struct pendres_bifurcation {
   pendres_special kind;        /**< which of these */
@@ -129,10 +125,6 @@ typedef enum pendres_branch_end {
   PENDRES_END_COUNT      /**< how many there are; not an end */
 } pendres_branch_end;
 
-/** "range", "closed", "too_wild", "too_long", "stuck"; NULL if out of range. The string is
-    static. Thread safe. */
-const char *pendres_branch_end_name(pendres_branch_end end);
-
 /**
  * How the points of a branch disagree with its bifurcations: bits, 0 where all agree. Every branch
  * is checked when it has been followed; a doubt says that a bifurcation was missed or misnamed, or
@@ -146,10 +138,6 @@ typedef enum pendres_doubt {
   PENDRES_DOUBT_BIFURCATION = 4 /**< a fold at which the parameter does not turn, or turns against
                                      its curvature; or another bifurcation at which it does */
 } pendres_doubt;
-
-/** "unlisted_change", "turn_without_fold", "bifurcation_without_its_signs"; NULL if it is none
-    of the bits. The string is static. Thread safe. */
-const char *pendres_doubt_name(pendres_doubt bit);
 
 /** A point of a branch. */
 typedef struct pendres_branch_point {

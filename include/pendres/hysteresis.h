@@ -136,10 +136,6 @@ typedef enum pendres_jump_kind {
   PENDRES_JUMP_COUNT /**< how many there are; not a kind */
 } pendres_jump_kind;
 
-/** "fold", "flip", "symmetry", "other", "branch_point", "crisis", "homoclinic"; NULL if out of
-    range. The string is static. Thread safe. */
-const char *pendres_jump_kind_name(pendres_jump_kind kind);
-
 /** The end of a state. */
 typedef struct pendres_jump {
   size_t step;               /**< between point step - 1 and point step of the path */

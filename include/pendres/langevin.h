@@ -67,9 +67,6 @@ typedef enum pendres_langevin_answer {
   PENDRES_LANGEVIN_ANSWER_COUNT /**< how many there are; not an answer */
 } pendres_langevin_answer;
 
-/** "go_on", "enough", "stop"; NULL if out of range. The string is static. Thread safe. */
-const char *pendres_langevin_answer_name(pendres_langevin_answer answer);
-
 /**
  * Who sees trajectories once a period. Blocks of trajectories come one after another, each through
  * all its periods; which trajectories share a block must not matter to the observer.
@@ -134,10 +131,6 @@ typedef enum pendres_langevin_statistic {
   PENDRES_LANGEVIN_LOOP_AREA,  /**< mean work of the drive a drive period, in m g l */
   PENDRES_LANGEVIN_STATISTICS  /**< how many there are */
 } pendres_langevin_statistic;
-
-/** "mean_x", "mean_v", "cov_xx", "cov_xv", "cov_vv", "cosine", "sine", "loop_area"; NULL if out
-    of range. The string is static. Thread safe. */
-const char *pendres_langevin_statistic_name(pendres_langevin_statistic statistic);
 
 /** Sets of statistics, for pendres_langevin_choose_steps. */
 enum {

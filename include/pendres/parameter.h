@@ -112,11 +112,6 @@ typedef struct pendres_parameter_info {
 /** What there is to say of a parameter; NULL if out of range. */
 const pendres_parameter_info *pendres_parameter_of(pendres_parameter parameter);
 
-/** Its name: "drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude",
-    "a1" to "a5", "drive_period", "temperature", "x", "v"; NULL if out of range. The string is
-    static. */
-const char *pendres_parameter_name(pendres_parameter parameter);
-
 /** A pendulum's value of a parameter; NaN if either does not exist, and for the start's. */
 double pendres_parameter_get(pendres_parameter parameter, const pendres_pendulum *pendulum);
 

@@ -18,6 +18,7 @@
 
 #include <pendres/version.h>
 #include <pendres/status.h>
+#include <pendres/names.h>
 #include <pendres/pendulum.h>
 #include <pendres/parameter.h>
 #include <pendres/sweep.h>

@@ -60,10 +60,6 @@ typedef enum pendres_regime {
   PENDRES_REGIME_COUNT /**< how many there are; not a regime */
 } pendres_regime;
 
-/** "sa", "la", "coexistence", "single", "other"; NULL if out of range. The string is static.
-    Thread safe. */
-const char *pendres_regime_name(pendres_regime regime);
-
 /** What members settle on beside SA and LA: bits, 0 for nothing. */
 typedef enum pendres_other {
   PENDRES_OTHER_ASYMMETRIC = 1, /**< an orbit of one drive period that is not its own mirror image:
@@ -73,10 +69,6 @@ typedef enum pendres_other {
   PENDRES_OTHER_CHAOTIC = 8,    /**< a chaotic attractor */
   PENDRES_OTHER_UNRESOLVED = 16 /**< some member did not settle within its budget */
 } pendres_other;
-
-/** "asymmetric", "periodic", "running", "chaotic", "unresolved"; NULL if it is none of the bits.
-    The string is static. Thread safe. */
-const char *pendres_other_name(pendres_other bit);
 
 /** One point of the diagram. Amplitudes are in rad, the loop area is the work of the drive in one
     of its periods, in m g l. Numbers of a state that does not exist are NaN. */

@@ -44,9 +44,6 @@ typedef enum pendres_peak {
   PENDRES_PEAK_COUNT       /**< how many there are; not a kind */
 } pendres_peak;
 
-/** "smooth", "edge", "ragged"; NULL if out of range. The string is static. Thread safe. */
-const char *pendres_peak_name(pendres_peak peak);
-
 /** A resonance. */
 typedef struct pendres_resonance {
   pendres_peak peak;                 /**< what kind of maximum it is */

@@ -24,6 +24,8 @@
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H
 
+#include <pendres/names.h>
+
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {

@@ -70,10 +70,6 @@ typedef enum pendres_store_type {
   PENDRES_STORE_TYPE_COUNT  /**< how many there are; not a type */
 } pendres_store_type;
 
-/** "double", "int8", "int32", "int64", "string"; NULL if out of range. The string is static.
-    Thread safe. */
-const char *pendres_store_type_name(pendres_store_type type);
-
 /** Attributes of the root group, of which NULL leaves one out, and how the file is made. Here only
  *  the history may tell the date, as the CF conventions ask; whatever else changes from run to run
  *  (hosts, times taken) belongs into the provenance, so that what is left of equal results is

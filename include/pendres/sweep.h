@@ -85,9 +85,6 @@ typedef enum pendres_ensemble_shape {
   PENDRES_ENSEMBLE_SHAPE_COUNT /**< how many there are; not a shape */
 } pendres_ensemble_shape;
 
-/** "line", "rectangle", "random"; NULL if out of range. The string is static. Thread safe. */
-const char *pendres_ensemble_shape_name(pendres_ensemble_shape shape);
-
 /**
  * The starts of an ensemble, members k = 1..members. Those of a line are the ensemble itself. Those
  * of a rectangle, regular or random, are a sample of all states in it, and the errors of results

@@ -149,10 +149,6 @@ typedef enum pendres_switching_verdict {
   PENDRES_SWITCHING_VERDICTS      /**< how many there are */
 } pendres_switching_verdict;
 
-/** "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier",
- *  "unbalanced"; NULL if out of range. */
-const char *pendres_switching_verdict_name(pendres_switching_verdict verdict);
-
 /**
  * The law ln rate = ln prefactor - energy / T, where the prefactor may depend on the temperature.
  * Errors are standard errors, as the rates' are.
@@ -207,10 +203,6 @@ typedef enum pendres_switching_way {
   PENDRES_SWITCHING_SECOND_WELL, /**< from the second state, likewise */
   PENDRES_SWITCHING_WAYS         /**< how many there are */
 } pendres_switching_way;
-
-/** "forth", "back", "first_well", "second_well"; NULL if out of range. The string is static.
-    Thread safe. */
-const char *pendres_switching_way_name(pendres_switching_way way);
 
 /** Two states to survey. */
 typedef struct pendres_switching_survey {

@@ -42,13 +42,6 @@ const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *b, s
   return b != NULL && i < b->bifurcations ? &b->bifurcation[i] : NULL;
 }
 
-const char *pendres_branch_end_name(pendres_branch_end end)
-{
-  static const char *const names[PENDRES_END_COUNT] = {
-    "range", "closed", "too_wild", "too_long", "stuck"};
-  return (unsigned)end < PENDRES_END_COUNT ? names[end] : NULL;
-}
-
 pendres_branch_end pendres_branch_end_of(const pendres_branch *b, int which)
 {
   return b != NULL ? b->end[which != 0] : PENDRES_END_STUCK;

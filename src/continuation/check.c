@@ -4,16 +4,6 @@
 
 #include <math.h>
 
-const char *pendres_doubt_name(pendres_doubt bit)
-{
-  switch (bit) {
-  case PENDRES_DOUBT_SIGN: return "unlisted_change";
-  case PENDRES_DOUBT_TURN: return "turn_without_fold";
-  case PENDRES_DOUBT_BIFURCATION: return "bifurcation_without_its_signs";
-  default: return NULL;
-  }
-}
-
 /*
  * Along a branch the product (1 - m1)(1 - m2) of its multipliers changes its sign at folds and at
  * losses of mirror symmetry, (1 + m1)(1 + m2) at period doublings, and neither does anywhere else:

@@ -81,7 +81,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
     status = pendres_arc_begin(ctx, &arc[i], u, i == 0 ? 1.0 : -1.0);
     if (status == PENDRES_NOT_CONVERGED)
       return pendres_context_fail(ctx, status, "no orbit to start from at %s %g",
-                                  pendres_parameter_name(parameter), from);
+                                  pendres_name_get(PENDRES_NAMES_PARAMETER, parameter), from);
     if (status != PENDRES_OK) return status;
     ahead[i] = arc[i];
   }
@@ -100,7 +100,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status,
                                 "the branch through %s %g has no fold near",
-                                pendres_parameter_name(parameter), from);
+                                pendres_name_get(PENDRES_NAMES_PARAMETER, parameter), from);
   if (!pendres_located_found(status)) return status;
   const pendres_status measured = pendres_continuation_locate_finish(
     ctx, PENDRES_CONDITION_FOLD, parameter, &located, out);

@@ -29,12 +29,3 @@ const char *pendres_continuation_refuses(const pendres_orbit *o, pendres_paramet
   return NULL;
 }
 
-const char *pendres_special_name(pendres_special special)
-{
-  static const char *const specials[PENDRES_SPECIAL_COUNT] = {
-#define SPECIAL_NAME(code, name) name,
-    PENDRES_SPECIAL_LIST(SPECIAL_NAME)
-#undef SPECIAL_NAME
-  };
-  return (unsigned)special < PENDRES_SPECIAL_COUNT ? specials[special] : NULL;
-}

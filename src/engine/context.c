@@ -14,28 +14,6 @@
 
 enum { DEFAULT_LANES = 512, MOST_LANES = 4096, MOST_STEPS = 1000000 };
 
-const char *pendres_table_name(pendres_table table)
-{
-  if (table == PENDRES_TABLE_DP5) return "dp5";
-  const pendres_tables_method *m = pendres_tables_get(table);
-  return m != NULL ? m->name : NULL;
-}
-
-pendres_table pendres_table_named(const char *name)
-{
-  int i = PENDRES_TABLE_DEFAULT + 1; /* the default is one of the others */
-  if (name == NULL) return PENDRES_TABLE_COUNT;
-  while (i < PENDRES_TABLE_COUNT && strcmp(name, pendres_table_name((pendres_table)i)) != 0) i++;
-  return (pendres_table)i;
-}
-
-int pendres_table_order(pendres_table table)
-{
-  if (table == PENDRES_TABLE_DP5) return 5;
-  const pendres_tables_method *m = pendres_tables_get(table);
-  return m != NULL ? m->order : 0;
-}
-
 /* NULL when all is well, else what is wrong. */
 static const char *resolve(pendres_options *o)
 {

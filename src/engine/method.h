@@ -48,7 +48,6 @@ static inline size_t pendres_strobe_which(const pendres_strobe_job *job, size_t 
 }
 
 typedef struct pendres_method_functions {
-  const char *name;    /* in decks and messages */
   int fixed_steps;     /* steps are as many as a lane says; other methods choose their own by the
                           tolerance */
   int running_clock;   /* the clock is not put back at a period's end, so that its rounding adds up

@@ -24,5 +24,5 @@ static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
   return status;
 }
 
-const pendres_method_functions pendres_method_block_adaptive = {.name = "block_adaptive",
+const pendres_method_functions pendres_method_block_adaptive = {
                                                                 .run = run};

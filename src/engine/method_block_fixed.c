@@ -9,4 +9,4 @@ static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
 }
 
 const pendres_method_functions pendres_method_block_fixed = {
-  .name = "block_fixed", .fixed_steps = 1, .run = run};
+  .fixed_steps = 1, .run = run};

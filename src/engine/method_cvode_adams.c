@@ -20,4 +20,4 @@ static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
 }
 
 const pendres_method_functions pendres_method_cvode_adams = {
-  .name = "cvode_adams", .running_clock = 1, .run = run};
+  .running_clock = 1, .run = run};

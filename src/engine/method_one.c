@@ -69,6 +69,11 @@ void pendres_one_erk_close(pendres_one *b)
   if (b->memory != NULL) ERKStepFree(&b->memory);
 }
 
+static const char *name_of(const pendres_one *b)
+{
+  return pendres_name_get(PENDRES_NAMES_METHOD, (int)b->ctx->options.method);
+}
+
 static pendres_status open_problem(pendres_one *b, const pendres_one_solver *solver,
                                    const pendres_strobe_lane *lane)
 {
@@ -80,7 +85,7 @@ static pendres_status open_problem(pendres_one *b, const pendres_one_solver *sol
   N_VGetArrayPointer(b->state)[1] = lane->w;
   if (solver->open(b) != 0)
     return pendres_context_fail(b->ctx, PENDRES_INTEGRATION_FAILED,
-                                "method %s could not be set up", pendres_method_of(b->ctx)->name);
+                                "method %s could not be set up", name_of(b));
   return PENDRES_OK;
 }
 
@@ -96,7 +101,7 @@ static pendres_status advance(pendres_one *b, const pendres_one_solver *solver, 
   if (code < 0)
     return pendres_context_fail(b->ctx, PENDRES_INTEGRATION_FAILED,
                                 "method %s gave up in drive period %ld (code %d)",
-                                pendres_method_of(b->ctx)->name, period, code);
+                                name_of(b), period, code);
   return PENDRES_OK;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/flow.h"
 #include "engine/coordinates.h"
 #include "engine/steps_memo.h"
+#include "engine/tables.h"
 
 enum {
   PROBES = 16,          /* initial states a cell is probed with, two vectors of eight */
@@ -281,7 +282,7 @@ static pendres_status probe(pendres_context *ctx, const pendres_steps_cell *c, i
   probed of;
   const pendres_pendulum *const p = &of.pendulum;
   double tolerance;
-  const int order = pendres_table_order(ctx->options.table);
+  const int order = pendres_tables_order(ctx->options.table);
 
   worst_of(c, &of.pendulum, &of.speed, &tolerance);
   if (p->drive_frequency == 0.0 || shaken(p)) return PENDRES_TOLERANCE_UNREACHABLE;

@@ -751,7 +751,7 @@ static const double sh9_c[] = {
 };
 
 #define METHOD(low, stages, order, embedded)                                                      \
-  {#low, stages, order, embedded, low##_a, (int)(sizeof low##_a / sizeof low##_a[0]), low##_b,     \
+  {stages, order, embedded, low##_a, (int)(sizeof low##_a / sizeof low##_a[0]), low##_b,     \
    low##_d, low##_c}
 
 static const pendres_tables_method methods[PENDRES_TABLE_COUNT] = {
@@ -769,4 +769,11 @@ const pendres_tables_method *pendres_tables_get(pendres_table table)
   if (table == PENDRES_TABLE_DEFAULT) table = PENDRES_TABLE_TP8;
   if ((unsigned)table >= PENDRES_TABLE_COUNT || methods[table].a == NULL) return NULL;
   return &methods[table];
+}
+
+int pendres_tables_order(pendres_table table)
+{
+  if (table == PENDRES_TABLE_DP5) return 5;
+  const pendres_tables_method *m = pendres_tables_get(table);
+  return m != NULL ? m->order : 0;
 }

@@ -17,7 +17,6 @@ typedef struct pendres_tables_entry {
 } pendres_tables_entry;
 
 typedef struct pendres_tables_method {
-  const char *name;
   int stages, order, embedded_order;
   const pendres_tables_entry *a;
   int entries;
@@ -28,5 +27,8 @@ typedef struct pendres_tables_method {
 
 /* The coefficients of a table; NULL for PENDRES_TABLE_DP5 (built into ARKODE) and out of range. */
 const pendres_tables_method *pendres_tables_get(pendres_table table);
+
+/* Order of the method of a table, 0 if out of range. */
+int pendres_tables_order(pendres_table table);
 
 #endif

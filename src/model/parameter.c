@@ -36,12 +36,6 @@ const pendres_parameter_info *pendres_parameter_of(pendres_parameter parameter)
   return r != NULL ? &r->info : NULL;
 }
 
-const char *pendres_parameter_name(pendres_parameter parameter)
-{
-  const row *r = row_of(parameter);
-  return r != NULL ? r->info.name : NULL;
-}
-
 size_t pendres_parameter_place(pendres_parameter parameter)
 {
   const row *r = row_of(parameter);

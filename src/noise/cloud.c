@@ -25,19 +25,6 @@ static const double level = 0.95;
 
 static const pendres_langevin_estimate none = {NAN, NAN};
 
-const char *pendres_cloud_way_name(pendres_cloud_way way)
-{
-  static const char *const names[PENDRES_CLOUD_WAY_COUNT] = {"none", "still", "narrow", "followed"};
-  return (unsigned)way < PENDRES_CLOUD_WAY_COUNT ? names[way] : NULL;
-}
-
-const char *pendres_cloud_verdict_name(pendres_cloud_verdict verdict)
-{
-  static const char *const names[PENDRES_CLOUD_VERDICTS] = {
-    "agrees", "too_hot", "not_compared", "uncertain", "below_rounding"};
-  return (unsigned)verdict < PENDRES_CLOUD_VERDICTS ? names[verdict] : NULL;
-}
-
 static const pendres_orbit *orbit_of(const pendres_cloud_request *q)
 {
   return &pendres_attractors_get(q->set, q->attractor)->orbit;

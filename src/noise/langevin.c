@@ -9,12 +9,6 @@
 #include "model/model.h"
 #include "noise/langevin_window.h"
 
-const char *pendres_langevin_answer_name(pendres_langevin_answer answer)
-{
-  static const char *const names[PENDRES_LANGEVIN_ANSWER_COUNT] = {"go_on", "enough", "stop"};
-  return (unsigned)answer < PENDRES_LANGEVIN_ANSWER_COUNT ? names[answer] : NULL;
-}
-
 /* A double beyond this does not hold a position to a tenth of a radian; see coordinates.h. */
 static const double farthest = 1e15;
 

@@ -8,13 +8,6 @@
 #include "base/student.h"
 #include "noise/langevin_window.h"
 
-const char *pendres_langevin_statistic_name(pendres_langevin_statistic statistic)
-{
-  static const char *const names[PENDRES_LANGEVIN_STATISTICS] = {
-    "mean_x", "mean_v", "cov_xx", "cov_xv", "cov_vv", "cosine", "sine", "loop_area"};
-  return (unsigned)statistic < PENDRES_LANGEVIN_STATISTICS ? names[statistic] : NULL;
-}
-
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 
 static void add(pendres_sums *s, double x, double v, double cosine, double sine,

@@ -86,14 +86,6 @@ static void fill_rows(const sample *s, gsl_matrix *rows, gsl_vector *wanted, gsl
 /* A barrier of less than so many temperatures is no activation energy. */
 static const double least_barrier = 2.0;
 
-const char *pendres_switching_verdict_name(pendres_switching_verdict verdict)
-{
-  static const char *const names[PENDRES_SWITCHING_VERDICTS] = {
-    "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier",
-    "unbalanced"};
-  return (unsigned)verdict < PENDRES_SWITCHING_VERDICTS ? names[verdict] : NULL;
-}
-
 static pendres_switching_verdict verdict_on(const pendres_switching_activation *f)
 {
   const double freedom = (double)f->points - 2.0;

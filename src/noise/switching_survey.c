@@ -10,13 +10,6 @@
 #include "noise/noise_common.h"
 #include "orbits/attractor_internal.h"
 
-const char *pendres_switching_way_name(pendres_switching_way way)
-{
-  static const char *const names[PENDRES_SWITCHING_WAYS] = {
-    "forth", "back", "first_well", "second_well"};
-  return (unsigned)way < PENDRES_SWITCHING_WAYS ? names[way] : NULL;
-}
-
 /* Steps are chosen on the states' small clouds, at one temperature. */
 static const double bias_of_choice = 0.01, temperature_of_choice = 1e-4;
 

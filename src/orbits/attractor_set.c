@@ -13,14 +13,6 @@
 #include "orbits/label.h"
 #include "orbits/orbit_table.h"
 
-const char *pendres_label_name(pendres_label label)
-{
-  static const char *const names[PENDRES_LABEL_COUNT] = {"sa",      "la",      "periodic",
-                                                         "running", "chaotic", "unresolved",
-                                                         "escape",  "quasi_periodic"};
-  return (unsigned)label < PENDRES_LABEL_COUNT ? names[label] : NULL;
-}
-
 void pendres_attractor_set_clear(pendres_attractor_set *c)
 {
   free(c->attractors);

@@ -14,6 +14,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/tables.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
 
@@ -63,7 +64,7 @@ static int one_period(void *arg, size_t index, const pendres_strobe_lane *lane)
 /* The clock has converged with the present steps: tell its error, or ask for more steps. */
 static void judge(const pendres_context *ctx, swing *s)
 {
-  const double order = pendres_table_order(ctx->options.table);
+  const double order = pendres_tables_order(ctx->options.table);
   const double floor = rounding(s), clock = s->pendulum.drive_frequency;
   double wanted = 2.0 * s->steps;
   if (!pendres_method_of(ctx)->fixed_steps) {

@@ -14,13 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *pendres_store_type_name(pendres_store_type type)
-{
-  static const char *const names[PENDRES_STORE_TYPE_COUNT] = {
-    "double", "int8", "int32", "int64", "string"};
-  return (unsigned)type < PENDRES_STORE_TYPE_COUNT ? names[type] : NULL;
-}
-
 /* ---- Messages -------------------------------------------------------------------------------- */
 
 pendres_status pendres_store_fail(pendres_store *store, pendres_status status, const char *format,

@@ -84,7 +84,7 @@ static void note(accuracy *a, const void *of, long number, void *tally)
            "item %ld: F0 %.17g, damping %.17g, frequency %.17g, x %.17g, v %.17g, %ld periods, "
            "tolerance %.17g", number, p->drive_amplitude, p->damping, p->drive_frequency, t->x,
            t->v, t->periods, t->tolerance);
-  snprintf(kind, sizeof kind, "%s", pendres_method_name(t->method));
+  snprintf(kind, sizeof kind, "%s", pendres_name_get(PENDRES_NAMES_METHOD, t->method));
   accuracy_note_error(a, kind, t->error, t->claim, how);
   accuracy_note_error(a, "end of a record", t->recorded_error, t->recorded_claim, how);
 }

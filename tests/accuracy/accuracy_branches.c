@@ -397,7 +397,7 @@ static void note_bifurcation(accuracy *a, const place *at, const char *how)
 {
   const pendres_bifurcation *b = &at->bifurcation;
   const pendres_orbit *o = &b->orbit;
-  const char *name = pendres_special_name(b->kind);
+  const char *name = pendres_name_get(PENDRES_NAMES_SPECIAL, b->kind);
   char kind[64];
   pendres_pendulum p = o->pendulum;
   pendres_reference_cycle e = at->exact;
@@ -430,7 +430,7 @@ static void note(accuracy *a, const void *of, long number, void *tally)
              p->drive_amplitude, p->damping, p->drive_frequency, p->torque, p->parametric_amplitude,
              (int)p->force, p->force_coefficients[0], p->force_coefficients[1],
              p->force_coefficients[2], t->guess.x, t->guess.v, t->guess.period, t->guess.winding,
-             pendres_parameter_name(t->parameter), t->low, t->high, t->tolerance,
+             pendres_name_get(PENDRES_NAMES_PARAMETER, t->parameter), t->low, t->high, t->tolerance,
              pendres_parameter_get(t->parameter, &o->pendulum), t->units.length, t->units.time);
     if (k < POINTS) note_point(a, at, how);
     else note_bifurcation(a, at, how);

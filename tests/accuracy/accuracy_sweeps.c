@@ -319,8 +319,10 @@ static void show(const item *t, const char *how)
   for (int k = 0; k < t->jumps; k++) {
     const pendres_jump *j = &t->jump[k];
     printf("  %-4s %-12s %.14g +- %.1g %s to %s, period %d%s%s\n", j->direction > 0 ? "up" : "down",
-           pendres_jump_kind_name(j->kind), j->value, j->value_error, pendres_label_name(j->from),
-           pendres_label_name(j->to), j->to_period, j->gradual ? ", gradual" : "",
+           pendres_name_get(PENDRES_NAMES_JUMP, j->kind), j->value, j->value_error,
+           pendres_name_get(PENDRES_NAMES_LABEL, j->from),
+           pendres_name_get(PENDRES_NAMES_LABEL, j->to), j->to_period,
+           j->gradual ? ", gradual" : "",
            j->certain ? "" : ", uncertain");
   }
 }
@@ -347,7 +349,7 @@ static void note(accuracy *a, const void *of, long number, void *counts)
     pendres_model_of(p->force)->name, p->force_coefficients[0], p->force_coefficients[1],
     p->force_coefficients[2], p->damping, p->drive_amplitude, p->drive_frequency, p->torque,
     p->parametric_amplitude, t->x, t->v, t->units.length, t->units.time,
-    pendres_parameter_name(t->parameter), t->low, t->high);
+    pendres_name_get(PENDRES_NAMES_PARAMETER, t->parameter), t->low, t->high);
   if (t->status != PENDRES_OK) accuracy_complain(a, "a sweep failed", how);
   if (others > 0 || accuracy_get_options(a)->item >= 0) show(t, how);
   for (int k = 0; k < t->faults && k < FAULTS; k++) {
@@ -367,6 +369,6 @@ void accuracy_sweeps(accuracy *a)
          "values left out; jumps, %ld of them uncertain:", c.sweeps, (long)POINTS, c.steps,
          c.checked, c.marked, c.uncertain);
   for (int k = 0; k < PENDRES_JUMP_COUNT; k++)
-    printf(" %ld %s%s", c.jumps[k], pendres_jump_kind_name((pendres_jump_kind)k),
+    printf(" %ld %s%s", c.jumps[k], pendres_name_get(PENDRES_NAMES_JUMP, k),
            k + 1 < PENDRES_JUMP_COUNT ? "," : "\n");
 }

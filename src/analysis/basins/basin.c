@@ -11,19 +11,6 @@
 #include "engine/door.h"
 #include "orbits/settle.h"
 
-const char *pendres_basin_how_name(pendres_basin_how how)
-{
-  static const char *const names[PENDRES_BASIN_HOW_COUNT] = {
-    "integrated", "filled", "deferred", "uncertain"};
-  return (unsigned)how < PENDRES_BASIN_HOW_COUNT ? names[how] : NULL;
-}
-
-const char *pendres_basin_end_name(pendres_basin_end end)
-{
-  static const char *const names[PENDRES_BASIN_END_COUNT] = {"attractor", "well"};
-  return (unsigned)end < PENDRES_BASIN_END_COUNT ? names[end] : NULL;
-}
-
 enum {
   GUESS_SIDE = 24,     /* initial guesses over the grid: at most this many by this many */
   EXTEND_SCOUTS = 256, /* states that are looked at when some are unresolved */

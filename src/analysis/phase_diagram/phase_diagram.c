@@ -9,28 +9,6 @@
 #include "model/parameter.h"
 #include "analysis/phase_diagram/line.h"
 
-const char *pendres_regime_name(pendres_regime regime)
-{
-  static const char *const names[PENDRES_REGIME_COUNT] = {
-#define REGIME_NAME(code, name) name,
-    PENDRES_REGIME_LIST(REGIME_NAME)
-#undef REGIME_NAME
-  };
-  return (unsigned)regime < PENDRES_REGIME_COUNT ? names[regime] : NULL;
-}
-
-const char *pendres_other_name(pendres_other bit)
-{
-  switch (bit) {
-  case PENDRES_OTHER_ASYMMETRIC: return "asymmetric";
-  case PENDRES_OTHER_PERIODIC: return "periodic";
-  case PENDRES_OTHER_RUNNING: return "running";
-  case PENDRES_OTHER_CHAOTIC: return "chaotic";
-  case PENDRES_OTHER_UNRESOLVED: return "unresolved";
-  default: return NULL;
-  }
-}
-
 /* ---- diagrams and marks ---- */
 
 static int ascends(size_t n, const double *value)

@@ -13,12 +13,6 @@
 #include "analysis/resonance/response_members.h"
 #include "analysis/resonance/response_sampling.h"
 
-const char *pendres_peak_name(pendres_peak peak)
-{
-  static const char *const names[PENDRES_PEAK_COUNT] = {"smooth", "edge", "ragged"};
-  return (unsigned)peak < PENDRES_PEAK_COUNT ? names[peak] : NULL;
-}
-
 /*
  * What one search may cost. Several that go side by side may cost as much together: nobody knows
  * which of them has spent how much of the common budget, but none can have spent more than it would

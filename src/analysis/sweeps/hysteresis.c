@@ -22,16 +22,6 @@ enum { MOST_TRIES = 4 /* to come from chaos to an orbit on the way from one valu
    scale. */
 static const double close_by = 0.1;
 
-const char *pendres_jump_kind_name(pendres_jump_kind kind)
-{
-  static const char *const names[PENDRES_JUMP_COUNT] = {
-#define NAME(code, name) name,
-    PENDRES_JUMP_LIST(NAME)
-#undef NAME
-  };
-  return (unsigned)kind < PENDRES_JUMP_COUNT ? names[kind] : NULL;
-}
-
 void pendres_hysteresis_free(pendres_hysteresis *h)
 {
   if (h == NULL) return;

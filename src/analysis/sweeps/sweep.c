@@ -10,12 +10,6 @@
 #include "base/mix.h"
 #include "model/parameter.h"
 
-const char *pendres_ensemble_shape_name(pendres_ensemble_shape shape)
-{
-  static const char *const names[PENDRES_ENSEMBLE_SHAPE_COUNT] = {"line", "rectangle", "random"};
-  return (unsigned)shape < PENDRES_ENSEMBLE_SHAPE_COUNT ? names[shape] : NULL;
-}
-
 /* The rounding error of the values of a range: three operations, and that of a decimal itself. */
 static double rounding_of(const pendres_range *range)
 {
