@@ -35,7 +35,8 @@
 #   for more than the baseline, so what was built here runs anywhere.
 # - Everything is hidden unless a public header says otherwise: each header in include/pendres
 #   has `#pragma GCC visibility push(default)` after its includes and `pop` at its end.
-# - drivers/*.c and drivers/*/*.c except main.c make libdriver.a; drivers see the public headers alone.
+# - drivers/*.c and drivers/*/*.c except main.c make libdriver.a, and so do validation/*.c,
+#   what the program is measured against. They see the public headers alone.
 # - tests/test_NAME.c are programs of their own, tests/NAME_check.sh scripts; both count.
 #   They run at the top of the tree, with RESONANCE naming the program to try.
 
@@ -170,7 +171,8 @@ LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c src/*/*/*
 # One of these is the program's: drivers/farm/ranks.h.
 RANKS := $(if $(filter-out 0,$(MPI)),mpi,serial)
 OTHER_RANKS := $(filter-out %_$(RANKS).c,$(wildcard drivers/farm/ranks_*.c))
-DRIVER_SOURCES := $(filter-out drivers/main.c $(OTHER_RANKS),$(wildcard drivers/*.c drivers/*/*.c))
+DRIVER_SOURCES := $(filter-out drivers/main.c $(OTHER_RANKS),$(wildcard drivers/*.c drivers/*/*.c)) \
+                  $(wildcard validation/*.c)
 HEADERS := $(wildcard include/pendres/*.h)
 OBJ := $(BUILD)/obj
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(OBJ)/%.o) \
@@ -222,7 +224,8 @@ $(BUILD)/flags: ;
 # What the program was made of, whatever the compiler and the folder: a journal of other sources is
 # refused.
 ifneq ($(BUILDING),)
-SOURCES_SUM := $(shell cat $(sort $(HEADERS) $(wildcard src/*/*.[ch] src/*/*/*.[ch] drivers/*.[ch] drivers/*/*.[ch])) | cksum)
+SOURCES_SUM := $(shell cat $(sort $(HEADERS) $(wildcard src/*/*.[ch] src/*/*/*.[ch] \
+                 drivers/*.[ch] drivers/*/*.[ch] validation/*.[ch])) | cksum)
 ifneq ($(SOURCES_SUM),$(strip $(file <$(BUILD)/sources)))
 $(file >$(BUILD)/sources,$(SOURCES_SUM))
 endif
@@ -240,8 +243,11 @@ $(OBJ)/src/%.o: src/%.c $(BUILD)/flags
 $(OBJ)/drivers/%.o: drivers/%.c $(BUILD)/flags
 	$(call COMPILE,-Idrivers $(THREADS) $(RANKS_CFLAGS))
 
+$(OBJ)/validation/%.o: validation/%.c $(BUILD)/flags
+	$(call COMPILE,-Idrivers -I. $(THREADS))
+
 $(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
-	$(call COMPILE,-Isrc -Idrivers -Itests $(OPENMP),$(TERSE))
+	$(call COMPILE,-Isrc -Idrivers -Itests -I. $(OPENMP),$(TERSE))
 
 $(OBJ)/bench/%.o: bench/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc -Idrivers -Ibench $(OPENMP),$(TERSE))

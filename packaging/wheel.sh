@@ -38,7 +38,7 @@ make_sdist()
   mkdir -p "$work/stage/library" "$work/stage/licences"
   cp -r python/pendres python/*.py python/*.toml python/*.md python/*.in "$work/stage"
   cp LICENSE "$work/stage/licences/LICENSE.pendres"
-  cp -r Makefile pendres.map drivers include input man plots src "$work/stage/library"
+  cp -r Makefile pendres.map drivers include input man plots src validation "$work/stage/library"
   (cd "$work/stage" && quiet sdist "$python" -c \
     "from setuptools import build_meta; build_meta.build_sdist('$dist')")
 }

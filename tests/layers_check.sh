@@ -9,10 +9,18 @@ complain()
   failed=1
 }
 
-# Layers from the bottom up. A file includes what is in its own folder or in one before it.
-src_layers='base model engine orbits noise continuation analysis/basins analysis/resonance
-  analysis/phase_diagram analysis/chaos analysis/sweeps reference store'
-drivers_layers='system terminal farm validation deck scenes .'
+# layers TOP: "row folder" for every folder of TOP in the picture of docs/architecture.md, rows counted
+# from its head. A file includes what is in its own folder or in one of a row below.
+layers()
+{
+  sed -n '/^## Folders are layers/,/^## The/p' docs/architecture.md | awk -F'|' -v top="$1" '
+    /^```/ { inside = !inside; next }
+    inside && NF > 2 {
+      gsub(/ /, "")
+      if ($1 != "") of = $1
+      for (i = 2; i < NF; i++) if (of == top && $i != "") print NR, $i
+    }'
+}
 
 # Doors: the headers of a folder that other folders may include.
 src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h base/turns.h
@@ -28,16 +36,20 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   continuation/families.h continuation/units.h
   analysis/resonance/response_members.h analysis/chaos/lyapunov_move.h'
 drivers_doors='system/bytes.h system/clock.h system/grow.h system/own_file.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
-  farm/trial.h deck/deck.h deck/explain.h scenes/scene.h validation/contest.h
-  validation/hard_cases.h'
+  farm/trial.h deck/deck.h deck/explain.h scenes/scene.h scenes/check.h
+  scenes/columns.h'
 
-
-# includes TOP: "file header" for every header of TOP itself that a file of TOP includes.
+# includes TOP: "file header" for every header of TOP itself that a file of TOP includes. What stands
+# beside the driver, validation, belongs to it.
 includes()
 {
-  (cd "$1" && for file in *.[ch] */*.[ch] */*/*.[ch]; do
-    [ -f "$file" ] && sed -n "s|^ *# *include \"\([^\"]*\)\".*|$file \1|p" "$file"
-  done)
+  (cd "$1" && for file in *.[ch] */*.[ch] */*/*.[ch]; do named "$file"; done)
+  [ "$1" != drivers ] || for file in validation/*.[ch]; do named "$file"; done
+}
+
+named()
+{
+  [ -f "$1" ] && sed -n "s|^ *# *include \"\([^\"]*\)\".*|$1 \1|p" "$1"
 }
 
 # check_folders TOP LAYERS DOORS
@@ -46,14 +58,15 @@ check_folders()
   includes "$1" | awk -v top="$1" -v layers="$2" -v doors="$3" '
     function folder(name) { return name ~ /\// ? substr(name, 1, match(name, /\/[^\/]*$/) - 1) : "." }
     BEGIN {
-      n = split(layers, layer); for (i = 1; i <= n; i++) height[layer[i]] = i
+      n = split(layers, layer); for (i = 1; i < n; i += 2) row[layer[i + 1]] = layer[i]
       n = split(doors, door); for (i = 1; i <= n; i++) open[door[i]] = 1
     }
     {
       from = folder($1); to = folder($2)
-      if (!(from in height)) print top "/" from " is no layer: say where it stands"
-      else if (!(to in height)) print top "/" $1 " includes " $2 ", which is nowhere"
-      else if (height[to] > height[from]) print top "/" $1 " includes " $2 ", which is above it"
+      if (!(from in row)) print top "/" from " is not in the picture of docs/architecture.md"
+      else if (!(to in row)) print top "/" $1 " includes " $2 ", which is nowhere"
+      else if (to != from && row[to] <= row[from])
+        print top "/" $1 " includes " $2 ", which is not below it"
       else if (to != from && !($2 in open)) print top "/" $1 " includes " $2 ", which is no door"
       used[$2] = used[$2] || to != from
     }
@@ -68,8 +81,8 @@ check_circles()
 }
 
 for top in src drivers; do
-  eval "layers=\$${top}_layers doors=\$${top}_doors"
-  found=$(check_folders "$top" "$layers" "$doors"; check_circles "$top")
+  eval "doors=\$${top}_doors"
+  found=$(check_folders "$top" "$(layers "$top")" "$doors"; check_circles "$top")
   [ -z "$found" ] || { echo "$found" | sed 's/^/layers_check: /'; failed=1; }
 done
 [ -z "$(ls src/*.[ch] 2>/dev/null)" ] || complain "every file of src has a folder"
@@ -80,7 +93,7 @@ only()
   pattern=$1
   shift
   for file in $(grep -lE "^ *# *include *[<\"]($pattern)" src/*/*.[ch] src/*/*/*.[ch] include/pendres/*.h \
-    drivers/*.[ch] drivers/*/*.[ch] 2>/dev/null); do
+    drivers/*.[ch] drivers/*/*.[ch] validation/*.[ch] 2>/dev/null); do
     for allowed in "$@"; do
       case $file in $allowed) continue 2 ;; esac
     done
@@ -97,7 +110,7 @@ only 'nvector/|sunmatrix/|sunlinsol/|sunnonlinsol/' 'src/engine/method_*'
 only 'sundials/' src/engine/compat.h 'src/engine/flow*' 'src/engine/lanes*' 'src/engine/method_*' \
   src/base/version.c
 only '.*compat\.h' 'src/engine/flow*' 'src/engine/method_*' src/engine/context.c
-only 'gsl/' 'src/*' 'drivers/validation/peer_gsl*' 'drivers/ending.c'
+only 'gsl/' 'src/*' validation/benchmark.c 'drivers/ending.c'
 only 'mpi\.h' 'drivers/farm/*_mpi.c'
 only 'omp\.h' 'drivers/*'
 set +f

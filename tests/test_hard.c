@@ -1,6 +1,6 @@
 /*
  * test_hard.c -- the cases of the scene hard_cases, one test each. Their bounds are derived in
- * drivers/validation/hard_*.c. With sanitizers the runs are shorter.
+ * validation/hard_*.c. With sanitizers the runs are shorter.
  */
 #include "check.h"
 
@@ -168,7 +168,7 @@ int main(void)
     cmocka_unit_test(rows),
     cmocka_unit_test(judges),
     cmocka_unit_test(denormal_numbers_do_not_stall),
-    HARD_CASE_LIST(HARD_CASE_TEST)
+    DECK_CASE_LIST(HARD_CASE_TEST)
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

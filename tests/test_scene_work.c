@@ -9,7 +9,7 @@
 
 #include "engine/tables.h"
 #include "provenance.h"
-#include "validation/contest.h"
+#include "validation/benchmark.h"
 
 enum { METHODS = 4, TOLERANCES = 3, ALL = METHODS * TOLERANCES, MEMBERS = 200, PERIODS = 100 };
 enum { FIXED, ADAPTIVE, SINGLE, GSL };
@@ -79,7 +79,7 @@ static void figures_are_plausible(void **state)
   for (int m = 0; m < METHODS; m++)
     for (int t = 0; t < TOLERANCES; t++) { /* 1e-9, 1e-6, 1e-4 */
       const int k = m * TOLERANCES + t;
-      check_near(n[k], m == SINGLE ? CONTEST_FEW : MEMBERS, 0.0);
+      check_near(n[k], m == SINGLE ? BENCHMARK_FEW : MEMBERS, 0.0);
       assert_true(speed[k] > 0.0);
       /* Two decades of tolerance at least are one decade of error, for methods of order 5 to 9
          whose controllers hold errors proportional to it; three times that is room for luck. */
@@ -232,23 +232,23 @@ static int now(void *arg)
 /* A method that gives up leaves words instead of figures; an interrupt ends everything. */
 static void failures_are_said(void **state)
 {
-  const contest_rules plain = { .tolerance = 1e-8 }, tight = { .tolerance = 1e-20 };
-  const contest_rules stopped = { .tolerance = 1e-8, .stop = now };
+  const benchmark_rules plain = { .tolerance = 1e-8 }, tight = { .tolerance = 1e-20 };
+  const benchmark_rules stopped = { .tolerance = 1e-8, .stop = now };
   work_unit w = { 0 };
-  contest c;
+  benchmark c;
   (void)state;
   check_ok(work_unit_make("ensemble", &w));
   w.pendulum[7].damping = 1e6;
   w.pendulum[7].drive_frequency = 0.01;
-  check_ok(contest_run(&w, "block_fixed", &plain, &c));
+  check_ok(benchmark_run(&w, "block_fixed", &plain, &c));
   assert_non_null(strstr(c.failure, "cvode_bdf"));
   assert_true(isnan(c.error[0]) && isnan(c.error[1]) && isnan(c.estimate) && isnan(c.honesty));
   assert_true(isnan(c.steps) && isnan(c.rhs) && isnan(c.seconds) && isnan(c.throughput));
   assert_int_equal(c.pendulums, MEMBERS);
-  check_ok(contest_run(&w, "block_fixed", &tight, &c));
+  check_ok(benchmark_run(&w, "block_fixed", &tight, &c));
   assert_true(isnan(c.error[1]) && strlen(c.failure) > 10);
-  assert_int_equal(contest_run(&w, "cvode_bdf", &stopped, &c), PENDRES_INTERRUPTED);
-  assert_int_equal(contest_run(&w, "gsl_rk8pd", &stopped, &c), PENDRES_INTERRUPTED);
+  assert_int_equal(benchmark_run(&w, "cvode_bdf", &stopped, &c), PENDRES_INTERRUPTED);
+  assert_int_equal(benchmark_run(&w, "gsl_rk8pd", &stopped, &c), PENDRES_INTERRUPTED);
   work_unit_free(&w);
 }
 

@@ -52,6 +52,21 @@
   ITEM(LYAPUNOV_MAP, "lyapunov_map",                                                              \
        "largest Lyapunov exponent, period and winding over two parameters")
 
+/* Hard cases by their names, in the order in which they are printed. */
+#define DECK_CASE_LIST(ITEM)                                                                      \
+  ITEM(equilibrium)                                                                               \
+  ITEM(separatrix)                                                                                \
+  ITEM(energy)                                                                                    \
+  ITEM(weak_damping)                                                                              \
+  ITEM(stiff)                                                                                     \
+  ITEM(frequency)                                                                                 \
+  ITEM(fold)                                                                                      \
+  ITEM(cusp)                                                                                      \
+  ITEM(boundary)                                                                                  \
+  ITEM(wild)                                                                                      \
+  ITEM(tolerance)                                                                                 \
+  ITEM(drive)
+
 typedef enum deck_kind {
 #define DECK_KIND_CODE(code, name, words) DECK_##code,
   DECK_KIND_LIST(DECK_KIND_CODE)

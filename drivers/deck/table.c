@@ -17,8 +17,6 @@
 
 #include <pendres/switching.h>
 
-#include "validation/hard_cases.h"
-
 #define BIT(kind) (1u << DECK_##kind)
 #define FREE BIT(FREE_OSCILLATION)
 #define CURVE BIT(RESONANCE_CURVE)
@@ -94,7 +92,7 @@ static const char *const starts[] = { "", "sa", "la", "1", "2", "3", "4", "5", "
                                       NULL };
 static const char *const cases[] = {
 #define CASE_NAME(name) #name,
-  HARD_CASE_LIST(CASE_NAME)
+  DECK_CASE_LIST(CASE_NAME)
 #undef CASE_NAME
   NULL
 };

@@ -9,7 +9,7 @@
 
 static const hard_case cases[] = {
 #define HARD_CASE_ENTRY(name) { #name, hard_##name },
-  HARD_CASE_LIST(HARD_CASE_ENTRY)
+  DECK_CASE_LIST(HARD_CASE_ENTRY)
 #undef HARD_CASE_ENTRY
 };
 

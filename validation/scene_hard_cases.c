@@ -1,19 +1,18 @@
 /*
- * hard_cases.c -- hard cases, each with a bound derived in its comment, the measured figure,
+ * scene_hard_cases.c -- hard cases, each with a bound derived in its comment, the measured figure,
  * and what plain adaptive ARKODE makes of it.
  *
  * A case is a task of the farm; rows are written in the order of the list whatever the threads. A
  * case that gives up leaves a row that does not hold and says why; the others still run.
  */
-#include "scenes/check.h"
-#include "scenes/columns.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "validation/hard_cases.h"
+#include "scenes/check.h"
+#include "scenes/columns.h"
 #include "system/grow.h"
+#include "validation/hard_cases.h"
 
 /* A row of a case, and whether its figure is within its bound. */
 typedef struct row {

@@ -1,12 +1,12 @@
 /*
  * hard_cases.h -- cases that break pendulum programs, each with a bound that must hold.
  *
- * Owns: the list of cases, and the sheet on which a case puts its rows. What a case computes and
+ * Owns: the cases, and the sheet on which a case puts its rows. What a case computes and
  * where its bounds come from is said above its function, in hard_*.c. The scene hard_cases and
  * tests/test_hard.c run the same functions.
  *
- * To add a case: a line in the list below, and the function pendres_status hard_NAME(hard_sheet *).
- * Its rows are the same bytes in every run: a case makes its own contexts and depends on nothing
+ * To add a case: a line in the list of deck/deck.h, and a function hard_NAME(hard_sheet *). Its
+ * rows are the same bytes in every run: a case makes its own contexts and depends on nothing
  * but sheet->scale.
  */
 #ifndef HARD_CASES_H
@@ -16,20 +16,7 @@
 
 #include <pendres/pendres.h>
 
-/* Cases by the names that decks give them, in the order in which they are printed. */
-#define HARD_CASE_LIST(ITEM)                                                                      \
-  ITEM(equilibrium)                                                                               \
-  ITEM(separatrix)                                                                                \
-  ITEM(energy)                                                                                    \
-  ITEM(weak_damping)                                                                              \
-  ITEM(stiff)                                                                                     \
-  ITEM(frequency)                                                                                 \
-  ITEM(fold)                                                                                      \
-  ITEM(cusp)                                                                                      \
-  ITEM(boundary)                                                                                  \
-  ITEM(wild)                                                                                      \
-  ITEM(tolerance)                                                                                 \
-  ITEM(drive)
+#include "deck/deck.h"
 
 /* What must hold is figure <= bound. */
 typedef struct hard_row {
@@ -54,7 +41,7 @@ typedef struct hard_case {
 } hard_case;
 
 #define HARD_CASE_FUNCTION(name) pendres_status hard_##name(hard_sheet *sheet);
-HARD_CASE_LIST(HARD_CASE_FUNCTION)
+DECK_CASE_LIST(HARD_CASE_FUNCTION)
 #undef HARD_CASE_FUNCTION
 
 /* The case of a name; NULL if there is none. */

@@ -1,8 +1,8 @@
 /*
- * work_precision.c -- speed against error, of the library's methods and of a peer.
+ * scene_work_precision.c -- speed against error, of the library's methods and of a peer.
  *
  * Every method and tolerance advances the same pendulums by 100 drive periods; their errors then
- * are known from extended precision (work_unit.h). contest.h says how each is run and timed: one
+ * are known from extended precision (work_unit.h). benchmark.h says how each is run and timed: one
  * after another, so that the one that is timed runs alone.
  */
 #include <math.h>
@@ -11,7 +11,7 @@
 
 #include "scenes/columns.h"
 #include "system/clock.h"
-#include "validation/contest.h"
+#include "validation/benchmark.h"
 
 enum { OTHERS = 5, ERRORS = 4 };
 
@@ -42,7 +42,7 @@ typedef struct work {
   farm *farm;
   work_unit unit;
   size_t methods, tolerances;
-  contest *contest; /* [method][tolerance] */
+  benchmark *benchmark; /* [method][tolerance] */
   settling settled;
 } work;
 
@@ -72,7 +72,7 @@ done:
   return status;
 }
 
-/* A contest; the last task is settling. */
+/* A benchmark; the last task is settling. */
 static pendres_status measure(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const work *w = arg;
@@ -80,19 +80,19 @@ static pendres_status measure(const void *arg, size_t task, pendres_context *ctx
     settling *s = farm_record_resize(out, sizeof *s);
     return s != NULL ? settle(w, ctx, s) : PENDRES_OUT_OF_MEMORY;
   }
-  contest *c = farm_record_resize(out, sizeof *c);
+  benchmark *c = farm_record_resize(out, sizeof *c);
   if (c == NULL) return PENDRES_OUT_OF_MEMORY;
-  const contest_rules rules = {
+  const benchmark_rules rules = {
     .tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[task % w->tolerances],
     .block_lanes = (int)w->d->precision.block_lanes, .stop = farm_stopped, .stop_arg = w->farm};
-  return contest_run(&w->unit, w->d->methods.name[task / w->tolerances], &rules, c);
+  return benchmark_run(&w->unit, w->d->methods.name[task / w->tolerances], &rules, c);
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
   if (task == w->methods * w->tolerances) w->settled = *(const settling *)in->data;
-  else w->contest[task] = *(const contest *)in->data;
+  else w->benchmark[task] = *(const benchmark *)in->data;
   return PENDRES_OK;
 }
 
@@ -104,7 +104,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
  */
 static double speed_at(const work *w, size_t method, double error)
 {
-  const contest *c = w->contest + method * w->tolerances;
+  const benchmark *c = w->benchmark + method * w->tolerances;
   const int last = WORK_UNIT_MARKS - 1;
   for (size_t i = 0; i + 1 < w->tolerances; i++) {
     const double a = c[i].error[last], b = c[i + 1].error[last];
@@ -115,9 +115,9 @@ static double speed_at(const work *w, size_t method, double error)
   return NAN;
 }
 
-/* A contest as a row of results. */
+/* A benchmark as a row of results. */
 typedef struct row {
-  char method[DECK_NAME], failure[sizeof((contest *)0)->failure];
+  char method[DECK_NAME], failure[sizeof((benchmark *)0)->failure];
   double tolerance;
   double error_10, error_10_error, error_100, error_100_error;
   double estimated_error, estimated_error_error;
@@ -146,7 +146,7 @@ static const scene_column columns[] = {
 
 static row row_of(const work *w, size_t i)
 {
-  const contest *c = &w->contest[i];
+  const benchmark *c = &w->benchmark[i];
   row r = {.tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[i % w->tolerances],
            .error_10 = c->error[0], .error_10_error = end_rounding,
            .error_100 = c->error[1], .error_100_error = end_rounding,
@@ -165,11 +165,11 @@ static row row_of(const work *w, size_t i)
   return r;
 }
 
-/* Members that no method could help; see contest.h. */
+/* Members that no method could help; see benchmark.h. */
 static size_t left_out_of(const work *w, int mark)
 {
   size_t some = 0;
-  for (size_t i = 0; i < w->unit.n; i++) some += !(w->unit.growth[mark][i] <= CONTEST_WILD);
+  for (size_t i = 0; i < w->unit.n; i++) some += !(w->unit.growth[mark][i] <= BENCHMARK_WILD);
   return some;
 }
 
@@ -264,7 +264,7 @@ static pendres_status write_others(scene_run *run)
                       "pendulum");
 }
 
-static pendres_status write_results(scene_run *run, const work *w, const scene_table *contests)
+static pendres_status write_results(scene_run *run, const work *w, const scene_table *benchmarks)
 {
   static const scene_column name = {.name = "method_name", .long_name = "method",
                                     .type = SCENE_TEXT};
@@ -273,7 +273,7 @@ static pendres_status write_results(scene_run *run, const work *w, const scene_t
   pendres_status status = scene_numbering(run, "method", w->methods, "method, by number");
   if (status == PENDRES_OK) status = scene_columns_write(run, &methods, 1, &name);
   if (status == PENDRES_OK) status = scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, contests, columns);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, benchmarks, columns);
   if (status == PENDRES_OK) status = write_left_out(run, w);
   if (status == PENDRES_OK)
     status = scene_stored(run, pendres_store_put_text(run->store, NULL, "unit",
@@ -299,15 +299,15 @@ static const scene_cell cells[] = {
   SCENE_CELL(row, pendulums, "   n", "%4.0f"),
 };
 
-static void print_table(FILE *out, const work *w, const scene_table *contests)
+static void print_table(FILE *out, const work *w, const scene_table *benchmarks)
 {
-  const row *rows = contests->rows;
-  SCENE_PRINT(out, contests, contests->n, cells, NULL);
+  const row *rows = benchmarks->rows;
+  SCENE_PRINT(out, benchmarks, benchmarks->n, cells, NULL);
   fprintf(out, "least: of estimate over true error, over all n members; %zu of %zu members are "
                "left out of error 10\nand %zu of error 100, which grow whatever was off at the "
                "start %d-fold. M/s: million pendulum-periods\na second of one thread.\n",
-          left_out_of(w, 0), w->unit.n, left_out_of(w, 1), CONTEST_WILD);
-  for (size_t i = 0; i < contests->n; i++)
+          left_out_of(w, 0), w->unit.n, left_out_of(w, 1), BENCHMARK_WILD);
+  for (size_t i = 0; i < benchmarks->n; i++)
     if (rows[i].failure[0] != '\0')
       fprintf(out, "%s at %g failed: %s\n", rows[i].method, rows[i].tolerance, rows[i].failure);
   fprintf(out, "\n%-21s", "M/s at an error of");
@@ -326,15 +326,15 @@ static pendres_status tell(scene_run *run, const work *w)
 {
   const size_t n = w->methods * w->tolerances;
   row *rows = scene_array(run, n, sizeof *rows);
-  const scene_table contests = {.dimensions = {"method", "tolerance"}, .n = n,
-                                .stride = sizeof *rows, .rows = rows};
+  const scene_table benchmarks = {.dimensions = {"method", "tolerance"}, .n = n,
+                                   .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) {
     rows[i] = row_of(w, i);
     run->failed_points += rows[i].failure[0] != '\0';
   }
-  const pendres_status status = write_results(run, w, &contests);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, w, &contests);
+  const pendres_status status = write_results(run, w, &benchmarks);
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, w, &benchmarks);
   return status;
 }
 
@@ -352,8 +352,8 @@ static pendres_status run_scene(scene_run *run)
   const size_t n = w.methods * w.tolerances;
   pendres_status status = work_unit_make(d->unit, &w.unit);
   if (status == PENDRES_OK) {
-    w.contest = calloc(n, sizeof *w.contest);
-    if (w.contest == NULL) status = PENDRES_OUT_OF_MEMORY;
+    w.benchmark = calloc(n, sizeof *w.benchmark);
+    if (w.benchmark == NULL) status = PENDRES_OUT_OF_MEMORY;
   }
   if (status != PENDRES_OK) {
     (void)scene_fail(run, status, "out of memory for the unit '%s'", d->unit);
@@ -369,7 +369,7 @@ static pendres_status run_scene(scene_run *run)
                                              .timed = 1, .collect = collect, .arg = &w });
   if (status == PENDRES_OK) status = tell(run, &w);
 done:
-  free(w.contest);
+  free(w.benchmark);
   work_unit_free(&w.unit);
   return status;
 }

@@ -1,13 +1,16 @@
-/* contest.c -- one method at one tolerance on a work unit; see contest.h. */
-#include "validation/contest.h"
+/* benchmark.c -- one method at one tolerance on a work unit; see benchmark.h. */
+#include "validation/benchmark.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
 #include "system/clock.h"
-#include "validation/peer_gsl.h"
+#include "validation/exact.h"
 
 enum { MOST_REPEATS = 50 };
 
@@ -42,14 +45,63 @@ static int is_gsl(const char *name)
 static size_t pendulums_of(const work_unit *unit, const char *name)
 {
   const int fast = strncmp(name, "block", 5) == 0 || is_gsl(name);
-  return fast || unit->n < CONTEST_FEW ? unit->n : CONTEST_FEW;
+  return fast || unit->n < BENCHMARK_FEW ? unit->n : BENCHMARK_FEW;
+}
+
+/* ---- A peer ---------------------------------------------------------------------------------- */
+
+/*
+ * GSL's Dormand-Prince 8(9), one problem a pendulum: somebody else's code to be measured against.
+ * The equation is that of the library's blocks, over drive phase, with libm's sine:
+ * dw/dtheta = (F0 cos theta - sin y) / omega^2 - (gamma / omega) w, y = x - pi/2.
+ */
+typedef struct problem {
+  double stiffness, drive, friction;
+  double evaluations;
+} problem;
+
+static int slope(double theta, const double s[], double out[], void *arg)
+{
+  problem *b = arg;
+  b->evaluations += 1.0;
+  out[0] = s[1];
+  out[1] = b->drive * cos(theta) - b->stiffness * sin(s[0]) - b->friction * s[1];
+  return GSL_SUCCESS;
+}
+
+/* Advance a pendulum by drive periods, x and v in place, with the relative and absolute tolerance
+   of each step. What that took is added to *cost. */
+static pendres_status advance_gsl(const pendres_pendulum *p, double *x, double *v, long periods,
+                                  double tolerance, pendres_cost *cost)
+{
+  const double omega = p->drive_frequency, end = 2.0 * pi * (double)periods;
+  problem b = { .stiffness = 1.0 / (omega * omega), .drive = p->drive_amplitude / (omega * omega),
+                .friction = p->damping / omega };
+  const gsl_odeiv2_system system = { slope, NULL, 2, &b };
+  gsl_odeiv2_driver *driver =
+    gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-2, tolerance, tolerance);
+  double theta = 0.0, s[2] = { *x - 0.5 * pi, *v / omega };
+
+  if (driver == NULL) return PENDRES_OUT_OF_MEMORY;
+  /* GSL's handler would end the program. Nobody else uses GSL's errors at this time. */
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  const int code = gsl_odeiv2_driver_apply(driver, &theta, end, s);
+  (void)gsl_set_error_handler(handler);
+  cost->pendulum_periods += (double)periods;
+  cost->rhs_evaluations += b.evaluations;
+  cost->steps += (double)driver->n;
+  gsl_odeiv2_driver_free(driver);
+  if (code != GSL_SUCCESS) return PENDRES_INTEGRATION_FAILED;
+  *x = s[0] + 0.5 * pi;
+  *v = s[1] * omega;
+  return PENDRES_OK;
 }
 
 /* ---- One run --------------------------------------------------------------------------------- */
 
 typedef struct runner {
   const work_unit *unit;
-  const contest_rules *rules;
+  const benchmark_rules *rules;
   pendres_context *ctx; /* NULL: GSL */
   size_t n;
   pendres_pendulum *p;
@@ -62,8 +114,7 @@ static pendres_status run_gsl(runner *r, long periods)
   pendres_status status = PENDRES_OK;
   r->cost = (pendres_cost){ 0 };
   for (size_t k = 0; k < r->n && status == PENDRES_OK; k++)
-    status =
-      peer_gsl_advance(&r->p[k], &r->x[k], &r->v[k], periods, r->rules->tolerance, &r->cost);
+    status = advance_gsl(&r->p[k], &r->x[k], &r->v[k], periods, r->rules->tolerance, &r->cost);
   return status;
 }
 
@@ -85,7 +136,7 @@ static pendres_status run_once(runner *r, long periods, double *estimates)
 }
 
 /* The best of several, until the clock can be believed. */
-static pendres_status time_runs(runner *r, long periods, contest *c)
+static pendres_status time_runs(runner *r, long periods, benchmark *c)
 {
   double best = INFINITY, second = INFINITY, total = 0.0;
   for (int k = 0; k < 2 || (k < MOST_REPEATS && total < long_enough); k++) {
@@ -113,7 +164,7 @@ static double largest_error(const runner *r, int mark)
   double most = NAN;
   for (size_t k = 0; k < r->n; k++) {
     const size_t i = work_unit_pick(r->unit, r->n, k);
-    if (r->unit->growth[mark][i] <= CONTEST_WILD)
+    if (r->unit->growth[mark][i] <= BENCHMARK_WILD)
       most = fmax(most, work_unit_error(r->unit, i, mark, r->x[k], r->v[k]));
   }
   return most;
@@ -126,7 +177,7 @@ static int by_value(const void *a, const void *b)
 }
 
 /* After a run to the last mark with estimates. */
-static void judge(runner *r, contest *c)
+static void judge(runner *r, benchmark *c)
 {
   const int mark = WORK_UNIT_MARKS - 1;
   c->estimate = c->honesty = c->padding = NAN;
@@ -134,7 +185,7 @@ static void judge(runner *r, contest *c)
     const size_t i = work_unit_pick(r->unit, r->n, k);
     const double error = work_unit_error(r->unit, i, mark, r->x[k], r->v[k]);
     if (isnan(r->estimate[k])) return;
-    if (r->unit->growth[mark][i] <= CONTEST_WILD) c->estimate = fmax(c->estimate, r->estimate[k]);
+    if (r->unit->growth[mark][i] <= BENCHMARK_WILD) c->estimate = fmax(c->estimate, r->estimate[k]);
     /* "Nothing is known" is true of whatever came out. */
     r->ratio[k] =
       isinf(r->estimate[k]) ? INFINITY : r->estimate[k] / fmax(error, end_rounding);
@@ -144,7 +195,7 @@ static void judge(runner *r, contest *c)
   c->padding = r->ratio[r->n / 2];
 }
 
-static pendres_status compare(runner *r, contest *c)
+static pendres_status compare(runner *r, benchmark *c)
 {
   const int last = WORK_UNIT_MARKS - 1;
   pendres_status status = PENDRES_OK;
@@ -162,9 +213,9 @@ static pendres_status compare(runner *r, contest *c)
   return status;
 }
 
-static void fail(contest *c, const char *why)
+static void fail(benchmark *c, const char *why)
 {
-  *c = (contest){ .error = { NAN, NAN }, .estimate = NAN, .honesty = NAN, .padding = NAN,
+  *c = (benchmark){ .error = { NAN, NAN }, .estimate = NAN, .honesty = NAN, .padding = NAN,
                   .steps = NAN, .rhs = NAN, .seconds = NAN, .spread = NAN, .throughput = NAN,
                   .pendulums = c->pendulums };
   snprintf(c->failure, sizeof c->failure, "%s", why);
@@ -178,14 +229,14 @@ static pendres_status open_context(runner *r, const pendres_options *o)
   return status;
 }
 
-pendres_status contest_run(const work_unit *unit, const char *name, const contest_rules *rules,
-                           contest *c)
+pendres_status benchmark_run(const work_unit *unit, const char *name, const benchmark_rules *rules,
+                           benchmark *c)
 {
   runner r = { .unit = unit, .rules = rules, .n = pendulums_of(unit, name) };
   pendres_options o = options_named(name);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
 
-  *c = (contest){ .pendulums = r.n };
+  *c = (benchmark){ .pendulums = r.n };
   o.tolerance = rules->tolerance;
   o.block_lanes = rules->block_lanes;
   r.p = malloc(r.n * sizeof *r.p);
