@@ -30,7 +30,7 @@ static void put_and_get(void **state)
     assert_int_equal(count_names("resonance-"), 0);
     for (size_t i = ELEMENTS; i >= 3; i -= 3) { /* from the end on; the first one is never put */
       for (size_t k = 0; k < 3; k++) fill(some + k * SIZE, i - 3 + k);
-      check_ok(scene_temporary_put(&s, i - 3, 3, some, why, sizeof why));
+      check_ok(scene_temporary_put(&run, &s, i - 3, 3, some));
     }
     for (size_t i = 1; i + 2 <= ELEMENTS; i++) {
       for (size_t k = 0; k < 2; k++) fill(some + k * SIZE, i + k);

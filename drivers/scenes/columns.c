@@ -71,6 +71,22 @@ int scene_columns_fit(size_t count, const scene_column *columns, const void *row
   return 1;
 }
 
+static int is_real(scene_column_type type)
+{
+  return type == SCENE_REAL || type == SCENE_PLAIN;
+}
+
+void scene_columns_blank(size_t count, const scene_column *columns, void *row)
+{
+  static const double none[2] = {NAN, NAN};
+  for (size_t k = 0; k < count; k++) {
+    const scene_column *c = &columns[k];
+    const size_t bytes = (c->pairs ? 2 : 1) * sizeof *none;
+    if (is_real(c->type)) memcpy((char *)row + c->value, none, bytes);
+    if (c->type == SCENE_REAL) memcpy((char *)row + c->error, none, bytes);
+  }
+}
+
 static const char *field(const scene_table *t, size_t row, size_t offset)
 {
   return (const char *)t->rows + row * t->stride + offset;
@@ -79,11 +95,6 @@ static const char *field(const scene_table *t, size_t row, size_t offset)
 static int missing(const scene_table *t, size_t row)
 {
   return t->missing != NULL && t->missing[row] != 0;
-}
-
-static int is_real(scene_column_type type)
-{
-  return type == SCENE_REAL || type == SCENE_PLAIN;
 }
 
 static int is_count(scene_column_type type)
@@ -182,15 +193,12 @@ typedef struct piece {
 static pendres_status take_piece(scene_run *run, const scene_table *t, void *rows, piece *p)
 {
   const size_t each = t->n / (t->first > 0 ? t->first : 1), first = p->first * each;
-  char why[200];
   p->table = *t;
   p->table.n = p->values * each;
   if (t->missing != NULL) p->table.missing = t->missing + first;
-  p->table.rows = t->spill != NULL ? rows : field(t, first, 0);
-  if (t->spill == NULL) return PENDRES_OK;
-  const pendres_status status =
-    scene_temporary_get(t->spill, first, p->table.n, rows, why, sizeof why);
-  return status == PENDRES_OK ? status : scene_fail(run, status, "%s", why);
+  p->table.rows = t->temporary != NULL ? rows : field(t, first, 0);
+  if (t->temporary == NULL) return run->status;
+  return scene_temporary_read(run, t->temporary, first, p->table.n, rows);
 }
 
 static pendres_status write_piece(scene_run *run, const piece *p, int pairs, int id,
@@ -257,9 +265,9 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t 
   const size_t most = bytes > 0 && bytes < PIECE ? PIECE / bytes : 1;
   const size_t room = most * each < t->n ? most * each : t->n;
   buffers b;
-  char *rows = t->spill != NULL ? malloc(room * t->stride + 1) : NULL;
+  char *rows = t->temporary != NULL ? malloc(room * t->stride + 1) : NULL;
   pendres_status status = reserve(run, room, &b);
-  if (status == PENDRES_OK && t->spill != NULL && rows == NULL)
+  if (status == PENDRES_OK && t->temporary != NULL && rows == NULL)
     status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", room);
   for (size_t k = 0; k < count && status == PENDRES_OK; k++)
     status = write_column(run, t, most, &columns[k], rows, &b);

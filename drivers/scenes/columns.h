@@ -64,7 +64,7 @@ typedef struct scene_table {
   const char *inner;         /* of columns that are pairs */
   size_t n, stride;          /* rows; bytes from one to the next */
   const void *rows;
-  const struct scene_temporary *spill; /* not NULL: in the place of `rows` */
+  const struct scene_temporary *temporary; /* not NULL: in the place of `rows` */
   size_t first;              /* values of the first dimension, written some at a time; 0: at once */
   const int8_t *missing;     /* [n], not 0: the row has no results: NaN or 0; may be NULL */
   int deflate;               /* level of compression; 0: as the file has it */
@@ -79,6 +79,11 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *table, siz
 /* Can this be a row, from a journal: are its codes among those of the columns? Doubles and numbers
    may be anything. */
 int scene_columns_fit(size_t count, const scene_column *columns, const void *row);
+
+/* Make a row one without results: its doubles are NaN, the rest stays. */
+void scene_columns_blank(size_t count, const scene_column *columns, void *row);
+#define SCENE_BLANK(columns, row) \
+  scene_columns_blank(sizeof columns / sizeof *columns, columns, row)
 
 /* Write the principal measures of the orbits that stand at that offset in the rows. */
 pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);

@@ -39,9 +39,7 @@ static void leave_out(const scene_points *p, size_t point, void *out)
 {
   (void)p;
   (void)point;
-  *(row *)out = (row){.lyapunov = NAN, .lyapunov_error = NAN, .rotation = NAN,
-                      .rotation_error = NAN, .period = NAN, .period_error = NAN, .winding = NAN,
-                      .winding_error = NAN, .label = PENDRES_LABEL_UNRESOLVED};
+  ((row *)out)->label = PENDRES_LABEL_UNRESOLVED;
 }
 
 static row row_of(const pendres_lyapunov *l)

@@ -115,7 +115,7 @@ static int too_long(const scene_points *p, size_t first, size_t n, char *words, 
 static scene_failure attempt(work *w, size_t first, size_t n, void *rows, char words[SCENE_TOLD],
                              pendres_status *status)
 {
-  const scene_some some = {w->p, w->ctx, first, n, rows, &w->marks};
+  const scene_some some = {w->p, w->ctx, first, n, rows, w->out->message, &w->marks};
   *status = PENDRES_OK;
   if (too_long(w->p, first, n, words, SCENE_TOLD)) return SCENE_FAILURE_TOO_LONG;
   begin(w, first, n);
@@ -144,6 +144,7 @@ static pendres_status find(work *w, size_t first, size_t n, char *rows)
     return status == PENDRES_OK ? find(w, first + half, n - half, rows + half * w->p->size)
                                 : status;
   }
+  scene_columns_blank(w->p->column_count, w->p->columns, rows);
   if (w->p->leave_out != NULL) w->p->leave_out(w->p, first, rows);
   add_mark(&w->marks, first, reason, w->p->words == NULL ? words : NULL);
   return PENDRES_OK;
@@ -196,12 +197,14 @@ static int check(const void *arg, size_t task, const farm_record *in)
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
-  const part t = part_of(arg, task);
+  const stage_points *s = arg;
+  const part t = part_of(s, task);
   scene_points *p = t.of;
   mark m;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
     scene_failures_mark(&p->failed, m.point, (scene_failure)m.reason, m.words);
   if (p->collect != NULL) return p->collect(p, t.first, t.n, in->data);
+  if (p->large != NULL) return scene_temporary_put(s->run, p->large, t.first, t.n, in->data);
   memcpy((char *)p->rows + t.first * p->size, in->data, t.n * p->size);
   return PENDRES_OK;
 }
@@ -213,7 +216,10 @@ pendres_status scene_points_compute(scene_run *run, const farm_stage *stage, siz
   farm_stage whole = *stage;
   for (size_t k = 0; k < count; k++) {
     scene_points *p = points[k];
-    if (p->collect == NULL) p->rows = scene_array(run, p->n, p->size);
+    if (p->collect == NULL && p->large != NULL)
+      scene_temporary_create(run, p->n, p->size, SCENE_TEMPORARY_MEMORY, p->large);
+    else if (p->collect == NULL)
+      p->rows = scene_array(run, p->n, p->size);
     scene_failures_create(run, p->n, &p->failed);
     whole.tasks += tasks_of(p);
   }
@@ -264,7 +270,7 @@ pendres_status scene_points_write_failed(scene_run *run, const scene_points *p, 
 
 scene_table scene_points_table(const scene_points *p, const deck *d)
 {
-  scene_table table = {.n = p->n, .stride = p->size, .rows = p->rows,
+  scene_table table = {.n = p->n, .stride = p->size, .rows = p->rows, .temporary = p->large,
                        .first = d->axis[p->axis[0]].count};
   for (int i = 0; i < p->axes; i++) table.dimensions[i] = deck_axis_name(p->axis[i]);
   return table;

@@ -5,62 +5,25 @@
  */
 #include "scenes/response_noise.h"
 
-#include <stdlib.h>
-
-#include "scenes/check.h"
-#include "scenes/columns.h"
-#include "scenes/failed.h"
-
-/* A point, as a task finds it. */
-typedef struct point {
-  pendres_response_noise response;
-  scene_verdict verdict;
-} point;
-
 typedef struct work {
   const deck *d;
   const scene_response_grid *grid;
-  size_t temperatures;
-  pendres_response_noise *points; /* [temperature][damping][drive] */
-  scene_failures failed;          /* the same; of what noise adds alone */
+  size_t plane;        /* points at each temperature */
+  scene_points points; /* [temperature][damping][drive] of pendres_response_noise */
 } work;
 
-static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static pendres_status compute(const scene_some *some)
 {
-  const work *w = arg;
-  const size_t plane = w->grid->dampings * w->grid->drives;
-  const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[task / plane];
-  deck_axis_id axis[3] = {DECK_AXIS_TEMPERATURE};
-  point *p = out->data;
-  scene_plane(w->d, &axis[1]);
-  scene_point_begin(out, w->d, task, 1, 3, axis);
+  const work *w = some->of->arg;
+  const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[some->first / w->plane];
   pendres_response still;
-  pendres_status status = scene_temporary_get(w->grid->points, task % plane, 1, &still,
-                                              out->message,
-                                              sizeof out->message);
+  const pendres_status status =
+    scene_temporary_get(w->grid->kept, some->first % w->plane, 1, &still, some->message,
+                        SCENE_MESSAGE);
   if (status != PENDRES_OK) return status;
-  status =
-    pendres_response_add_noise(ctx, &still, temperature, (size_t)w->d->noise.trajectories,
-                               (long)w->d->noise.periods, &p->response);
-  return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
-}
-
-static int check(const void *arg, size_t task, const farm_record *in)
-{
-  const point *p = in->data;
-  (void)arg;
-  (void)task;
-  return in->size == sizeof *p && p->response.steps_per_period >= 0 &&
-         scene_check_verdict(&p->verdict);
-}
-
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  const point *p = in->data;
-  w->points[task] = p->response;
-  scene_failures_take(&w->failed, task, &p->verdict);
-  return PENDRES_OK;
+  return pendres_response_add_noise(some->ctx, &still, temperature,
+                                    (size_t)w->d->noise.trajectories, (long)w->d->noise.periods,
+                                    some->rows);
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
@@ -101,91 +64,63 @@ static const scene_column still[] = {
   STILL(la_fraction, "share of the members on the large-amplitude state", "1"),
 };
 
-static pendres_status write_still(scene_run *run, const work *w, const scene_table *table)
+static void write_still(scene_run *run, const work *w, const scene_table *table)
 {
-  const size_t plane = w->grid->dampings * w->grid->drives;
   const double *temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value;
-  scene_response_row *rows = malloc(table->n * sizeof *rows);
-  int8_t *warm = malloc(table->n);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (rows == NULL || warm == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu results", table->n);
-    goto done;
-  }
-  char why[200];
-  status = scene_temporary_get(w->grid->rows, 0, plane, rows, why, sizeof why);
-  if (status != PENDRES_OK) {
-    (void)scene_fail(run, status, "%s", why);
-    goto done;
-  }
-  for (size_t i = 0; i < table->n; i++) {
-    rows[i] = rows[i % plane];
-    warm[i] = temperature[i / plane] > 0.0;
+  scene_response_row *rows = scene_array(run, table->n, sizeof *rows);
+  if (rows == NULL) return;
+  scene_temporary_read(run, w->grid->rows, 0, w->plane, rows);
+  for (size_t i = table->n; i-- > 0;) {
+    rows[i] = rows[i % w->plane];
+    if (temperature[i / w->plane] > 0.0) SCENE_BLANK(still, &rows[i]);
   }
   scene_table without = *table;
   without.stride = sizeof *rows;
   without.rows = rows;
-  without.missing = warm;
-  status = SCENE_WRITE(run, &without, still);
-done:
-  free(rows);
-  free(warm);
-  return status;
+  SCENE_WRITE(run, &without, still);
 }
 
-static pendres_status write_results(scene_run *run, const work *w)
+static void write_results(scene_run *run, const work *w)
 {
-  const scene_table table = {.dimensions = {"temperature", w->grid->damping, w->grid->drive},
-                             .n = w->temperatures * w->grid->dampings * w->grid->drives,
-                             .stride = sizeof *w->points, .rows = w->points};
-  pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, results);
-  if (status == PENDRES_OK) status = write_still(run, w, &table);
-  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &steps) : status;
+  const scene_table table = scene_points_table(&w->points, w->d);
+  scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
+  scene_points_write(run, &w->points);
+  write_still(run, w, &table);
+  scene_columns_write(run, &table, 1, &steps);
+  scene_points_write_failed(run, &w->points, "noise_failed",
+                            "why there is no whole result for the response with noise");
 }
 
 /* Along the temperatures, at the first damping and the middle of the drive axis. */
-static void print_table(FILE *out, const work *w)
+static void print_table(scene_run *run, const work *w)
 {
-  const size_t plane = w->grid->dampings * w->grid->drives, at = w->grid->drives / 2;
+  FILE *out = run->table;
+  const size_t drives = w->d->axis[w->points.axis[2]].count, at = drives / 2;
+  const pendres_response_noise *points = w->points.rows;
   pendres_response still;
-  char why[200];
-  if (scene_temporary_get(w->grid->points, at, 1, &still, why, sizeof why) != PENDRES_OK) return;
+  scene_temporary_read(run, w->grid->kept, at, 1, &still);
+  if (!scene_prints(run)) return;
   fprintf(out, "damping %g, drive period %g:\n", still.pendulum.damping,
           2.0 * PENDRES_PI / still.pendulum.drive_frequency);
   fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");
-  for (size_t i = 0; i < w->temperatures; i++) {
-    const pendres_response_noise *q = &w->points[i * plane + at];
+  for (size_t i = at; i < w->points.n; i += w->plane) {
+    const pendres_response_noise *q = &points[i];
     fprintf(out, "%-12g %-13.8f %-9.2g %-11.7f %-9.2g %-11.7f %.2g\n",
-            w->d->axis[DECK_AXIS_TEMPERATURE].value[i], q->loop_area.value, q->loop_area.error,
-            q->phase_lag.value, q->phase_lag.error, q->amplitude.value, q->amplitude.error);
+            w->d->axis[DECK_AXIS_TEMPERATURE].value[i / w->plane], q->loop_area.value,
+            q->loop_area.error, q->phase_lag.value, q->phase_lag.error, q->amplitude.value,
+            q->amplitude.error);
   }
 }
 
-static pendres_status write_failed(scene_run *run, const work *w)
+void scene_response_write_noise(scene_run *run, const scene_response_grid *grid)
 {
-  deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE, DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY };
-  scene_plane(w->d, axes + 1);
-  return scene_failures_write(run, &w->failed, "noise_failed", "response with noise", 3, axes);
-}
-
-pendres_status scene_response_write_noise(scene_run *run, const scene_response_grid *grid)
-{
-  work w = { .d = run->deck, .grid = grid,
-             .temperatures = run->deck->axis[DECK_AXIS_TEMPERATURE].count };
-  const size_t n = w.temperatures * grid->dampings * grid->drives;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  w.points = calloc(n, sizeof *w.points);
-  if (w.points == NULL || scene_failures_create(run, n, &w.failed) != PENDRES_OK) {
-    free(w.points);
-    return scene_fail(run, status, "out of memory for %zu points", n);
-  }
-  status = scene_compute(run, &(farm_stage){ .what = "points with noise", .last = 1, .tasks = n,
-                                             .task = compute, .record_size = sizeof(point),
-                                             .check = check, .collect = collect, .arg = &w });
-  if (status == PENDRES_OK) status = write_results(run, &w);
-  if (status == PENDRES_OK) status = write_failed(run, &w);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
-  free(w.points);
-  return status;
+  work w = {.d = run->deck, .grid = grid, .plane = grid->points->n,
+            .points = {.size = sizeof(pendres_response_noise), .chunk = 1, .compute = compute,
+                       SCENE_COLUMNS(results), .what = "response with noise", .arg = &w}};
+  deck_axis_id axis[SCENE_AXES + 1] = {DECK_AXIS_TEMPERATURE};
+  for (int i = 0; i < grid->points->axes; i++) axis[1 + i] = grid->points->axis[i];
+  scene_points_over(&w.points, run->deck, 1 + grid->points->axes, axis);
+  SCENE_COMPUTE(run, &w.points, "points with noise", .last = 1);
+  write_results(run, &w);
+  print_table(run, &w);
 }

@@ -5,7 +5,7 @@
 #ifndef SCENE_RESPONSE_NOISE_H
 #define SCENE_RESPONSE_NOISE_H
 
-#include "scenes/temporary.h"
+#include "scenes/points.h"
 
 /* What is written of a point: see pendres_response. */
 typedef struct scene_response_row {
@@ -18,17 +18,15 @@ typedef struct scene_response_row {
 
 /* The response without noise at all points of the scene. */
 typedef struct scene_response_grid {
-  size_t dampings, drives;
-  const char *damping, *drive;   /* names of the dimensions */
-  const scene_temporary *points;      /* [damping][drive] of pendres_response */
-  const scene_temporary *rows;        /* [damping][drive] of scene_response_row */
+  const scene_points *points;
+  const scene_temporary *kept, *rows; /* of pendres_response and scene_response_row */
 } scene_response_grid;
 
 /*
- * Compute and write the response at the deck's temperatures, with the dimensions [temperature,
- * damping, drive], the last two of which exist in the root group; that at temperature 0 is what
- * the grid holds. Points without a result are counted in the run.
+ * Compute and write the response at the deck's temperatures, with a dimension `temperature` before
+ * those of the grid, which exist in the root group; that at temperature 0 is what the grid holds.
+ * Points without a result are counted in the run.
  */
-pendres_status scene_response_write_noise(scene_run *run, const scene_response_grid *grid);
+void scene_response_write_noise(scene_run *run, const scene_response_grid *grid);
 
 #endif

@@ -28,6 +28,7 @@ static pendres_status open_file(scene_run *run, scene_temporary *s)
 pendres_status scene_temporary_create(scene_run *run, size_t n, size_t element, size_t memory,
                                       scene_temporary *out)
 {
+  if (!scene_going(run)) return run->status;
   *out = (scene_temporary){.element = element, .file = -1};
   if (n > memory / element) return open_file(run, out);
   out->memory = calloc(n + 1, element);
@@ -44,30 +45,36 @@ void scene_temporary_free(scene_temporary *s)
   *s = (scene_temporary){.element = 0};
 }
 
-static pendres_status conclude(int done, char *why, size_t size)
-{
-  if (!done) snprintf(why, size, "the temporary file of results: %s", strerror(errno));
-  return done ? PENDRES_OK : PENDRES_IO;
-}
+static const char failure[] = "the temporary file of results: %s";
 
-pendres_status scene_temporary_put(const scene_temporary *s, size_t first, size_t n,
-                                   const void *data,
-                                   char *why, size_t size)
+pendres_status scene_temporary_put(scene_run *run, const scene_temporary *s, size_t first, size_t n,
+                                   const void *data)
 {
   const size_t at = first * s->element, bytes = n * s->element;
-  if (s->memory == NULL)
-    return conclude(bytes_write(s->file, (off_t)at, data, bytes), why, size);
-  memcpy(s->memory + at, data, bytes);
-  return PENDRES_OK;
+  if (!scene_going(run)) return run->status;
+  if (s->memory != NULL) memcpy(s->memory + at, data, bytes);
+  else if (!bytes_write(s->file, (off_t)at, data, bytes))
+    (void)scene_fail(run, PENDRES_IO, failure, strerror(errno));
+  return run->status;
 }
 
 pendres_status scene_temporary_get(const scene_temporary *s, size_t first, size_t n, void *data,
-                                   char *why,
-                                   size_t size)
+                                   char *why, size_t size)
 {
   const size_t at = first * s->element, bytes = n * s->element;
-  if (s->memory == NULL)
-    return conclude(bytes_read(s->file, (off_t)at, data, bytes), why, size);
-  memcpy(data, s->memory + at, bytes);
+  if (s->memory != NULL) memcpy(data, s->memory + at, bytes);
+  else if (!bytes_read(s->file, (off_t)at, data, bytes)) {
+    snprintf(why, size, failure, strerror(errno));
+    return PENDRES_IO;
+  }
   return PENDRES_OK;
+}
+
+pendres_status scene_temporary_read(scene_run *run, const scene_temporary *s, size_t first,
+                                    size_t n, void *data)
+{
+  char why[200];
+  if (!scene_going(run)) return run->status;
+  const pendres_status status = scene_temporary_get(s, first, n, data, why, sizeof why);
+  return status == PENDRES_OK ? run->status : scene_fail(run, status, "%s", why);
 }

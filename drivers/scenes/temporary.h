@@ -24,13 +24,14 @@ pendres_status scene_temporary_create(scene_run *run, size_t n, size_t element, 
 /* Does nothing to one that is all zero, since it was never created. */
 void scene_temporary_free(scene_temporary *s);
 
-/* Write or read elements first ... first + n - 1. Any thread may do so, as long as no other writes
-   the same elements. PENDRES_IO: why[size] receives the reason. */
-pendres_status scene_temporary_put(const scene_temporary *s, size_t first, size_t n,
-                                   const void *data,
-                                   char *why, size_t size);
+/* Write or read elements first ... first + n - 1. */
+pendres_status scene_temporary_put(scene_run *run, const scene_temporary *s, size_t first, size_t n,
+                                   const void *data);
+pendres_status scene_temporary_read(scene_run *run, const scene_temporary *s, size_t first,
+                                    size_t n, void *data);
+
+/* Read them in a task, on any thread. PENDRES_IO: why[size] receives the reason. */
 pendres_status scene_temporary_get(const scene_temporary *s, size_t first, size_t n, void *data,
-                                   char *why,
-                                   size_t size);
+                                   char *why, size_t size);
 
 #endif
