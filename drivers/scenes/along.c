@@ -98,12 +98,11 @@ typedef struct head {
   uint64_t points, jumps;
 } head;
 
-void scene_along_path_free(scene_along_path *path)
-{
-  free(path->point);
-  free(path->jump);
-  *path = (scene_along_path){ .points = 0 };
-}
+typedef struct sweep {
+  scene_run *run;
+  const scene_along_way *way;
+  scene_along_path *path;
+} sweep;
 
 /* Whether the path had not reached this value when its budget ended it. */
 static int not_reached(const pendres_hysteresis_point *p)
@@ -160,13 +159,16 @@ static pendres_status find_start(const deck *d, const scene_along_way *way, pend
   return status;
 }
 
-pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pendres_context *ctx,
-                                  farm_record *out)
+static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
+  const sweep *s = arg;
+  const deck *d = s->run->deck;
+  const scene_along_way *way = s->way;
   const pendres_pendulum p = scene_along_pendulum(d);
   double x = d->orbit.x, v = d->orbit.v;
   pendres_hysteresis *h = NULL;
   pendres_status status = PENDRES_OK;
+  (void)task;
   if (d->orbit.start[0] != '\0') {
     pendres_attractor start;
     status = find_start(d, way, ctx, &start, out);
@@ -201,11 +203,13 @@ static int jump_fits(const pendres_jump *j, size_t points)
          scene_check_code(j->gradual, 2) && scene_check_code(j->certain, 2);
 }
 
-int scene_along_check(const farm_record *in, size_t points)
+static int check(const void *arg, size_t task, const farm_record *in)
 {
+  const size_t points = ((const sweep *)arg)->way->n;
   const pendres_hysteresis_point *point;
   const pendres_jump *jump;
   head n;
+  (void)task;
   if (in->size < sizeof n) return 0;
   memcpy(&n, in->data, sizeof n);
   if (n.points != points || n.points > (in->size - sizeof n) / sizeof *point) return 0;
@@ -218,20 +222,31 @@ int scene_along_check(const farm_record *in, size_t points)
   return good;
 }
 
-pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
+  const sweep *s = arg;
+  scene_along_path *path = s->path;
   head n;
-  const unsigned char *from = in->data;
-  memcpy(&n, from, sizeof n);
-  from += sizeof n;
+  (void)task;
+  memcpy(&n, in->data, sizeof n);
   path->points = n.points;
   path->jumps = n.jumps;
-  path->point = malloc((n.points + 1) * sizeof *path->point);
-  path->jump = malloc((n.jumps + 1) * sizeof *path->jump);
-  if (path->point == NULL || path->jump == NULL) return PENDRES_OUT_OF_MEMORY;
-  memcpy(path->point, from, n.points * sizeof *path->point);
-  memcpy(path->jump, from + n.points * sizeof *path->point, n.jumps * sizeof *path->jump);
+  path->point = scene_array(s->run, n.points, sizeof *path->point);
+  path->jump = scene_array(s->run, n.jumps, sizeof *path->jump);
+  if (!scene_going(s->run)) return s->run->status;
+  const size_t bytes = n.points * sizeof *path->point;
+  memcpy(path->point, (const char *)in->data + sizeof n, bytes);
+  memcpy(path->jump, (const char *)in->data + sizeof n + bytes, n.jumps * sizeof *path->jump);
   return PENDRES_OK;
+}
+
+pendres_status scene_along_compute(scene_run *run, const scene_along_way *way,
+                                   scene_along_path *path)
+{
+  sweep s = {run, way, path};
+  return scene_compute(run, &(farm_stage){.what = "sweeps", .tasks = 1, .record_size = 1,
+                                          .task = follow, .check = check, .collect = collect,
+                                          .arg = &s});
 }
 
 /* Why a point has no attractor; SCENE_FAILURE_NONE: it has one. */
@@ -268,29 +283,28 @@ scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
   return rows;
 }
 
+static scene_along_jump jump_row(const pendres_jump *j)
+{
+  const double closed = j->to_period > 0 ? 0.0 : NAN;
+  return (scene_along_jump){
+    .parameter = j->value, .parameter_error = j->value_error, .period = j->to_period + closed,
+    .period_error = closed, .share = j->share, .share_error = j->share_error,
+    .direction = j->direction < 0, .kind = (int)j->kind, .from = (int)j->from,
+    .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
+}
+
 pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *path,
                                        const char *what, size_t count,
                                        const scene_column *columns)
 {
   char words[60];
   scene_along_jump *rows = scene_array(run, path->jumps, sizeof *rows);
+  for (size_t i = 0; rows != NULL && i < path->jumps; i++) rows[i] = jump_row(&path->jump[i]);
   const scene_table table = {.dimensions = {what}, .prefix = what, .n = path->jumps,
                              .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < path->jumps; i++) {
-    const pendres_jump *j = &path->jump[i];
-    rows[i] = (scene_along_jump){
-      .parameter = j->value, .parameter_error = j->value_error,
-      .period = j->to_period > 0 ? j->to_period : NAN,
-      .period_error = j->to_period > 0 ? 0.0 : NAN, .share = j->share,
-      .share_error = j->share_error,
-      .direction = j->direction < 0, .kind = (int)j->kind, .from = (int)j->from,
-      .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
-  }
   snprintf(words, sizeof words, "number of the %s", what);
-  pendres_status status = scene_numbering(run, what, table.n, words);
-  if (status == PENDRES_OK) status = scene_columns_write(run, &table, count, columns);
-  return status;
+  scene_numbering(run, what, table.n, words);
+  return scene_columns_write(run, &table, count, columns);
 }
 
 static const scene_column verdicts[] = {
@@ -317,9 +331,9 @@ int scene_along_uncertain(const scene_along_path *path)
 pendres_status scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
                                           const scene_table *table)
 {
-  const pendres_status status = SCENE_WRITE(run, table, verdicts);
-  return status == PENDRES_OK && scene_along_uncertain(path) ? SCENE_WRITE(run, table, doubts)
-                                                             : status;
+  SCENE_WRITE(run, table, verdicts);
+  if (scene_along_uncertain(path)) SCENE_WRITE(run, table, doubts);
+  return run->status;
 }
 
 /* Of values that a path has left out; NULL: what is said of all. */
@@ -338,7 +352,7 @@ void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path 
 {
   static const char *const words[] = { "upwards", "downwards" };
   const size_t values = path->points / (size_t)ways;
-  for (size_t i = 0; i < path->points; i++) {
+  for (size_t i = 0; i < path->points && scene_going(run); i++) {
     const scene_failure failed = failure_of(&path->point[i]);
     if (failed == SCENE_FAILURE_NONE) continue;
     run->failed_points++;

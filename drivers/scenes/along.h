@@ -28,14 +28,12 @@ const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis);
 pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
                                  pendres_attractor *out, char *why, size_t size);
 
-/* A path and what was met on it. */
+/* A path and what was met on it, in arrays of the run. */
 typedef struct scene_along_path {
   size_t points, jumps;
   pendres_hysteresis_point *point; /* [points] in the order of the path */
   pendres_jump *jump;              /* [jumps] */
 } scene_along_path;
-
-void scene_along_path_free(scene_along_path *path);
 
 /* Values of an axis in the order in which they are followed. */
 typedef struct scene_along_way {
@@ -44,16 +42,10 @@ typedef struct scene_along_way {
   const double *value;
 } scene_along_way;
 
-/* Follow the deck's pendulum from its start along a way, and fill a record. The budget is of all
-   values together: where it ends the path, the rest of it stays unresolved. */
-pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pendres_context *ctx,
-                                  farm_record *out);
-
-/* Can it be the record of a path of so many points? See farm_check. */
-int scene_along_check(const farm_record *in, size_t points);
-
-/* Take over such a record. */
-pendres_status scene_along_take(const farm_record *in, scene_along_path *path);
+/* Follow the deck's pendulum from its start along a way, in a task; the path is the run's. The
+   budget is of all values together: where it ends the path, the rest of it stays unresolved. */
+pendres_status scene_along_compute(scene_run *run, const scene_along_way *way,
+                                   scene_along_path *path);
 
 /* Whether a point is on a closed orbit. */
 int scene_along_closed(const pendres_hysteresis_point *point);

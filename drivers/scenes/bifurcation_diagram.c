@@ -6,11 +6,9 @@
  */
 #include <limits.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "scenes/along.h"
-#include "scenes/failed.h"
+#include "scenes/points.h"
 
 enum { TABLE_ROWS = 40 };
 
@@ -19,28 +17,23 @@ typedef struct strobe {
   double x, x_error, v, v_error;
 } strobe;
 
-enum { NO_TIME = -1 };
-
-/* What the last task of the second stage finds. */
-typedef struct cascade_record {
-  pendres_cascade cascade;
-  scene_verdict verdict;
-} cascade_record;
+enum { NOT_KNOWN = -1 };
 
 typedef struct work {
   const deck *d;
   deck_axis_id axis;
-  size_t values, strobes;
+  size_t strobes;
   scene_along_path path;
-  strobe *strobe; /* [values][strobes] */
-  int *attractors; /* [values]; 0: not asked for; NO_TIME: the budget has ended what was to be
-                      found there */
-  cascade_record cascade;
+  scene_points values;   /* of record, taken apart into: */
+  strobe *strobe;        /* [values][strobes] */
+  int *attractors;       /* [values]; 0: not asked for; or NOT_KNOWN */
+  scene_points cascade;  /* one pendres_cascade, if it is asked for */
 } work;
 
-/* What a task of the second stage finds at a value; `strobes` positions, then velocities follow. */
+/* What is found at a value; `strobes` positions, then velocities follow. */
 typedef struct record {
   int64_t attractors;
+  double x[];
 } record;
 
 static pendres_pendulum pendulum_at(const work *w, size_t i)
@@ -50,82 +43,89 @@ static pendres_pendulum pendulum_at(const work *w, size_t i)
   return p;
 }
 
-/* ---- computing ----------------------------------------------------------------------------- */
+/* ---- the cascade --------------------------------------------------------------------------- */
 
-static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static void name_cascade(const scene_points *p, size_t point, char *text, size_t size)
 {
-  const work *w = arg;
-  (void)task;
-  const scene_along_way way = {w->axis, w->values, w->d->axis[w->axis].value};
-  return scene_along_follow(w->d, &way, ctx, out);
+  (void)p;
+  (void)point;
+  snprintf(text, size, "the cascade of doublings");
 }
 
-static int check_path(const void *arg, size_t task, const farm_record *in)
+static void no_cascade(const scene_points *p, size_t point, void *row)
 {
-  const work *w = arg;
-  (void)task;
-  return scene_along_check(in, w->values);
-}
-
-static pendres_status collect_path(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  (void)task;
-  return scene_along_take(in, &w->path);
-}
-
-static pendres_status find_cascade(const work *w, pendres_context *ctx, farm_record *out)
-{
-  cascade_record *r = farm_record_resize(out, sizeof *r);
-  const pendres_orbit *first = &w->path.point[0].attractor.orbit;
-  pendres_status status = PENDRES_NOT_FOUND;
-  if (r == NULL) return PENDRES_OUT_OF_MEMORY;
-  farm_point(out, 1, "the cascade of doublings");
-  if (scene_along_closed(&w->path.point[0]))
-    status = pendres_cascade_find(ctx, first, scene_parameter_of(w->axis)->parameter,
-                                  w->path.point[w->values - 1].value, &r->cascade);
-  const int late = farm_gave_up(out, status);
-  if (late) status = scene_verdict_point(&r->verdict, status, NULL, out);
-  else if (status == PENDRES_OK || scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
-  r->cascade =
+  (void)p;
+  (void)point;
+  *(pendres_cascade *)row =
     (pendres_cascade){.limit = NAN, .limit_error = NAN, .ratio = NAN, .ratio_error = NAN};
+}
+
+/* An orbit that has none is no failure. */
+static pendres_status find_cascade(const scene_some *some)
+{
+  const work *w = some->of->arg;
+  const pendres_hysteresis_point *first = w->path.point;
+  const size_t values = w->values.n;
+  pendres_status status = PENDRES_NOT_FOUND;
+  if (scene_along_closed(first))
+    status = pendres_cascade_find(some->ctx, &first->attractor.orbit,
+                                  scene_parameter_of(w->axis)->parameter,
+                                  w->path.point[values - 1].value, some->rows);
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  no_cascade(some->of, 0, some->rows);
   return PENDRES_OK;
 }
 
+static int check_cascade(const scene_points *p, size_t first, size_t n, const void *rows)
+{
+  (void)p;
+  (void)first;
+  (void)n;
+  return scene_check_code(((const pendres_cascade *)rows)->doublings,
+                          PENDRES_CASCADE_DOUBLINGS + 1);
+}
+
+/* ---- values -------------------------------------------------------------------------------- */
+
 /* Find the attractors at a value, if they are asked for, and strobe points of the one that the path
    is on. */
-static pendres_status find_at(const work *w, size_t i, pendres_context *ctx, record *r, double *x)
+static pendres_status find_strobes(const scene_some *some)
 {
-  const pendres_hysteresis_point *point = &w->path.point[i];
-  const pendres_pendulum p = pendulum_at(w, i);
+  const work *w = some->of->arg;
+  const pendres_hysteresis_point *point = &w->path.point[some->first];
+  const pendres_pendulum p = pendulum_at(w, some->first);
+  record *r = some->rows;
   pendres_attractors *set = NULL;
   pendres_status status = PENDRES_OK;
-  if (w->d->diagram.attractors) status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set);
+  for (size_t k = 0; k < 2 * w->strobes; k++) r->x[k] = NAN;
+  if (w->d->diagram.attractors)
+    status = pendres_attractors_find(some->ctx, &p, 0, NULL, NULL, &set);
   r->attractors = (int64_t)pendres_attractors_count(set);
   pendres_attractors_free(set);
   if (status != PENDRES_OK || point->attractor.label == PENDRES_LABEL_UNRESOLVED ||
       point->attractor.label == PENDRES_LABEL_ESCAPE)
     return status;
-  return pendres_strobe_record(ctx, &p, &(pendres_state){point->x, point->v}, (long)w->strobes - 1,
-                               1, &(pendres_record){.x = x, .v = x + w->strobes});
+  return pendres_strobe_record(some->ctx, &p, &(pendres_state){point->x, point->v},
+                               (long)w->strobes - 1, 1,
+                               &(pendres_record){.x = r->x, .v = r->x + w->strobes});
 }
 
-static pendres_status find_strobes(const void *arg, size_t task, pendres_context *ctx,
-                                   farm_record *out)
+static void no_strobes(const scene_points *p, size_t point, void *row)
 {
-  const work *w = arg;
-  if (task == w->values) return find_cascade(w, ctx, out);
-  record *r = farm_record_resize(out, sizeof *r + 2 * w->strobes * sizeof(double));
-  if (r == NULL) return PENDRES_OUT_OF_MEMORY;
-  double *x = (double *)(r + 1);
-  for (size_t k = 0; k < 2 * w->strobes; k++) x[k] = NAN;
-  scene_point_begin(out, w->d, task, 1, 1, &w->axis);
-  const pendres_status status = find_at(w, task, ctx, r, x);
-  if (!farm_gave_up(out, status)) return status;
-  farm_lost(out, NULL, 0);
-  for (size_t k = 0; k < 2 * w->strobes; k++) x[k] = NAN;
-  r->attractors = NO_TIME;
-  return PENDRES_OK;
+  const work *w = p->arg;
+  record *r = row;
+  (void)point;
+  for (size_t k = 0; k < 2 * w->strobes; k++) r->x[k] = NAN;
+  r->attractors = NOT_KNOWN;
+}
+
+static int check_strobes(const scene_points *p, size_t first, size_t n, const void *rows)
+{
+  const int64_t attractors = ((const record *)rows)->attractors;
+  (void)p;
+  (void)first;
+  (void)n;
+  return attractors >= NOT_KNOWN && attractors <= INT_MAX;
 }
 
 /* The well number 0. */
@@ -136,36 +136,22 @@ static double within_a_turn(const deck *d, double x)
   return x - turn * ceil((x - 0.75 * turn) / turn);
 }
 
-static int check_strobes(const void *arg, size_t task, const farm_record *in)
+static pendres_status collect_strobes(const scene_points *p, size_t first, size_t n,
+                                      const void *rows)
 {
-  const work *w = arg;
-  const record *r = in->data;
-  const cascade_record *c = in->data;
-  if (task < w->values)
-    return in->size == sizeof *r + 2 * w->strobes * sizeof(double) && r->attractors >= NO_TIME &&
-           r->attractors <= INT_MAX;
-  return in->size == sizeof *c && scene_check_verdict(&c->verdict) &&
-         scene_check_code(c->cascade.doublings, PENDRES_CASCADE_DOUBLINGS + 1);
-}
-
-static pendres_status collect_strobes(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  if (task == w->values) {
-    memcpy(&w->cascade, in->data, sizeof w->cascade);
-    return PENDRES_OK;
-  }
-  const record *r = in->data;
-  const double *x = (const double *)(r + 1), *v = x + w->strobes;
-  const pendres_hysteresis_point *point = &w->path.point[task];
+  work *w = p->arg;
+  const record *r = rows;
+  const double *x = r->x, *v = x + w->strobes;
+  const pendres_hysteresis_point *point = &w->path.point[first];
+  (void)n;
   /* Points of chaos are its own, but how far they are off the pendulum's is not known. */
   const int closed = scene_along_closed(point);
-  w->attractors[task] = (int)r->attractors;
+  w->attractors[first] = (int)r->attractors;
   const double x_error = closed ? point->attractor.orbit.x_error + w->d->precision.tolerance : NAN;
   const double fast = w->d->precision.tolerance / deck_pendulum_units(w->d).time;
   const double v_error = closed ? point->attractor.orbit.v_error + fast : NAN;
   for (size_t k = 0; k < w->strobes; k++)
-    w->strobe[task * w->strobes + k] = (strobe){within_a_turn(w->d, x[k]), x_error, v[k], v_error};
+    w->strobe[first * w->strobes + k] = (strobe){within_a_turn(w->d, x[k]), x_error, v[k], v_error};
   return PENDRES_OK;
 }
 
@@ -181,11 +167,15 @@ static const scene_column of_strobes[] = {
   STROBE(v, "velocity at drive phase 0"),
 };
 
-static const scene_column of_exponents[] = {
-  SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent a unit time", "1"),
-};
+static int has_exponents(const deck *d)
+{
+  return d->diagram.exponents;
+}
 
 static const scene_column of_points[] = {
+  {.name = "lyapunov", .long_name = "largest Lyapunov exponent a unit time", .units = "1",
+   .when = has_exponents, .value = offsetof(scene_along_row, of.attractor.lyapunov),
+   .error = offsetof(scene_along_row, of.attractor.lyapunov_error)},
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
 };
 
@@ -211,76 +201,67 @@ static const scene_column of_cascade[] = {
   SCENE_COLUMN(pendres_cascade, ratio, "ratio of the last two distances of doublings", "1"),
 };
 
-/* Mark the points that the budget has ended, beside those that the path marks. */
-static void mark_late(scene_run *run, const work *w, scene_along_row *rows)
+/* Mark the points of which something is not known, beside those that the path marks. */
+static void mark_rest(scene_run *run, const work *w, scene_along_row *rows)
 {
-  for (size_t i = 0; i < w->values; i++) {
-    if (w->attractors[i] != NO_TIME) continue;
+  for (size_t i = 0; rows != NULL && i < w->values.n; i++) {
+    const scene_failure reason = (scene_failure)w->values.failed.reason[i];
+    if (reason == SCENE_FAILURE_NONE) continue;
     /* What the path has not come to is counted there. */
     run->failed_points += rows[i].failed == SCENE_FAILURE_NONE;
-    rows[i].failed = SCENE_FAILURE_OUT_OF_TIME;
-    scene_failure_tell(run, SCENE_FAILURE_OUT_OF_TIME, NULL, "attractors at %s %.10g",
+    rows[i].failed = (int)reason;
+    scene_failure_tell(run, reason, w->values.failed.words[i], "attractors at %s %.10g",
                        deck_axis_name(w->axis), w->path.point[i].value);
   }
-  if (w->cascade.verdict.reason == SCENE_FAILURE_NONE) return;
-  run->failed_points++;
-  scene_failure_tell(run, (scene_failure)w->cascade.verdict.reason, w->cascade.verdict.words,
-                     "the cascade of doublings");
+  scene_points_tell(run, &w->cascade);
 }
 
-static pendres_status write_values(scene_run *run, const work *w)
+static void write_values(scene_run *run, const work *w)
 {
   const char *axis = deck_axis_name(w->axis);
+  const size_t n = w->values.n;
   scene_along_row *rows = scene_along_rows(run, &w->path);
   const scene_table strobes = {.dimensions = {axis, "strobe"}, .prefix = "strobe",
-                               .n = w->values * w->strobes, .stride = sizeof *w->strobe,
+                               .n = n * w->strobes, .stride = sizeof *w->strobe,
                                .rows = w->strobe};
-  const scene_table points = {.dimensions = {axis}, .n = w->path.points, .stride = sizeof *rows,
-                              .rows = rows};
-  const scene_table counts = {.dimensions = {axis}, .n = w->values,
-                              .stride = sizeof *w->attractors, .rows = w->attractors};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  mark_late(run, w, rows);
-  pendres_status status = SCENE_WRITE(run, &strobes, of_strobes);
-  if (status == PENDRES_OK && w->d->diagram.exponents)
-    status = SCENE_WRITE(run, &points, of_exponents);
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &points, of_points);
-  if (status == PENDRES_OK && w->d->diagram.attractors)
-    status = scene_columns_write(run, &counts, 1, &of_attractors);
-  if (status == PENDRES_OK)
-    status = scene_along_write_verdicts(run, &w->path, &points);
+  const scene_table points = {.dimensions = {axis}, .n = n, .stride = sizeof *rows, .rows = rows};
+  const scene_table counts = {.dimensions = {axis}, .n = n, .stride = sizeof *w->attractors,
+                              .rows = w->attractors};
+  mark_rest(run, w, rows);
+  SCENE_WRITE(run, &strobes, of_strobes);
+  SCENE_WRITE(run, &points, of_points);
+  if (w->d->diagram.attractors) scene_columns_write(run, &counts, 1, &of_attractors);
+  scene_along_write_verdicts(run, &w->path, &points);
   scene_along_tell(run, w->axis, &w->path, 1);
-  return status;
 }
 
-static pendres_status write_cascade(scene_run *run, const work *w)
+static void write_cascade(scene_run *run, const pendres_cascade *c)
 {
-  const pendres_cascade *c = &w->cascade.cascade;
+  if (!scene_going(run)) return;
   const scene_table doublings = {.dimensions = {"cascade"}, .prefix = "cascade",
                                  .n = (size_t)c->doublings, .stride = sizeof c->value[0],
                                  .rows = c};
   const scene_table whole = {.prefix = "cascade", .n = 1, .stride = sizeof *c, .rows = c};
-  pendres_status status = scene_numbering(run, "cascade", doublings.n, "number of the doubling");
-  if (status == PENDRES_OK) status = scene_columns_write(run, &doublings, 1, &of_doublings);
-  return status == PENDRES_OK ? SCENE_WRITE(run, &whole, of_cascade) : status;
+  scene_numbering(run, "cascade", doublings.n, "number of the doubling");
+  scene_columns_write(run, &doublings, 1, &of_doublings);
+  SCENE_WRITE(run, &whole, of_cascade);
 }
 
-static pendres_status write_all(scene_run *run, const work *w)
+static void write_all(scene_run *run, const work *w)
 {
-  pendres_status status = scene_dimension(run, NULL, w->axis);
-  if (status == PENDRES_OK)
-    status = scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
-  if (status == PENDRES_OK) status = write_values(run, w);
-  if (status != PENDRES_OK || !w->d->diagram.bifurcations) return status;
-  status = SCENE_ALONG_WRITE_JUMPS(run, &w->path, "bifurcation", of_bifurcations);
-  return status == PENDRES_OK ? write_cascade(run, w) : status;
+  scene_dimension(run, NULL, w->axis);
+  scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
+  write_values(run, w);
+  if (!w->d->diagram.bifurcations) return;
+  SCENE_ALONG_WRITE_JUMPS(run, &w->path, "bifurcation", of_bifurcations);
+  write_cascade(run, w->cascade.rows);
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
 static void tabulate(FILE *out, const work *w)
 {
-  if (out == NULL || !w->d->diagram.bifurcations) return;
+  if (!w->d->diagram.bifurcations) return;
   fprintf(out, "%-10s %-28s %s\n", "ends by", deck_axis_name(w->axis), "period after");
   for (size_t i = 0; i < w->path.jumps && i < TABLE_ROWS; i++) {
     const pendres_jump *j = &w->path.jump[i];
@@ -290,44 +271,34 @@ static void tabulate(FILE *out, const work *w)
   }
   if (scene_along_uncertain(&w->path))
     fprintf(out, "uncertain: errors as small as rounding choose the state that it begins on\n");
-  const pendres_cascade *c = &w->cascade.cascade;
+  const pendres_cascade *c = w->cascade.rows;
   if (c->doublings > 3)
     fprintf(out, "%d doublings accumulate at %.12g +- %.0e, ratio %.6f +- %.0e\n", c->doublings,
             c->limit, c->limit_error, c->ratio, c->ratio_error);
 }
 
-static pendres_status compute(scene_run *run, work *w)
-{
-  const size_t tasks = w->values + (w->d->diagram.bifurcations != 0);
-  const farm_stage path = {.what = "sweeps", .tasks = 1, .record_size = 1, .task = follow,
-                           .check = check_path, .collect = collect_path, .arg = w};
-  const farm_stage strobes = {.what = "values", .last = 1, .tasks = tasks,
-                              .record_size = 1, .task = find_strobes,
-                              .check = check_strobes, .collect = collect_strobes, .arg = w};
-  const pendres_status status = scene_compute(run, &path);
-  return status == PENDRES_OK ? scene_compute(run, &strobes) : status;
-}
-
 static pendres_status run_scene(scene_run *run)
 {
-  work w = {.d = run->deck, .strobes = (size_t)run->deck->diagram.strobes};
-  w.values = scene_along_axis(run->deck, &w.axis)->count;
-  const size_t n = w.values * w.strobes;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  w.strobe = malloc(n * sizeof *w.strobe);
-  w.attractors = malloc(w.values * sizeof *w.attractors);
-  if (w.strobe == NULL || w.attractors == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu points", n);
-    goto done;
-  }
-  status = compute(run, &w);
-  if (status == PENDRES_OK) status = write_all(run, &w);
-  if (status == PENDRES_OK) tabulate(run->table, &w);
-done:
-  free(w.strobe);
-  free(w.attractors);
-  scene_along_path_free(&w.path);
-  return status;
+  const deck *d = run->deck;
+  const size_t strobes = (size_t)d->diagram.strobes;
+  work w = {.d = d, .strobes = strobes,
+            .values = {.size = sizeof(record) + 2 * strobes * sizeof(double), .chunk = 1,
+                       .compute = find_strobes, .leave_out = no_strobes, .check = check_strobes,
+                       .collect = collect_strobes, .arg = &w},
+            .cascade = {.n = 1, .size = sizeof(pendres_cascade), .chunk = 1,
+                        .compute = find_cascade, .leave_out = no_cascade, .check = check_cascade,
+                        .name = name_cascade, .arg = &w}};
+  const deck_axis *a = scene_along_axis(d, &w.axis);
+  scene_points_over(&w.values, d, 1, &w.axis);
+  if (!d->diagram.bifurcations) w.cascade.n = 0;
+  w.strobe = scene_array(run, a->count * strobes, sizeof *w.strobe);
+  w.attractors = scene_array(run, a->count, sizeof *w.attractors);
+  scene_along_compute(run, &(scene_along_way){w.axis, a->count, a->value}, &w.path);
+  scene_points_compute(run, &(farm_stage){.what = "values", .last = 1}, 2,
+                       (scene_points *[]){&w.values, &w.cascade});
+  write_all(run, &w);
+  if (scene_prints(run)) tabulate(run->table, &w);
+  return run->status;
 }
 
 static void describe(const deck *d, FILE *out)

@@ -2,59 +2,25 @@
  * hysteresis.c -- one parameter swept slowly, up and then down, from a stated state: what an
  * experimenter sees. One task: each value is approached from the one before.
  */
-#include <stdlib.h>
-
 #include "scenes/along.h"
-#include "scenes/failed.h"
 #include "scenes/ramp.h"
 
 enum { DIRECTIONS = 2, TABLE_JUMPS = 40 };
 
-typedef struct work {
-  const deck *d;
-  deck_axis_id axis;
-  size_t values; /* of the axis */
-  scene_along_path path; /* points [direction][values], values as in the axis */
-} work;
-
-/* ---- computing ----------------------------------------------------------------------------- */
-
-static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+/* Up and down again; points of the way back are put in the order of the axis, too. */
+static void compute(scene_run *run, deck_axis_id axis, scene_along_path *path)
 {
-  const work *w = arg;
-  const deck_axis *a = &w->d->axis[w->axis];
-  const size_t n = DIRECTIONS * w->values;
-  double *path = malloc(n * sizeof *path);
-  (void)task;
-  if (path == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < w->values; i++) path[i] = path[n - 1 - i] = a->value[i];
-  const scene_along_way way = {w->axis, n, path};
-  const pendres_status status = scene_along_follow(w->d, &way, ctx, out);
-  free(path);
-  return status;
-}
-
-static int check(const void *arg, size_t task, const farm_record *in)
-{
-  const work *w = arg;
-  (void)task;
-  return scene_along_check(in, DIRECTIONS * w->values);
-}
-
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  (void)task;
-  const pendres_status status = scene_along_take(in, &w->path);
-  if (status != PENDRES_OK) return status;
-  /* The way back is stored in the order of the axis. */
-  pendres_hysteresis_point *back = w->path.point + w->values;
-  for (size_t i = 0; i < w->values / 2; i++) {
+  const deck_axis *a = &run->deck->axis[axis];
+  const size_t n = DIRECTIONS * a->count;
+  double *value = scene_array(run, n, sizeof *value);
+  for (size_t i = 0; value != NULL && i < a->count; i++) value[i] = value[n - 1 - i] = a->value[i];
+  scene_along_compute(run, &(scene_along_way){axis, n, value}, path);
+  pendres_hysteresis_point *back = path->point + a->count;
+  for (size_t i = 0; scene_going(run) && i < a->count / 2; i++) {
     const pendres_hysteresis_point kept = back[i];
-    back[i] = back[w->values - 1 - i];
-    back[w->values - 1 - i] = kept;
+    back[i] = back[a->count - 1 - i];
+    back[a->count - 1 - i] = kept;
   }
-  return PENDRES_OK;
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
@@ -97,66 +63,52 @@ static const scene_column of_jumps[] = {
              certain_names),
 };
 
-static pendres_status write_points(scene_run *run, const work *w)
+static void write(scene_run *run, deck_axis_id axis, const scene_along_path *path)
 {
-  scene_along_row *rows = scene_along_rows(run, &w->path);
-  const scene_table table = {.dimensions = {"direction", deck_axis_name(w->axis)},
-                             .n = w->path.points, .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_status status =
-    scene_columns_write_orbits(run, &table, offsetof(scene_along_row, of.attractor.orbit));
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_points);
-  if (status == PENDRES_OK)
-    status = scene_along_write_verdicts(run, &w->path, &table);
-  scene_along_tell(run, w->axis, &w->path, DIRECTIONS);
-  return status;
+  const scene_along_row *rows = scene_along_rows(run, path);
+  const scene_table table = {.dimensions = {"direction", deck_axis_name(axis)},
+                             .n = path->points, .stride = sizeof *rows, .rows = rows};
+  const pendres_store_spec ways = {.name = "direction", .type = PENDRES_STORE_STRING,
+                                   .long_name = "way in which the parameter goes"};
+  scene_put_dimension(run, &ways, directions, DIRECTIONS);
+  scene_dimension(run, NULL, axis);
+  scene_columns_write_orbits(run, &table, offsetof(scene_along_row, of.attractor.orbit));
+  SCENE_WRITE(run, &table, of_points);
+  scene_along_write_verdicts(run, path, &table);
+  scene_along_tell(run, axis, path, DIRECTIONS);
+  SCENE_ALONG_WRITE_JUMPS(run, path, "jump", of_jumps);
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
-static void tabulate(FILE *out, const work *w)
+static void tabulate(FILE *out, deck_axis_id axis, const scene_along_path *path)
 {
-  if (out == NULL) return;
-  fprintf(out, "%-5s %-9s %-28s %-11s %-11s %s\n", "way", "ends by", deck_axis_name(w->axis),
+  fprintf(out, "%-5s %-9s %-28s %-11s %-11s %s\n", "way", "ends by", deck_axis_name(axis),
           "from", "to", "period");
-  for (size_t i = 0; i < w->path.jumps && i < TABLE_JUMPS; i++) {
-    const pendres_jump *j = &w->path.jump[i];
+  for (size_t i = 0; i < path->jumps && i < TABLE_JUMPS; i++) {
+    const pendres_jump *j = &path->jump[i];
     fprintf(out, "%-5s %-9s %.14g +- %.0e  %-11s %-11s %d%s%s\n", j->direction > 0 ? "up" : "down",
             pendres_name_get(PENDRES_NAMES_JUMP, j->kind), j->value, j->value_error,
             pendres_name_get(PENDRES_NAMES_LABEL, j->from),
             pendres_name_get(PENDRES_NAMES_LABEL, j->to), j->to_period,
             j->gradual ? ", gradual" : "", j->certain ? "" : ", uncertain");
   }
-  if (scene_along_uncertain(&w->path))
+  if (scene_along_uncertain(path))
     fprintf(out, "uncertain: errors as small as rounding choose the state that it begins on\n");
-  if (w->path.jumps == 0) fprintf(out, "the state does not end within the range\n");
-  if (w->path.jumps > TABLE_JUMPS) fprintf(out, "and %zu more\n", w->path.jumps - TABLE_JUMPS);
-}
-
-static pendres_status write_all(scene_run *run, const work *w)
-{
-  pendres_status status = pendres_store_dimension(
-    run->store,
-    &(pendres_store_spec){.name = "direction", .type = PENDRES_STORE_STRING,
-                          .long_name = "way in which the parameter goes"}, DIRECTIONS, directions);
-  (void)scene_stored(run, status);
-  if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis);
-  if (status == PENDRES_OK) status = write_points(run, w);
-  return status == PENDRES_OK ? SCENE_ALONG_WRITE_JUMPS(run, &w->path, "jump", of_jumps) : status;
+  if (path->jumps == 0) fprintf(out, "the state does not end within the range\n");
+  if (path->jumps > TABLE_JUMPS) fprintf(out, "and %zu more\n", path->jumps - TABLE_JUMPS);
 }
 
 static pendres_status run_scene(scene_run *run)
 {
-  work w = {.d = run->deck};
-  w.values = scene_along_axis(run->deck, &w.axis)->count;
-  const farm_stage stage = {.what = "sweeps", .tasks = 1, .record_size = 1,
-                            .task = follow, .check = check, .collect = collect, .arg = &w};
-  pendres_status status = scene_compute(run, &stage);
-  if (status == PENDRES_OK) status = write_all(run, &w);
-  if (status == PENDRES_OK) tabulate(run->table, &w);
-  if (status == PENDRES_OK) status = scene_ramp_run(run, w.axis, &w.path);
-  scene_along_path_free(&w.path);
-  return status;
+  deck_axis_id axis;
+  scene_along_path path = {.points = 0};
+  (void)scene_along_axis(run->deck, &axis);
+  compute(run, axis, &path);
+  write(run, axis, &path);
+  if (scene_prints(run)) tabulate(run->table, axis, &path);
+  scene_ramp_run(run, axis, &path);
+  return run->status;
 }
 
 static void describe(const deck *d, FILE *out)
