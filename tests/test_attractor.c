@@ -67,7 +67,7 @@ static void shares(void **state)
  * A pendulum with the drive turned round is the mirror image, state by state. The mirrored start
  * is rounded: of the last pendulum's starts a share of about 0.126 (1e-16 / 1e-6)^0.15 = 0.4 % are
  * so close to a boundary that this decides (uncertainty exponent: test_basin.c), and chaotic
- * transients may enter a trap a little sooner or later.
+ * transients may enter a trapping ellipse a little sooner or later.
  */
 static void mirror_image(void **state)
 {
@@ -228,7 +228,7 @@ static void known_attractors(void **state)
     assert_int_equal(again[i].label, e.outcome[i].label);
     assert_int_equal(again[i].well, e.outcome[i].well);
     assert_int_equal(again[i].attractor, e.outcome[i].attractor);
-    /* Larger traps are found for this purpose: nobody settles later. */
+    /* Larger ellipses are found for this purpose: nobody settles later. */
     assert_true(again[i].settling_periods <= e.outcome[i].settling_periods + 1);
   }
   pendres_attractors_free(set);

@@ -226,7 +226,7 @@ static void other_steps(void **state)
   }
 }
 
-/* A start inside a trap is certain; what nobody knows is not. */
+/* A start inside a trapping ellipse is certain; what nobody knows is not. */
 static void ends(void **state)
 {
   const pendres_pendulum p = {.damping = 0.24, .drive_amplitude = 0.2, .drive_frequency = 0.9};

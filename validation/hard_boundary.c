@@ -34,8 +34,8 @@ static const pendres_pendulum systems[SYSTEMS] = {
   { .damping = 0.2, .drive_amplitude = 1.66, .drive_frequency = 1.0 },
 };
 
-/* The attractor whose trap a state is in; -1: none. */
-static int trap_of(const pendres_attractors *set, long double y, long double v)
+/* The attractor whose trapping ellipse a state is in; -1: none. */
+static int ellipse_of(const pendres_attractors *set, long double y, long double v)
 {
   for (size_t i = 0; i < pendres_attractors_count(set); i++) {
     const pendres_attractor *a = pendres_attractors_get(set, i);
@@ -52,10 +52,10 @@ static pendres_status go(const pendres_attractors *set, const pendres_pendulum *
                          long double v, int *attractor)
 {
   pendres_status status = PENDRES_OK;
-  *attractor = trap_of(set, y, v);
+  *attractor = ellipse_of(set, y, v);
   for (int k = 0; k < MOST_PERIODS && *attractor < 0 && status == PENDRES_OK; k++) {
     status = pendres_reference_advance(p, &y, &v, NULL, 1);
-    *attractor = trap_of(set, y, v);
+    *attractor = ellipse_of(set, y, v);
   }
   return status;
 }

@@ -244,7 +244,7 @@ static pendres_status worst_orbit(hard_sheet *sheet, const truth *t, double off_
   return status;
 }
 
-/* How much of the way to the saddle the trap reaches. */
+/* How much of the way to the saddle the trapping ellipse reaches. */
 static double reach_of(const pendres_attractor *a, const truth *t)
 {
   const double dy = (double)(t->saddle.y - t->node.y);
@@ -327,8 +327,8 @@ static pendres_status label_naively(hard_sheet *sheet, const place *l, const tru
 /*
  * Labels right at the tightest tolerance, and at the standard one while the fold is further than
  * the ten tolerances that each period is allowed; unresolved is not wrong for starts close to the
- * saddle, and close to the fold; but the attractor itself must be found everywhere. A trap is part
- * of the basin and the saddle on the basin's edge: the trap ends before the saddle.
+ * saddle, and close to the fold; but the attractor itself must be found everywhere. An ellipse is
+ * part of the basin and the saddle on the basin's edge: the ellipse ends before the saddle.
  */
 static pendres_status add_before(hard_sheet *sheet, const place folds[2], double off)
 {

@@ -2,8 +2,8 @@
  * @file attractor.h
  * @brief What pendulums settle on, checked rather than hoped for.
  *
- * Owns: the set of attractors of attractors of a parameter set, their trapping regions, and
- * the labels of pendulums.
+ * Owns: the set of attractors of one parameter set, their trapping ellipses, and the labels of
+ * pendulums.
  *
  * A pendulum has settled when it is inside an attractor's trapping ellipse: every state in
  * there goes to that attractor. The stroboscopic map is a homeomorphism of the plane, so
@@ -22,7 +22,7 @@
  * What has not settled within its budget of periods is unresolved, never guessed.
  *
  * The error of the integration is carried along with each pendulum. Only if it is small against the
- * trap, and was small on the way, is the label certain (pendres_outcome.certain); pendulums for
+ * ellipse, and was small on the way, is the label certain (pendres_outcome.certain); pendulums for
  * which it is not are integrated again, more and more exactly, down to rounding.
  *
  * Attractors are numbered by amplitude, then by their Poincaré point, never by the order in
@@ -120,10 +120,11 @@ typedef struct pendres_outcome {
   int attractor;         /**< index in the set, or PENDRES_ATTRACTOR_UNKNOWN, or
                               PENDRES_ATTRACTOR_ESCAPED */
   long well;             /**< well that it settled in; 0 for running and chaotic ones */
-  long settling_periods; /**< drive periods until it was inside the trap, or had escaped; -1:
+  long settling_periods; /**< drive periods until it was inside the ellipse, or had escaped; -1:
                               unresolved */
-  int certain;           /**< 1: the error that it carried into the trap was small against the trap,
-                              so that it could not have ended elsewhere; 0 also if unresolved */
+  int certain;           /**< 1: the error that it carried into the ellipse was small against the
+                            ellipse, so that it could not have ended elsewhere; 0 also if
+                            unresolved */
 } pendres_outcome;
 
 /**

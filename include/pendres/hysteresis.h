@@ -87,8 +87,8 @@ enum {
 typedef struct pendres_hysteresis_point {
   double value;                /**< of the parameter */
   pendres_attractor attractor; /**< its label is UNRESOLVED, and its numbers NaN, where it could not
-                                    be found; its trap is not determined (NaN) on stretches that
-                                    were followed */
+                                    be found; its trapping ellipse is not determined (NaN) on
+                                    stretches that were followed */
   double x;                    /**< position at drive phase 0: a state that the pendulum is in
                                     there, on its attractor as far as that is reached, ... */
   double v;                    /**< ... and the velocity */

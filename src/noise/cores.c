@@ -33,7 +33,7 @@ static matrix inverse(const matrix *m)
 }
 
 /* The trapping ellipse. */
-static matrix trap_of(const pendres_attractor *a)
+static matrix ellipse_of(const pendres_attractor *a)
 {
   const double w = a->orbit.pendulum.drive_frequency, r = a->trap_radius;
   return (matrix){a->trap_metric[0] / (r * r), a->trap_metric[1] / (r * r * w),
@@ -46,7 +46,7 @@ static pendres_status settles(pendres_context *ctx, const pendres_attractors *se
                               const matrix *cloud, double reach, int *inside)
 {
   const pendres_attractor *a = pendres_attractors_get(set, (size_t)i);
-  const matrix trap = trap_of(a);
+  const matrix ellipse = ellipse_of(a);
   const double lower[3] = {sqrt(cloud->xx), cloud->xv / sqrt(cloud->xx),
                            sqrt(cloud->vv - cloud->xv * cloud->xv / cloud->xx)};
   double x[RING], v[RING];
@@ -55,7 +55,7 @@ static pendres_status settles(pendres_context *ctx, const pendres_attractors *se
   for (int k = 0; k < RING; k++) {
     const double c = reach * cos(two_pi * k / RING), s = reach * sin(two_pi * k / RING);
     const double dx = lower[0] * c, dv = lower[1] * c + lower[2] * s;
-    if (form(&trap, dx, dv) <= 1.0) continue;
+    if (form(&ellipse, dx, dv) <= 1.0) continue;
     x[n] = a->orbit.x + dx;
     v[n++] = a->orbit.v + dv;
   }
@@ -76,7 +76,7 @@ static pendres_status ellipse(pendres_context *ctx, const pendres_attractors *se
   pendres_langevin_linear linear;
   const double turn = pendres_model_turn(&hot), length = pendres_model_scale(&hot);
   int inside = 0;
-  *p = trap_of(a);
+  *p = ellipse_of(a);
   hot.temperature = temperature;
   pendres_status status = PENDRES_OK;
   if (temperature > 0.0 &&

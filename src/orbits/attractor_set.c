@@ -1,4 +1,5 @@
-/* attractor_set.c -- the attractors of parameter sets, with their traps; see attractor_set.h. */
+/* attractor_set.c -- the attractors of parameter sets, with their trapping ellipses; see
+   attractor_set.h. */
 #include "orbits/attractor_set.h"
 
 #include <math.h>
@@ -16,19 +17,19 @@
 void pendres_attractor_set_clear(pendres_attractor_set *c)
 {
   free(c->attractors);
-  free(c->trap);
+  free(c->ellipse);
   free(c->owner);
   for (size_t i = 0; i < c->covers; i++) free(c->cover[i]);
   *c = (pendres_attractor_set){.pendulum = c->pendulum, .effort = c->effort,
                                .any_well = c->any_well};
 }
 
-const pendres_trap *pendres_attractor_set_trap(const pendres_attractor_set *c,
-                                               const pendres_strobe_lane *lane)
+const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
+                                                              const pendres_strobe_lane *lane)
 {
-  for (size_t i = 0; i < c->traps; i++) {
-    const pendres_trap *t = &c->trap[i];
-    if (pendres_trap_norm2(t, lane->y, lane->w) <= t->radius * t->radius) return t;
+  for (size_t i = 0; i < c->ellipses; i++) {
+    const pendres_trapping_ellipse *t = &c->ellipse[i];
+    if (pendres_trapping_norm2(t, lane->y, lane->w) <= t->radius * t->radius) return t;
   }
   return NULL;
 }
@@ -36,10 +37,10 @@ const pendres_trap *pendres_attractor_set_trap(const pendres_attractor_set *c,
 int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
                                  long *well)
 {
-  const pendres_trap *t = pendres_attractor_set_trap(c, lane);
+  const pendres_trapping_ellipse *t = pendres_attractor_set_ellipse(c, lane);
   if (t == NULL) return -1;
   *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / t->turn);
-  return c->owner[t - c->trap];
+  return c->owner[t - c->ellipse];
 }
 
 /* ---- numbering and labels ---- */
@@ -72,7 +73,7 @@ pendres_status pendres_attractor_set_order(pendres_context *ctx, pendres_attract
     c->attractors[i] = old[order[i]];
     moved[order[i]] = (int)i;
   }
-  for (size_t t = 0; t < c->traps; t++) c->owner[t] = moved[c->owner[t]];
+  for (size_t t = 0; t < c->ellipses; t++) c->owner[t] = moved[c->owner[t]];
   for (size_t i = 0; i < c->covers; i++) c->cover[i]->attractor = moved[c->cover[i]->attractor];
   if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
@@ -86,19 +87,19 @@ done:
 
 /* ---- what is added ---- */
 
-int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_traps)
+int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_ellipses)
 {
   if (c->count == c->capacity) {
     const size_t capacity = c->capacity + 4;
     if (!pendres_regrow(&c->attractors, capacity, sizeof *c->attractors)) return -1;
     c->capacity = capacity;
   }
-  if (c->traps + more_traps > c->trap_capacity) {
-    const size_t capacity = c->traps + more_traps + 4;
-    if (!pendres_regrow(&c->trap, capacity, sizeof *c->trap) ||
+  if (c->ellipses + more_ellipses > c->ellipse_capacity) {
+    const size_t capacity = c->ellipses + more_ellipses + 4;
+    if (!pendres_regrow(&c->ellipse, capacity, sizeof *c->ellipse) ||
         !pendres_regrow(&c->owner, capacity, sizeof *c->owner))
       return -1;
-    c->trap_capacity = capacity;
+    c->ellipse_capacity = capacity;
   }
   return 0;
 }

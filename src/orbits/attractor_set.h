@@ -1,8 +1,8 @@
 /*
- * attractor_set.h -- the attractors of parameter sets, with their traps.
+ * attractor_set.h -- the attractors of parameter sets, with their trapping ellipses.
  *
  * Owns: finding attractors from initial guesses, numbering and labelling them, and telling which
- * trap a state lies in. Attractors keep the order of their discovery until
+ * ellipse a state lies in. Attractors keep the order of their discovery until
  * pendres_attractor_set_order() puts them into their physical order. Works on many parameter sets
  * at a time, so that blocks stay full.
  */
@@ -13,19 +13,19 @@
 
 #include "engine/strobe_run.h"
 #include "orbits/chaos_cover.h"
-#include "orbits/trap.h"
+#include "orbits/trapping.h"
 
 enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };
 
 typedef struct pendres_attractor_set {
   pendres_pendulum pendulum;
-  pendres_trap_effort effort;
+  pendres_trapping_effort effort;
   int any_well; /* 1: nobody asks for the well that a pendulum settles in */
   size_t count, capacity;
   pendres_attractor *attractors;
-  size_t traps, trap_capacity;
-  pendres_trap *trap;
-  int *owner; /* attractor of each trap */
+  size_t ellipses, ellipse_capacity;
+  pendres_trapping_ellipse *ellipse;
+  int *owner; /* attractor of each ellipse */
   size_t covers;
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
   int grows;        /* the force is linear, and all motions grow without bound */
@@ -58,14 +58,14 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
                                              pendres_attractor_set *attractor_sets, size_t n,
                                              pendres_initial_guess *guesses);
 
-/* Refine guesses to orbits, and add the stable ones that are new, with their traps. Where there is
-   mirror symmetry, the image of an orbit that is not its own image is added, too. */
+/* Refine guesses to orbits, and add the stable ones that are new, with their ellipses. Where there
+   is mirror symmetry, the image of an orbit that is not its own image is added, too. */
 pendres_status pendres_attractor_set_add(pendres_context *ctx,
                                          pendres_attractor_set *attractor_sets, size_t n,
                                          const pendres_initial_guess *guesses);
 
-/* Make room for one more attractor with so many traps; nonzero if out of memory. */
-int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_traps);
+/* Make room for one more attractor with so many ellipses; nonzero if out of memory. */
+int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_ellipses);
 
 /* An orbit of which nothing but the pendulum is known: all of its numbers are NaN. */
 pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
@@ -98,12 +98,12 @@ int pendres_attractor_set_are_images(const pendres_orbit *a, const pendres_orbit
  */
 void pendres_attractor_set_compare_images(pendres_attractor_set *c);
 
-/* The trap that a lane is in: its attractor and well; -1 if in none. */
+/* The ellipse that a lane is in: its attractor and well; -1 if in none. */
 int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
                                  long *well);
 
-/* The same trap itself; NULL if in none. */
-const pendres_trap *pendres_attractor_set_trap(const pendres_attractor_set *c,
-                                               const pendres_strobe_lane *lane);
+/* That ellipse itself; NULL if in none. */
+const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
+                                                              const pendres_strobe_lane *lane);
 
 #endif

@@ -26,8 +26,8 @@ static const double same_guess = 0.05;
 /* Whether an orbit, or another point of the same orbit, is in the set of attractors. */
 static int known(const pendres_attractor_set *c, const pendres_orbit *o)
 {
-  for (size_t t = 0; t < c->traps; t++) {
-    const pendres_trap *at = &c->trap[t];
+  for (size_t t = 0; t < c->ellipses; t++) {
+    const pendres_trapping_ellipse *at = &c->ellipse[t];
     const pendres_coordinates place = {.y = at->y, .w = at->w};
     double x, v;
     pendres_coordinates_out(&o->pendulum, &place, &x, &v);
@@ -74,7 +74,7 @@ static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
 
 /* The point with the largest x represents the orbit. */
 static pendres_status append(pendres_context *ctx, pendres_attractor_set *c,
-                             const pendres_orbit *points, const pendres_trap *traps)
+                             const pendres_orbit *points, const pendres_trapping_ellipse *ellipses)
 {
   const int q = points[0].period;
   int representative = 0;
@@ -84,7 +84,7 @@ static pendres_status append(pendres_context *ctx, pendres_attractor_set *c,
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   pendres_attractor *a = &c->attractors[c->count];
   *a = (pendres_attractor){.orbit = points[representative],
-                           .trap_radius = traps[representative].radius,
+                           .trap_radius = ellipses[representative].radius,
                            .drift = NAN,
                            .drift_error = NAN,
                            .watched_periods = NAN,
@@ -96,10 +96,10 @@ static pendres_status append(pendres_context *ctx, pendres_attractor_set *c,
            hypot(points[j].multiplier_re[0] - a->orbit.multiplier_re[0],
                  fabs(points[j].multiplier_im[0]) - fabs(a->orbit.multiplier_im[0])));
   set_lyapunov(a, &a->orbit);
-  memcpy(a->trap_metric, traps[representative].metric, sizeof a->trap_metric);
+  memcpy(a->trap_metric, ellipses[representative].metric, sizeof a->trap_metric);
   for (int j = 0; j < q; j++) {
-    c->trap[c->traps] = traps[j];
-    c->owner[c->traps++] = (int)c->count;
+    c->ellipse[c->ellipses] = ellipses[j];
+    c->owner[c->ellipses++] = (int)c->count;
   }
   c->count++;
   return PENDRES_OK;
@@ -115,7 +115,7 @@ typedef struct long_orbits {
   size_t *first;        /* point of each */
   char *complete;       /* of each orbit: whether all of its points have been found */
   pendres_orbit *point; /* the first of each is the one that was given */
-  pendres_trap *trap;   /* of each point */
+  pendres_trapping_ellipse *ellipse; /* of each point */
 } long_orbits;
 
 static void free_long(long_orbits *l)
@@ -124,7 +124,7 @@ static void free_long(long_orbits *l)
   free(l->first);
   free(l->complete);
   free(l->point);
-  free(l->trap);
+  free(l->ellipse);
 }
 
 /* Guess where the orbits are at their other strobes, by integration. */
@@ -215,8 +215,9 @@ static pendres_status find_points(pendres_context *ctx, long_orbits *l)
   return status;
 }
 
-/* Drop the points of orbits that are not complete, and find the traps of the others. */
-static pendres_status find_traps(pendres_context *ctx, long_orbits *l, pendres_trap_effort effort)
+/* Drop the points of orbits that are not complete, and find the trapping ellipses of the others. */
+static pendres_status find_ellipses(pendres_context *ctx, long_orbits *l,
+                                    pendres_trapping_effort effort)
 {
   size_t kept = 0;
   for (size_t i = 0; i < l->count; i++) {
@@ -226,7 +227,7 @@ static pendres_status find_traps(pendres_context *ctx, long_orbits *l, pendres_t
     l->first[i] = kept;
     kept += q;
   }
-  return pendres_trap_find(ctx, kept, l->point, effort, l->trap);
+  return pendres_trapping_find(ctx, kept, l->point, effort, l->ellipse);
 }
 
 static int allocate_long(long_orbits *l, size_t n)
@@ -237,9 +238,9 @@ static int allocate_long(long_orbits *l, size_t n)
   return l->orbit != NULL && l->first != NULL && l->complete != NULL;
 }
 
-/* Find the points and the traps of the orbits in the list. */
+/* Find the points and the ellipses of the orbits in the list. */
 static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
-                                    pendres_trap_effort effort)
+                                    pendres_trapping_effort effort)
 {
   l->points = 0;
   for (size_t i = 0; i < l->count; i++) {
@@ -247,13 +248,13 @@ static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
     l->points += (size_t)l->orbit[i]->period;
   }
   free(l->point);
-  free(l->trap);
+  free(l->ellipse);
   l->point = malloc(l->points * sizeof *l->point);
-  l->trap = malloc(l->points * sizeof *l->trap);
-  if (l->point == NULL || l->trap == NULL)
+  l->ellipse = malloc(l->points * sizeof *l->ellipse);
+  if (l->point == NULL || l->ellipse == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
   const pendres_status status = find_points(ctx, l);
-  return status == PENDRES_OK ? find_traps(ctx, l, effort) : status;
+  return status == PENDRES_OK ? find_ellipses(ctx, l, effort) : status;
 }
 
 /* ---- adding orbits ---- */
@@ -263,7 +264,7 @@ typedef struct candidates {
   size_t count;
   const pendres_orbit *orbit;
   const size_t *set;
-  const pendres_trap *trap; /* of orbits of one period */
+  const pendres_trapping_ellipse *ellipse; /* of orbits of one period */
   char *done, *added;
 } candidates;
 
@@ -282,7 +283,7 @@ static pendres_status add_up_to_long(pendres_context *ctx, pendres_attractor_set
     const int new = !known(c, &k->orbit[i]);
     if (new && k->orbit[i].period > 1) break;
     k->done[i] = 1;
-    if (new) status = append(ctx, c, &k->orbit[i], &k->trap[i]);
+    if (new) status = append(ctx, c, &k->orbit[i], &k->ellipse[i]);
     k->added[i] = (char)new;
   }
   *next = i;
@@ -312,7 +313,7 @@ static pendres_status add_orbits(pendres_context *ctx, pendres_attractor_set *at
       k->done[number] = 1;
       k->added[number] = l.complete[i];
       if (l.complete[i])
-        status = append(ctx, &attractor_sets[k->set[number]], l.point + at, l.trap + at);
+        status = append(ctx, &attractor_sets[k->set[number]], l.point + at, l.ellipse + at);
     }
   }
   free_long(&l);
@@ -386,10 +387,10 @@ static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendr
   return status;
 }
 
-/* Find the traps of orbits of one period. Orbits of more have one at each of their points, which
+/* Find the ellipses of orbits of one period. Orbits of more have one at each of their points, which
    are found later. */
-static pendres_status trap_short(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
-                                 pendres_trap_effort effort, pendres_trap *traps)
+static pendres_status find_short(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                 pendres_trapping_effort effort, pendres_trapping_ellipse *ellipses)
 {
   size_t count = 0;
   pendres_orbit *alone = malloc((n + 1) * sizeof *alone);
@@ -397,9 +398,9 @@ static pendres_status trap_short(pendres_context *ctx, size_t n, const pendres_o
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
   for (size_t i = 0; i < n; i++)
     if (orbits[i].period == 1) alone[count++] = orbits[i];
-  const pendres_status status = pendres_trap_find(ctx, count, alone, effort, traps);
+  const pendres_status status = pendres_trapping_find(ctx, count, alone, effort, ellipses);
   for (size_t i = n; i-- > 0 && status == PENDRES_OK;)
-    if (orbits[i].period == 1) traps[i] = traps[--count];
+    if (orbits[i].period == 1) ellipses[i] = ellipses[--count];
   free(alone);
   return status;
 }
@@ -413,11 +414,11 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *a
   pendres_orbit_guess *g = calloc(n, sizeof *g);
   pendres_orbit *orbits = malloc(n * sizeof *orbits);
   pendres_status *outcome = malloc(n * sizeof *outcome);
-  pendres_trap *traps = malloc(n * sizeof *traps);
+  pendres_trapping_ellipse *ellipses = malloc(n * sizeof *ellipses);
   size_t *set = malloc(n * sizeof *set);
   char *marks = calloc(2 * n, 1);
   *more = 0;
-  if (g == NULL || orbits == NULL || outcome == NULL || traps == NULL || set == NULL ||
+  if (g == NULL || orbits == NULL || outcome == NULL || ellipses == NULL || set == NULL ||
       marks == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
     goto done;
@@ -426,8 +427,8 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *a
   status = pendres_orbit_refine(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
   if (status != PENDRES_OK) goto done;
   count = distinct_orbits(count, orbits, set, outcome, attractor_sets);
-  status = trap_short(ctx, count, orbits, attractor_sets[0].effort, traps);
-  const candidates k = {.count = count, .orbit = orbits, .set = set, .trap = traps,
+  status = find_short(ctx, count, orbits, attractor_sets[0].effort, ellipses);
+  const candidates k = {.count = count, .orbit = orbits, .set = set, .ellipse = ellipses,
                         .done = marks, .added = marks + n};
   if (status == PENDRES_OK) status = add_orbits(ctx, attractor_sets, &k);
   for (size_t i = 0; i < count && status == PENDRES_OK; i++)
@@ -437,7 +438,7 @@ done:
   free(g);
   free(orbits);
   free(outcome);
-  free(traps);
+  free(ellipses);
   free(set);
   free(marks);
   return status;

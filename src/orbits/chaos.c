@@ -136,9 +136,10 @@ static size_t trapped_replicas(const ensemble *v)
 }
 
 /*
- * Start replicas around the suspect and let them lose each other. If some of them are in a trap
- * then, the suspect may have stood at the edge of the basin of chaos, and replicas start anew
- * around one that has stayed. *together is 1 if none of them has left in the end.
+ * Start replicas around the suspect and let them lose each other. If some of them are in a
+ * trapping ellipse then, the suspect may have stood at the edge of the basin of chaos, and
+ * replicas start anew around one that has stayed. *together is 1 if none of them has left in the
+ * end.
  */
 static pendres_status send_out(pendres_context *ctx, pendres_attractor_set *c,
                                const pendres_replica *suspect, ensemble *v, int *together)

@@ -10,11 +10,11 @@
  * is the exponent. It is carried along by a method of its own, of fourth order, cheaper than
  * derivatives of the map; a second one, by steps twice as long, tells its error.
  * Replicas are pendulums that started close together and have separated; they are followed side by
- * side. Chaos that ends is not an attractor: a replica has left it if it falls into a trap, or if
- * its tangent vector shrinks while it returns to its own past. Each replica's periods are divided
- * into batches; replicas are followed until they differ by no more than the scatter of their
- * batches explains. Errors come from the scatter of replicas, or from that of batches where it is
- * larger.
+ * side. Chaos that ends is not an attractor: a replica has left it if it falls into a trapping
+ * ellipse, or if its tangent vector shrinks while it returns to its own past. Each replica's
+ * periods are divided into batches; replicas are followed until they differ by no more than the
+ * scatter of their batches explains. Errors come from the scatter of replicas, or from that of
+ * batches where it is larger.
  */
 #ifndef PENDRES_CHAOS_H
 #define PENDRES_CHAOS_H

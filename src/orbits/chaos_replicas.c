@@ -25,10 +25,11 @@ pendres_replica pendres_replica_at(double y, double w)
     .y = y, .w = w, .u = {{0.6, 0.8}, {0.6, 0.8}}, .low = {y, y}, .high = {y, y}};
 }
 
-static int in_trap(const pendres_attractor_set *c, const pendres_replica *a)
+static int in_ellipse(const pendres_attractor_set *c, const pendres_replica *a)
 {
-  for (size_t i = 0; i < c->traps; i++)
-    if (pendres_trap_norm2(&c->trap[i], a->y, a->w) <= c->trap[i].radius * c->trap[i].radius)
+  for (size_t i = 0; i < c->ellipses; i++)
+    if (pendres_trapping_norm2(&c->ellipse[i], a->y, a->w) <=
+        c->ellipse[i].radius * c->ellipse[i].radius)
       return 1;
   return 0;
 }
@@ -159,7 +160,7 @@ static void arrive(const pendres_attractor_set *c, size_t i, const pendres_rows 
   a->periods++;
   /* What escapes is in no chaos any longer either. */
   if (a->trapped == 0 &&
-      (in_trap(c, a) || !isfinite(a->y) || pendres_model_escapes(&c->pendulum, a->y, a->w)))
+      (in_ellipse(c, a) || !isfinite(a->y) || pendres_model_escapes(&c->pendulum, a->y, a->w)))
     a->trapped = a->periods;
 }
 

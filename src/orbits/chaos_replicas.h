@@ -30,7 +30,8 @@ typedef struct pendres_replica {
   double u[2][2];    /* tangent vectors of length one, by steps and by steps twice as long */
   long turns;        /* whole turns taken out of y */
   long periods;      /* so far */
-  long trapped;      /* after so many periods it was first inside a trap, or escaped; 0: never */
+  long trapped;      /* after so many periods it was first inside a trapping ellipse, or escaped;
+                        0: never */
   double sum[PENDRES_REPLICA_MEASURES];
   double low[2], high[2]; /* angles in the latest two halves of periods, the later one last */
   double last_y, last_w;  /* the latest sample of the period under way */

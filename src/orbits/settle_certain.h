@@ -21,8 +21,9 @@ typedef struct pendres_settle_labelled {
 
 /*
  * Make labels certain that are not. Pendulums that are still in doubt after the most exact run, and
- * those that reach no trap in a further run, keep their latest label, which is not certain. A
- * further run of a pendulum ends where its error has grown so large that no label can be certain.
+ * those that reach no trapping ellipse in a further run, keep their latest label, which is not
+ * certain. A further run of a pendulum ends where its error has grown so large that no label can
+ * be certain.
  *
  * Where errors are not carried along, as with adaptive steps, labels stay what they are, and are
  * compared with those of fixed steps: those that agree with a certain one are certain.

@@ -1,4 +1,5 @@
-/* settle_lanes.c -- running pendulums until they are inside a trap; see settle_lanes.h. */
+/* settle_lanes.c -- running pendulums until they are inside a trapping ellipse; see
+   settle_lanes.h. */
 #include "orbits/settle_lanes.h"
 
 #include <math.h>
@@ -105,11 +106,11 @@ static int longer_streak(const pendres_attractor_set *c, const pendres_strobe_la
 
 /*
  * The doubt of a label is the ratio of the error to the largest one that cannot change the label.
- * The error is three standard deviations of what was carried along. Inside a trap a twentieth of
- * the radius is allowed (trap_ellipse.h). On the way there the error must stay small against the
- * distance to a basin boundary: the two grow alike, until the distance is that between different
- * fates, of order one; a thirtieth of that is allowed. Where the error itself is some times as
- * large as that distance, it is no longer known what the pendulum does: the lane is lost.
+ * The error is three standard deviations of what was carried along. Inside an ellipse a twentieth
+ * of the radius is allowed (trapping_ellipse.h). On the way there the error must stay small against
+ * the distance to a basin boundary: the two grow alike, until the distance is that between
+ * different fates, of order one; a thirtieth of that is allowed. Where the error itself is some
+ * times as large as that distance, it is no longer known what the pendulum does: the lane is lost.
  */
 static const double deviations = 3.0, borne = 0.03;
 static const double most_doubt = 100.0; /* of a lane that is not lost */
@@ -119,12 +120,12 @@ double pendres_settle_doubt_on_way(double worst)
   return deviations * sqrt(worst) / borne;
 }
 
-static double doubt_in_trap(const pendres_trap *t, const pendres_strobe_lane *lane)
+static double doubt_in_ellipse(const pendres_trapping_ellipse *t, const pendres_strobe_lane *lane)
 {
   const pendres_flow_error *e = &lane->off;
   const double variance =
     t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
-  const double here = deviations * sqrt(variance) / (pendres_trap_margin * t->radius);
+  const double here = deviations * sqrt(variance) / (pendres_trapping_margin * t->radius);
   const double before = pendres_settle_doubt_on_way(lane->worst);
   if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not carried */
   return isnan(before) || before > here ? before : here;
@@ -164,7 +165,7 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
   o->attractor = attractor;
   o->label = c->attractors[attractor].label;
   o->settling_periods = lane->period;
-  judge(l, i, doubt_in_trap(pendres_attractor_set_trap(c, lane), lane));
+  judge(l, i, doubt_in_ellipse(pendres_attractor_set_ellipse(c, lane), lane));
   return 1;
 }
 
@@ -242,7 +243,8 @@ static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
   return spent(l, set, lane);
 }
 
-/* List the lanes that are to run: those that are unresolved, in no trap, and within their budget.
+/* List the lanes that are to run: those that are unresolved, in no ellipse, and within their
+   budget.
    *covers, *open: whether any of them may be on chaos, or escape. */
 static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
                              const pendres_settle_labelling *l, size_t *which, int *covers,

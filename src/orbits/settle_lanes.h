@@ -1,5 +1,5 @@
 /*
- * settle_lanes.h -- running pendulums until they are inside a trap.
+ * settle_lanes.h -- running pendulums until they are inside a trapping ellipse.
  *
  * Owns: what is decided about a lane after each period, the budgets of periods, and the latest
  * strobe points of lanes that do not settle.
@@ -51,7 +51,7 @@ static inline int pendres_settle_ended(const pendres_outcome *o)
   return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
 }
 
-/* Periods after which a pendulum that is in no trap is looked at closely. */
+/* Periods after which a pendulum that is in no ellipse is looked at closely. */
 long pendres_settle_first_budget(const pendres_pendulum *p);
 
 /* Periods after which it is given up. */
@@ -74,11 +74,11 @@ int pendres_settle_carries(const pendres_context *ctx);
 /* The variance of the error that a step adds. */
 double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps);
 
-/* The doubt (pendres_settle_labelling) of what is not in a trap, from the largest variance that its
-   error has had so far. */
+/* The doubt (pendres_settle_labelling) of what is not in an ellipse, from the largest variance
+   that its error has had so far. */
 double pendres_settle_doubt_on_way(double worst);
 
-/* Run the lanes that are unresolved; those inside a trap are done before they begin. */
+/* Run the lanes that are unresolved; those inside an ellipse are done before they begin. */
 pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                     pendres_settle_labelling *l);
 

@@ -1,4 +1,5 @@
-/* settle_search.c -- what attracts pendulums that are in no known trap; see settle_search.h. */
+/* settle_search.c -- what attracts pendulums that are in no known trapping ellipse; see
+   settle_search.h. */
 #include "orbits/settle_search.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /*
- * settle_search.h -- what attracts pendulums that are in no known trap.
+ * settle_search.h -- what attracts pendulums that are in no known trapping ellipse.
  *
  * Owns: looking for orbits that a pendulum is near, and for chaos, in rounds that get longer and
  * longer.

@@ -30,7 +30,7 @@ pendres_attractor pendres_settled_nothing(const pendres_pendulum *p);
 /* A pendulum at (x, v), of whose attractor nothing is known. */
 pendres_settled pendres_settled_nothing_at(const pendres_pendulum *p, double x, double v);
 
-/* A stable orbit as an attractor, without a trap. */
+/* A stable orbit as an attractor, without a trapping ellipse. */
 pendres_attractor pendres_settled_orbit(const pendres_orbit *o);
 
 /* A pendulum on its rotation without a drive. */

@@ -1,5 +1,5 @@
 /*
- * test_trap.c -- trapping ellipses: every state inside goes to the orbit at the centre.
+ * test_trapping.c -- trapping ellipses: every state inside goes to the orbit at the centre.
  *
  * The ellipses are shown by rings in double precision; here states inside are followed one by one,
  * a part of them with the extended-precision reference, which shares no code with the rings.
@@ -13,7 +13,7 @@
 
 #include "orbits/attractor_set.h"
 #include "golden.h"
-#include "orbits/trap_ring.h"
+#include "orbits/trapping_ring.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -51,7 +51,8 @@ static double next_random(uint64_t *z)
 }
 
 /* A state of the ellipse, evenly over its area up to the share `reach` of its radius. */
-static void state_inside(const pendres_trap *t, double reach, uint64_t *z, double *y, double *w)
+static void state_inside(const pendres_trapping_ellipse *t, double reach, uint64_t *z, double *y,
+                         double *w)
 {
   const double r = reach * t->radius * sqrt(next_random(z)), a = 2.0 * pi * next_random(z);
   const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
@@ -69,7 +70,8 @@ static double distance_to(const pendres_orbit *o, double x, double v)
 }
 
 /* States inside end on the orbit, in double precision and with the reference. */
-static void check_inside(pendres_context *ctx, const pendres_orbit *o, const pendres_trap *t,
+static void check_inside(pendres_context *ctx, const pendres_orbit *o,
+                         const pendres_trapping_ellipse *t,
                          size_t n, size_t by_reference, long periods, double close)
 {
   uint64_t z = 1;
@@ -103,9 +105,9 @@ static void both_states(void **state)
   pendres_context *ctx = *state;
   const pendres_orbit orbits[2] = {orbit_near(ctx, &fig7, 2.11, 0.11, 1, 0),
                                    orbit_near(ctx, &fig7, 0.89, 1.55, 1, 0)};
-  pendres_trap few[2], many[2];
-  check_ok(pendres_trap_find(ctx, 2, orbits, PENDRES_TRAP_FEW, few));
-  check_ok(pendres_trap_find(ctx, 2, orbits, PENDRES_TRAP_MANY, many));
+  pendres_trapping_ellipse few[2], many[2];
+  check_ok(pendres_trapping_find(ctx, 2, orbits, PENDRES_TRAPPING_FEW, few));
+  check_ok(pendres_trapping_find(ctx, 2, orbits, PENDRES_TRAPPING_MANY, many));
   for (int i = 0; i < 2; i++) {
     /* Known sizes: semi-axes 1.10 x 1.01 and 1.10 x 0.24. They are found to a few percent. */
     assert_true(many[i].radius > 1.0 && many[i].radius < 1.25);
@@ -120,7 +122,7 @@ static void both_states(void **state)
   check_near(1.0 / sqrt(mean + spread), 0.24 / 1.10, 0.05);
 }
 
-/* In the metric of a trap the linear map shrinks every vector. */
+/* In the metric of an ellipse the linear map shrinks every vector. */
 static void metric_contracts(void **state)
 {
   pendres_context *ctx = *state;
@@ -137,8 +139,8 @@ static void metric_contracts(void **state)
       continue;
     const pendres_orbit o =
       orbit_near(ctx, &p, (double)c.y + 0.5 * pi, (double)c.v, 1, 0);
-    pendres_trap t;
-    check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_FEW, &t));
+    pendres_trapping_ellipse t;
+    check_ok(pendres_trapping_find(ctx, 1, &o, PENDRES_TRAPPING_FEW, &t));
     if (!o.stable) {
       assert_true(t.radius == 0.0);
       continue;
@@ -149,17 +151,17 @@ static void metric_contracts(void **state)
                             {o.monodromy[1][0] / omega, o.monodromy[1][1]}};
     for (int i = 0; i < 360; i++) {
       const double a = cos(i * pi / 180.0), b = sin(i * pi / 180.0);
-      pendres_trap at_zero = t;
+      pendres_trapping_ellipse at_zero = t;
       at_zero.y = at_zero.w = 0.0;
-      assert_true(pendres_trap_norm2(&at_zero, m[0][0] * a + m[0][1] * b,
-                                     m[1][0] * a + m[1][1] * b) <
-                  pendres_trap_norm2(&at_zero, a, b));
+      assert_true(pendres_trapping_norm2(&at_zero, m[0][0] * a + m[0][1] * b,
+                                         m[1][0] * a + m[1][1] * b) <
+                  pendres_trapping_norm2(&at_zero, a, b));
     }
   }
   assert_true(seen >= 3);
 }
 
-/* Close to a fold traps shrink with the distance to the saddle, but they do not lie. */
+/* Close to a fold ellipses shrink with the distance to the saddle, but they do not lie. */
 static void near_a_fold(void **state)
 {
   pendres_context *ctx = *state;
@@ -173,14 +175,14 @@ static void near_a_fold(void **state)
     /* On the stable side of the square root that a fold is. */
     const double y = (double)fold->y - 1.4 * sqrt(before), v = (double)fold->v - 0.5 * sqrt(before);
     const pendres_orbit o = orbit_near(ctx, &p, y + 0.5 * pi, v, 1, 0);
-    pendres_trap t;
-    check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_FEW, &t));
+    pendres_trapping_ellipse t;
+    check_ok(pendres_trapping_find(ctx, 1, &o, PENDRES_TRAPPING_FEW, &t));
     if (!o.stable) continue;
     seen++;
     assert_true(t.radius > 0.0 && t.radius < last);
     last = t.radius;
     const double rate = -log(hypot(o.multiplier_re[0], o.multiplier_im[0]));
-    /* Long enough to shrink the trap a thousandfold. */
+    /* Long enough to shrink the ellipse a thousandfold. */
     const double size = 4.0 * t.radius;
     check_inside(ctx, &o, &t, 100, 2, 10 + (long)(7.0 / rate), 1e-3 * size + 1e-8);
   }
@@ -188,8 +190,8 @@ static void near_a_fold(void **state)
 }
 
 /*
- * The saddle behind a fold is on the edge of the basin, so no trap may reach it, however close; nor
- * need a trap be much smaller than that where the linear map is all that matters. Extended
+ * The saddle behind a fold is on the edge of the basin, so no ellipse may reach it, however close;
+ * nor need an ellipse be much smaller than that where the linear map is all that matters. Extended
  * precision tells where the saddle is.
  */
 static void short_of_the_saddle(void **state)
@@ -215,15 +217,15 @@ static void short_of_the_saddle(void **state)
     assert_true(node.period == 1 && saddle.period == 1);
     const pendres_orbit_guess g = {
       .pendulum = p, .x = (double)node.y + 0.5 * pi, .v = (double)node.v, .period = 1};
-    for (int effort = PENDRES_TRAP_FEW; effort <= PENDRES_TRAP_MANY; effort++) {
+    for (int effort = PENDRES_TRAPPING_FEW; effort <= PENDRES_TRAPPING_MANY; effort++) {
       pendres_orbit o;
       pendres_status outcome;
-      pendres_trap t;
+      pendres_trapping_ellipse t;
       check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
       assert_true(outcome != PENDRES_NOT_CONVERGED && o.stable);
-      check_ok(pendres_trap_find(ctx, 1, &o, (pendres_trap_effort)effort, &t));
+      check_ok(pendres_trapping_find(ctx, 1, &o, (pendres_trapping_effort)effort, &t));
       const double reach =
-        sqrt(pendres_trap_norm2(&t, (double)saddle.y, (double)(saddle.v / p.drive_frequency)));
+        sqrt(pendres_trapping_norm2(&t, (double)saddle.y, (double)(saddle.v / p.drive_frequency)));
       assert_true(t.radius < reach);
       assert_true(t.radius > 0.1 * reach);
     }
@@ -237,34 +239,34 @@ static void unstable_orbits_have_none(void **state)
   /* The pendulum standing upright, without a drive: a saddle. */
   const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 0.0, .drive_frequency = 1.0};
   const pendres_orbit o = orbit_near(ctx, &p, 1.5 * pi, 0.0, 1, 0);
-  pendres_trap t;
+  pendres_trapping_ellipse t;
   assert_false(o.stable);
-  check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_MANY, &t));
+  check_ok(pendres_trapping_find(ctx, 1, &o, PENDRES_TRAPPING_MANY, &t));
   assert_true(t.radius == 0.0);
 }
 
-/* A period-two orbit: each of its points has its own trap, for the twice iterated map. */
+/* A period-two orbit: each of its points has its own ellipse, for the twice iterated map. */
 static void period_two(void **state)
 {
   pendres_context *ctx = *state;
   const pendres_pendulum p = {
     .damping = 0.5, .drive_amplitude = 1.07, .drive_frequency = 2.0 / 3.0};
   const pendres_orbit o = orbit_near(ctx, &p, -0.636898, 1.346102, 2, 0);
-  pendres_trap t;
+  pendres_trapping_ellipse t;
   assert_true(o.stable);
-  check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_MANY, &t));
+  check_ok(pendres_trapping_find(ctx, 1, &o, PENDRES_TRAPPING_MANY, &t));
   assert_true(t.radius > 0.05);
   /* exp(-0.04 * 2 * 9.42 * 40) = 8e-14. */
   check_inside(ctx, &o, &t, 500, 10, 40, 1e-8);
 }
 
-/* A trap across the upright position, where angles jump by a turn: wells are counted right. */
+/* An ellipse across the upright position, where angles jump by a turn: wells are counted right. */
 static void across_the_top(void **state)
 {
-  pendres_trap t = {.y = 3.0, .metric = {1.0, 0.0, 1.0}, .radius = 0.5, .period = 1,
+  pendres_trapping_ellipse t = {.y = 3.0, .metric = {1.0, 0.0, 1.0}, .radius = 0.5, .period = 1,
                     .turn = 2.0 * pi};
   int owner = 0;
-  pendres_attractor_set c = {.count = 1, .traps = 1, .trap = &t, .owner = &owner};
+  pendres_attractor_set c = {.count = 1, .ellipses = 1, .ellipse = &t, .owner = &owner};
   pendres_strobe_lane lane = {.y = 2.8, .turns = 4};
   long well = 99;
   (void)state;
@@ -278,21 +280,21 @@ static void across_the_top(void **state)
   assert_int_equal(pendres_attractor_set_locate(&c, &lane, &well), -1);
 }
 
-/* What a trap is does not depend on the others that it is looked for with. */
+/* What an ellipse is does not depend on the others that it is looked for with. */
 static void independent_of_company(void **state)
 {
   pendres_context *ctx = *state;
   enum { N = 5 };
   pendres_orbit orbits[N];
-  pendres_trap together[N], alone;
+  pendres_trapping_ellipse together[N], alone;
   for (int i = 0; i < N; i++) {
     pendres_pendulum p = fig7;
     p.damping = 0.12 + 0.005 * i;
     orbits[i] = orbit_near(ctx, &p, 2.11, 0.11, 1, 0);
   }
-  check_ok(pendres_trap_find(ctx, N, orbits, PENDRES_TRAP_FEW, together));
+  check_ok(pendres_trapping_find(ctx, N, orbits, PENDRES_TRAPPING_FEW, together));
   for (int i = 0; i < N; i++) {
-    check_ok(pendres_trap_find(ctx, 1, &orbits[i], PENDRES_TRAP_FEW, &alone));
+    check_ok(pendres_trapping_find(ctx, 1, &orbits[i], PENDRES_TRAPPING_FEW, &alone));
     assert_memory_equal(&alone, &together[i], sizeof alone);
   }
 }
@@ -317,11 +319,11 @@ static void tongue_at(const tongue *g, double s, double z[2], double d[2])
 
 enum { TONGUE_MOST = 48 };
 
-static void tongue_ring(const tongue *g, pendres_trap_ring *r, pendres_trap_point *points)
+static void tongue_ring(const tongue *g, pendres_trapping_ring *r, pendres_trapping_point *points)
 {
   for (int i = 0; i < r->points; i++) {
     double z[2], d[2];
-    points[i] = (pendres_trap_point){
+    points[i] = (pendres_trapping_point){
       .of = r, .angle = 2.0 * pi * i / r->points, .looks = 1, .home = 1};
     tongue_at(g, points[i].angle, z, d);
     points[i].y[1] = z[0];
@@ -335,36 +337,36 @@ static void tongue_ring(const tongue *g, pendres_trap_ring *r, pendres_trap_poin
 /* A tongue between two points leaves the ellipse that is known: the points alone do not see it. */
 static void tongues_between_points(void **state)
 {
-  static const pendres_trap unit = {
+  static const pendres_trapping_ellipse unit = {
     .metric = {1.0, 0.0, 1.0}, .period = 1, .turn = 6.28318530717958647693};
-  static pendres_trap_point points[TONGUE_MOST];
-  pendres_trap_arc open[TONGUE_MOST];
+  static pendres_trapping_point points[TONGUE_MOST];
+  pendres_trapping_arc open[TONGUE_MOST];
   (void)state;
   for (int n = 16; n <= 48; n += 16) {
-    pendres_trap_ring r = {
-      .trap = &unit, .radius = 1.0, .home = 0.9, .room = 1.0, .points = n, .looks = 1};
+    pendres_trapping_ring r = {
+      .ellipse = &unit, .radius = 1.0, .home = 0.9, .room = 1.0, .points = n, .looks = 1};
     /* Half an arc from the points on either side; the tip is at 1.05. */
     const tongue out = {.height = 0.55, .width = 3.2 / n, .at = pi / n};
     tongue_ring(&out, &r, points);
-    assert_true(pendres_trap_ring_holds(&r, points));
-    assert_true(pendres_trap_ring_open(&r, points, open) >= 1);
+    assert_true(pendres_trapping_ring_holds(&r, points));
+    assert_true(pendres_trapping_ring_open(&r, points, open) >= 1);
     assert_true(open[0].a == &points[0] && open[0].b == &points[1]);
     /* One that stays well inside, and a plain circle, need nothing more. */
     const tongue in = {.height = 0.2, .width = 6.4 / n, .at = pi / n}, none = {.width = 1.0};
     tongue_ring(&in, &r, points);
-    assert_int_equal(pendres_trap_ring_open(&r, points, open), 0);
+    assert_int_equal(pendres_trapping_ring_open(&r, points, open), 0);
     tongue_ring(&none, &r, points);
-    assert_int_equal(pendres_trap_ring_open(&r, points, open), 0);
+    assert_int_equal(pendres_trapping_ring_open(&r, points, open), 0);
     /* A tangent that is not known shows nothing for the arcs on either side. */
     points[3].ty[1] = NAN;
-    assert_int_equal(pendres_trap_ring_open(&r, points, open), 2);
+    assert_int_equal(pendres_trapping_ring_open(&r, points, open), 2);
   }
 }
 
 /* Arcs depart from their chords by less than the bound, and by no less than a tenth of it. */
 static void departures_are_bounded(void **state)
 {
-  static const pendres_trap unit = {
+  static const pendres_trapping_ellipse unit = {
     .metric = {1.0, 0.0, 1.0}, .period = 1, .turn = 6.28318530717958647693};
   static const tongue kinds[] = {{.width = 1.0}, {.height = 0.5, .width = 0.7, .at = 1.0}};
   (void)state;
@@ -380,7 +382,7 @@ static void departures_are_bounded(void **state)
         const double share = i / 64.0;
         worst = fmax(worst, hypot(z[0] - a[0] - share * chord[0], z[1] - a[1] - share * chord[1]));
       }
-      const double bound = pendres_trap_departure(
+      const double bound = pendres_trapping_departure(
         &unit, chord, (double[2]){h * ta[0], h * ta[1]}, (double[2]){h * tb[0], h * tb[1]});
       assert_true(worst < bound && worst > 0.1 * bound);
     }
@@ -389,15 +391,15 @@ static void departures_are_bounded(void **state)
 /* What is no number proves nothing. */
 static void no_numbers(void **state)
 {
-  pendres_trap trap;
+  pendres_trapping_ellipse ellipse;
   pendres_orbit o = orbit_near(*state, &(pendres_pendulum){.damping = 0.24, .drive_amplitude = 0.2,
                                                            .drive_frequency = 0.9},
                                0.5 * pi + 0.5, 0.5, 1, 0);
-  check_ok(pendres_trap_find(*state, 1, &o, PENDRES_TRAP_FEW, &trap));
-  assert_true(trap.radius > 0.01);
+  check_ok(pendres_trapping_find(*state, 1, &o, PENDRES_TRAPPING_FEW, &ellipse));
+  assert_true(ellipse.radius > 0.01);
   o.x = NAN;
-  check_ok(pendres_trap_find(*state, 1, &o, PENDRES_TRAP_FEW, &trap));
-  check_near(trap.radius, 0.0, 0.0);
+  check_ok(pendres_trapping_find(*state, 1, &o, PENDRES_TRAPPING_FEW, &ellipse));
+  check_near(ellipse.radius, 0.0, 0.0);
 }
 
 int main(void)

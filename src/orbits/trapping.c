@@ -1,5 +1,5 @@
-/* trap.c -- trapping ellipses around attracting periodic orbits; see trap.h. */
-#include "orbits/trap.h"
+/* trapping.c -- trapping ellipses around attracting periodic orbits; see trapping.h. */
+#include "orbits/trapping.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
-#include "orbits/trap_ring.h"
+#include "orbits/trapping_ring.h"
 
 
 enum {
@@ -19,7 +19,7 @@ enum {
   MANY_POINTS = 48,
   RINGS = 3,        /* so many are tried at once, at most */
   FEW_LOOKS = 12,   /* iterates after which a ring is given up, by effort */
-  MANY_LOOKS = PENDRES_TRAP_LOOKS,
+  MANY_LOOKS = PENDRES_TRAPPING_LOOKS,
   FEW_MORE = 16,    /* so many points may be put into a ring's arcs, by effort */
   MANY_MORE = 96
 };
@@ -106,7 +106,7 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
  * The largest length that the linear map, `looks` times, makes of a unit length, in the metric: the
  * root of the larger eigenvalue of P^-1 Q with Q = (M^looks)' P M^looks.
  */
-static double linear_share(const pendres_trap *t, const pendres_orbit *o, int looks)
+static double linear_share(const pendres_trapping_ellipse *t, const pendres_orbit *o, int looks)
 {
   const double omega = o->pendulum.drive_frequency, *p = t->metric;
   const double m[2][2] = {{o->monodromy[0][0], o->monodromy[0][1] * omega},
@@ -140,11 +140,12 @@ static void linear_image(const pendres_orbit *o, int looks, double d[2])
 }
 
 /* The difference of the image of point i, counted round the ring, from its linear image. */
-static void point_departure(const pendres_trap_ring *r, const pendres_trap_point *points, int i,
+static void point_departure(const pendres_trapping_ring *r, const pendres_trapping_point *points,
+                            int i,
                             const pendres_orbit *o, double d[2])
 {
-  const pendres_trap *t = r->trap;
-  const pendres_trap_point *p = &points[(i + r->points) % r->points];
+  const pendres_trapping_ellipse *t = r->ellipse;
+  const pendres_trapping_point *p = &points[(i + r->points) % r->points];
   double at[2] = {p->y[0] - t->y, p->w[0] - t->w};
   linear_image(o, r->looks, at);
   const double y = p->y[r->looks] - t->y - at[0];
@@ -156,15 +157,15 @@ static void point_departure(const pendres_trap_ring *r, const pendres_trap_point
  * The departure of the map from its linear part, as a share of the space that the linear
  * contraction leaves between the ring and its image. Below one the image lies inside the ring; as
  * the departure falls with the square of the radius, all smaller ellipses are then mapped inside
- * themselves, too. The departure between two points is bounded as that of arcs is (trap_ring.h) and
- * may take up all of the space; at the points it may take up base_departure. Its tangents are taken
- * from the neighbouring points: it changes like the double and threefold angle, which 12 points
- * resolve.
+ * themselves, too. The departure between two points is bounded as that of arcs is
+ * (trapping_ring.h) and may take up all of the space; at the points it may take up base_departure.
+ * Its tangents are taken from the neighbouring points: it changes like the double and threefold
+ * angle, which 12 points resolve.
  */
-static double ring_departure(const pendres_trap_ring *r, const pendres_trap_point *points,
+static double ring_departure(const pendres_trapping_ring *r, const pendres_trapping_point *points,
                              const pendres_orbit *o)
 {
-  pendres_trap origin = *r->trap;
+  pendres_trapping_ellipse origin = *r->ellipse;
   origin.y = origin.w = 0.0;
   double worst = 0.0, d[4][2];
   for (int i = 0; i < r->points; i++) {
@@ -175,9 +176,9 @@ static double ring_departure(const pendres_trap_ring *r, const pendres_trap_poin
       first[j] = 0.5 * (d[2][j] - d[0][j]);
       last[j] = 0.5 * (d[3][j] - d[1][j]);
     }
-    const double at = sqrt(fmax(pendres_trap_norm2(&origin, d[1][0], d[1][1]),
-                                pendres_trap_norm2(&origin, d[2][0], d[2][1])));
-    const double between = pendres_trap_departure(r->trap, chord, first, last);
+    const double at = sqrt(fmax(pendres_trapping_norm2(&origin, d[1][0], d[1][1]),
+                                pendres_trapping_norm2(&origin, d[2][0], d[2][1])));
+    const double between = pendres_trapping_departure(r->ellipse, chord, first, last);
     /* NaN at any of the points makes `between` one. */
     if (isnan(between)) return INFINITY;
     worst = fmax(worst, fmax(at, base_departure * (at + between)));
@@ -202,35 +203,36 @@ typedef struct search {
   double base_share;     /* of a length that the linear map leaves then */
   int looks;             /* of the others */
   double base;           /* radius of the next base ring */
-  double proven, failed; /* largest radius that holds (checked, see trap.h), smallest that does
+  double proven, failed; /* largest radius that holds (checked, see trapping.h), smallest that does
                             not */
   int rings;             /* of this pass */
-  pendres_trap_ring ring[RINGS];
+  pendres_trapping_ring ring[RINGS];
 } search;
 
-/* Iterates until the linear map contracts well in the trap's metric. */
-static int contraction_looks(const pendres_trap *t, const pendres_orbit *o)
+/* Iterates until the linear map contracts well in the ellipse's metric. */
+static int contraction_looks(const pendres_trapping_ellipse *t, const pendres_orbit *o)
 {
   int looks = 1;
   while (looks < BASE_LOOKS && linear_share(t, o, looks) >= base_contraction) looks++;
   return looks;
 }
 
-/* After how many iterates a ring is given up: with few pendulums to come, a larger trap does not
+/* After how many iterates a ring is given up: with few pendulums to come, a larger ellipse does not
    repay the time that its slowest points take. */
-static int patience(const pendres_orbit *o, pendres_trap_effort effort)
+static int patience(const pendres_orbit *o, pendres_trapping_effort effort)
 {
-  if (effort == PENDRES_TRAP_MANY) return MANY_LOOKS;
+  if (effort == PENDRES_TRAPPING_MANY) return MANY_LOOKS;
   const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
   const double way = log(climb_ratio / home_share);
   return (int)fmin(FEW_LOOKS, 2.0 + ceil(way / rate));
 }
 
-static void choose_ring(search *s, const pendres_trap *t, double radius, double home, int points,
+static void choose_ring(search *s, const pendres_trapping_ellipse *t, double radius, double home,
+                        int points,
                         int looks)
 {
-  s->ring[s->rings++] = (pendres_trap_ring){
-    .trap = t,
+  s->ring[s->rings++] = (pendres_trapping_ring){
+    .ellipse = t,
     .radius = radius,
     .home = home,
     .room = home > 0.0 ? s->proven : 0.0,
@@ -239,7 +241,7 @@ static void choose_ring(search *s, const pendres_trap *t, double radius, double 
     .looks = looks};
 }
 
-static void choose_rings(search *s, const pendres_trap *t)
+static void choose_rings(search *s, const pendres_trapping_ellipse *t)
 {
   s->rings = 0;
   if (s->stage == STAGE_BASE) {
@@ -256,7 +258,7 @@ static void choose_rings(search *s, const pendres_trap *t)
 }
 
 /* Judge a base ring: the next one has a better radius, or the climb begins. */
-static void judge_base(search *s, const pendres_trap_point *points, const pendres_orbit *o)
+static void judge_base(search *s, const pendres_trapping_point *points, const pendres_orbit *o)
 {
   const double departure = ring_departure(&s->ring[0], points + s->ring[0].first, o);
   s->pass++;
@@ -275,16 +277,16 @@ static void judge_base(search *s, const pendres_trap_point *points, const pendre
 }
 
 /* Judge the rings of this pass, and set the next stage. */
-static void judge(search *s, const pendres_trap_point *points, const pendres_orbit *o,
-                  pendres_trap_effort effort)
+static void judge(search *s, const pendres_trapping_point *points, const pendres_orbit *o,
+                  pendres_trapping_effort effort)
 {
-  const int many = effort == PENDRES_TRAP_MANY;
+  const int many = effort == PENDRES_TRAPPING_MANY;
   if (s->stage == STAGE_BASE) {
     judge_base(s, points, o);
     return;
   }
   for (int k = 0; k < s->rings; k++) {
-    if (!pendres_trap_ring_holds(&s->ring[k], points + s->ring[k].first)) {
+    if (!pendres_trapping_ring_holds(&s->ring[k], points + s->ring[k].first)) {
       s->failed = s->ring[k].radius;
       break;
     }
@@ -309,42 +311,43 @@ static double ring_tolerance(double margin)
 
 /* Room for the points of all rings of a pass, and for the lanes that they are integrated in. */
 typedef struct room {
-  pendres_trap_point *points;
+  pendres_trapping_point *points;
   pendres_strobe_lane *lanes;
 } room;
 
 /* Integrate the rings of all searches at once, and close the arcs of those that come home. */
 static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
-                                const pendres_orbit *orbits, pendres_trap_effort effort,
+                                const pendres_orbit *orbits, pendres_trapping_effort effort,
                                 const room *room)
 {
-  const int many = effort == PENDRES_TRAP_MANY;
-  pendres_trap_point *points = room->points;
+  const int many = effort == PENDRES_TRAPPING_MANY;
+  pendres_trapping_point *points = room->points;
   size_t count = 0;
-  pendres_trap_ring **rings = malloc((n * RINGS + 1) * sizeof *rings);
+  pendres_trapping_ring **rings = malloc((n * RINGS + 1) * sizeof *rings);
   pendres_status status = PENDRES_OK;
   if (rings == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
   for (size_t i = 0; i < n; i++)
     for (int k = 0; k < s[i].rings && status == PENDRES_OK; k++) {
-      pendres_trap_ring *r = rings[count++] = &s[i].ring[k];
+      pendres_trapping_ring *r = rings[count++] = &s[i].ring[k];
       r->pendulum = &orbits[s[i].orbit].pendulum;
-      const pendres_trap *t = r->trap;
+      const pendres_trapping_ellipse *t = r->ellipse;
       const double speed = pendres_model_of(r->pendulum->force)->period > 0.0
                              ? 0.0
                              : pendres_steps_speed(r->pendulum, t->y,
                                                    t->w * r->pendulum->drive_frequency);
       status = pendres_steps_choose(ctx, r->pendulum, speed, ring_tolerance(r->margin), &r->steps);
     }
-  if (status == PENDRES_OK) status = pendres_trap_rings_run(ctx, count, rings, points, room->lanes);
+  if (status == PENDRES_OK) status = pendres_trapping_rings_run(ctx, count, rings, points,
+                                                                room->lanes);
   if (status == PENDRES_OK)
-    status = pendres_trap_rings_close(ctx, count, rings, points, many ? MANY_MORE : FEW_MORE);
+    status = pendres_trapping_rings_close(ctx, count, rings, points, many ? MANY_MORE : FEW_MORE);
   free(rings);
   return status;
 }
 
-pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
-                                 pendres_trap_effort effort, pendres_trap *traps)
+pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                 pendres_trapping_effort effort, pendres_trapping_ellipse *ellipses)
 {
   pendres_status status = PENDRES_OK;
   search *s = malloc((n + 1) * sizeof *s);
@@ -354,31 +357,31 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit *o = &orbits[i];
     const pendres_coordinates at = pendres_coordinates_in_whole(&o->pendulum, o->x, o->v);
-    traps[i] = (pendres_trap){
+    ellipses[i] = (pendres_trapping_ellipse){
       .y = at.y, .w = at.w, .period = o->period, .winding = o->winding,
       .turn = pendres_model_turn(&o->pendulum)};
-    if (!o->stable || !metric_of(o->monodromy, o->pendulum.drive_frequency, traps[i].metric))
+    if (!o->stable || !metric_of(o->monodromy, o->pendulum.drive_frequency, ellipses[i].metric))
       continue;
-    const int looks = contraction_looks(&traps[i], o);
+    const int looks = contraction_looks(&ellipses[i], o);
     s[left++] = (search){.orbit = i,
                          .stage = STAGE_BASE,
                          .base = base_first,
                          .base_looks = looks,
-                         .base_share = linear_share(&traps[i], o, looks),
+                         .base_share = linear_share(&ellipses[i], o, looks),
                          .looks = patience(o, effort)};
   }
-  const size_t most = left * RINGS * (effort == PENDRES_TRAP_MANY ? MANY_POINTS : FEW_POINTS);
+  const size_t most = left * RINGS * (effort == PENDRES_TRAPPING_MANY ? MANY_POINTS : FEW_POINTS);
   room.points = malloc((most + 1) * sizeof *room.points);
   room.lanes = malloc((most + 1) * sizeof *room.lanes);
   if (room.points == NULL || room.lanes == NULL) goto no_memory;
 
   while (left > 0 && status == PENDRES_OK) {
-    for (size_t i = 0; i < left; i++) choose_rings(&s[i], &traps[s[i].orbit]);
+    for (size_t i = 0; i < left; i++) choose_rings(&s[i], &ellipses[s[i].orbit]);
     status = run_rings(ctx, left, s, orbits, effort, &room);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
       judge(&s[i], room.points, &orbits[s[i].orbit], effort);
-      traps[s[i].orbit].radius = (1.0 - pendres_trap_margin) * s[i].proven;
+      ellipses[s[i].orbit].radius = (1.0 - pendres_trapping_margin) * s[i].proven;
       if (s[i].stage != STAGE_DONE) s[again++] = s[i];
     }
     left = again;

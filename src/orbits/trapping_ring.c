@@ -1,5 +1,6 @@
-/* trap_ring.c -- rings on the edge of ellipses, and arcs between their points; see trap_ring.h. */
-#include "orbits/trap_ring.h"
+/* trapping_ring.c -- rings on the edge of ellipses, and arcs between their points; see
+   trapping_ring.h. */
+#include "orbits/trapping_ring.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,10 +18,10 @@ static const double beside = 0.125;
 /* ---- running ---- */
 
 /* A point of the ellipse, by the Cholesky factor of its metric. */
-static void start(pendres_trap_point *q, pendres_trap_ring *r, double angle,
+static void start(pendres_trapping_point *q, pendres_trapping_ring *r, double angle,
                   pendres_strobe_lane *lane)
 {
-  const pendres_trap *t = r->trap;
+  const pendres_trapping_ellipse *t = r->ellipse;
   const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
   const double l22 = sqrt(t->metric[2] - l21 * l21);
   const double dw = r->radius * sin(angle) / l22;
@@ -35,18 +36,18 @@ static void start(pendres_trap_point *q, pendres_trap_ring *r, double angle,
 
 static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
-  pendres_trap_point *p = (pendres_trap_point *)arg + index;
-  pendres_trap_ring *r = p->of;
-  if (lane->period % r->trap->period != 0) return 0;
+  pendres_trapping_point *p = (pendres_trapping_point *)arg + index;
+  pendres_trapping_ring *r = p->of;
+  if (lane->period % r->ellipse->period != 0) return 0;
   p->looks++;
   p->y[p->looks] = lane->y;
   p->w[p->looks] = lane->w;
   if (r->home == 0.0) return p->looks >= r->looks;
-  if (p->home > 0) return r->failed || p->looks >= p->home + PENDRES_TRAP_AFTER;
-  const double norm2 = pendres_trap_norm2(r->trap, lane->y, lane->w);
+  if (p->home > 0) return r->failed || p->looks >= p->home + PENDRES_TRAPPING_AFTER;
+  const double norm2 = pendres_trapping_norm2(r->ellipse, lane->y, lane->w);
   if (norm2 <= r->home * r->home) {
     p->home = p->looks;
-    return PENDRES_TRAP_AFTER == 0;
+    return PENDRES_TRAPPING_AFTER == 0;
   }
   if (p->looks >= r->looks || !(norm2 < 16.0 * r->radius * r->radius)) r->failed = 1;
   return r->failed;
@@ -55,27 +56,27 @@ static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
 /* ---- tangents ---- */
 
 /* The vector from a to b at look k, its angle without whole turns. */
-static void chord_of(const pendres_trap_point *a, const pendres_trap_point *b, int k,
+static void chord_of(const pendres_trapping_point *a, const pendres_trapping_point *b, int k,
                      double chord[2])
 {
-  chord[0] = pendres_less_turns(b->y[k] - a->y[k], a->of->trap->turn);
+  chord[0] = pendres_less_turns(b->y[k] - a->y[k], a->of->ellipse->turn);
   chord[1] = b->w[k] - a->w[k];
 }
 
-static double length_of(const pendres_trap *t, double y, double w)
+static double length_of(const pendres_trapping_ellipse *t, double y, double w)
 {
   return sqrt(t->metric[0] * y * y + 2.0 * t->metric[1] * y * w + t->metric[2] * w * w);
 }
 
 /* The angle from a to b, round the ring. */
-static double width_of(const pendres_trap_point *a, const pendres_trap_point *b)
+static double width_of(const pendres_trapping_point *a, const pendres_trapping_point *b)
 {
   const double width = b->angle - a->angle;
   return width > 0.0 ? width : width + two_pi;
 }
 
 /* Take derivatives by the angle from a point further on; NaN where that one was not followed. */
-static void take_tangents(pendres_trap_point *p, const pendres_trap_point *further)
+static void take_tangents(pendres_trapping_point *p, const pendres_trapping_point *further)
 {
   for (int k = 1; k <= p->looks; k++) {
     double d[2] = {NAN, NAN};
@@ -85,12 +86,13 @@ static void take_tangents(pendres_trap_point *p, const pendres_trap_point *furth
   }
 }
 
-pendres_status pendres_trap_rings_run(pendres_context *ctx, size_t n, pendres_trap_ring **rings,
-                                      pendres_trap_point *points, pendres_strobe_lane *lanes)
+pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
+                                          pendres_trapping_ring **rings,
+                                      pendres_trapping_point *points, pendres_strobe_lane *lanes)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
-    pendres_trap_ring *r = rings[i];
+    pendres_trapping_ring *r = rings[i];
     r->first = count;
     for (int j = 0; j < r->points; j++, count++)
       start(&points[count], r, two_pi * j / r->points, &lanes[count]);
@@ -100,17 +102,18 @@ pendres_status pendres_trap_rings_run(pendres_context *ctx, size_t n, pendres_tr
 
 /* ---- points ---- */
 
-int pendres_trap_ring_holds(const pendres_trap_ring *r, const pendres_trap_point *points)
+int pendres_trapping_ring_holds(const pendres_trapping_ring *r,
+                                const pendres_trapping_point *points)
 {
   if (r->failed) return 0;
   for (int i = 0; i < r->points; i++) {
-    const pendres_trap_point *a = &points[i], *b = &points[(i + 1) % r->points];
+    const pendres_trapping_point *a = &points[i], *b = &points[(i + 1) % r->points];
     if (a->home == 0) return 0;
     const int both = a->home < b->home ? a->home : b->home;
     for (int k = 1; k <= both; k++) {
       double d[2];
       chord_of(a, b, k, d);
-      if (!(length_of(r->trap, d[0], d[1]) < widest_gap * r->radius)) return 0;
+      if (!(length_of(r->ellipse, d[0], d[1]) < widest_gap * r->radius)) return 0;
     }
   }
   return 1;
@@ -118,38 +121,40 @@ int pendres_trap_ring_holds(const pendres_trap_ring *r, const pendres_trap_point
 
 /* ---- arcs ---- */
 
-double pendres_trap_departure(const pendres_trap *t, const double chord[2], const double first[2],
-                              const double last[2])
+double pendres_trapping_departure(const pendres_trapping_ellipse *t, const double chord[2],
+                                  const double first[2],
+                                  const double last[2])
 {
   return 0.25 * (length_of(t, first[0] - chord[0], first[1] - chord[1]) +
                  length_of(t, last[0] - chord[0], last[1] - chord[1]));
 }
 
 /* Whether the image of an arc, at some look, is inside the ellipse that is known already. */
-static int arc_home(const pendres_trap_ring *r, const pendres_trap_point *a,
-                    const pendres_trap_point *b)
+static int arc_home(const pendres_trapping_ring *r, const pendres_trapping_point *a,
+                    const pendres_trapping_point *b)
 {
   const double width = width_of(a, b);
   const int both = a->looks < b->looks ? a->looks : b->looks;
   for (int k = a->home < b->home ? a->home : b->home; k >= 1 && k <= both; k++) {
     double d[2];
     chord_of(a, b, k, d);
-    const double at[2] = {sqrt(pendres_trap_norm2(r->trap, a->y[k], a->w[k])),
-                          sqrt(pendres_trap_norm2(r->trap, b->y[k], b->w[k]))};
-    const double departure = pendres_trap_departure(
-      r->trap, d, (double[2]){width * a->ty[k], width * a->tw[k]},
+    const double at[2] = {sqrt(pendres_trapping_norm2(r->ellipse, a->y[k], a->w[k])),
+                          sqrt(pendres_trapping_norm2(r->ellipse, b->y[k], b->w[k]))};
+    const double departure = pendres_trapping_departure(
+      r->ellipse, d, (double[2]){width * a->ty[k], width * a->tw[k]},
       (double[2]){width * b->ty[k], width * b->tw[k]});
     if (at[0] + departure <= r->room && at[1] + departure <= r->room) return 1;
   }
   return 0;
 }
 
-size_t pendres_trap_ring_open(const pendres_trap_ring *r, const pendres_trap_point *points,
-                              pendres_trap_arc *arcs)
+size_t pendres_trapping_ring_open(const pendres_trapping_ring *r,
+                                  const pendres_trapping_point *points,
+                                  pendres_trapping_arc *arcs)
 {
   size_t open = 0;
   for (int i = 0; i < r->points; i++) {
-    const pendres_trap_arc arc = {&points[i], &points[(i + 1) % r->points]};
+    const pendres_trapping_arc arc = {&points[i], &points[(i + 1) % r->points]};
     if (!arc_home(r, arc.a, arc.b)) arcs[open++] = arc;
   }
   return open;
@@ -159,8 +164,8 @@ size_t pendres_trap_ring_open(const pendres_trap_ring *r, const pendres_trap_poi
 typedef struct closing {
   int most;
   size_t open, used;
-  pendres_trap_arc *arcs, *next;
-  pendres_trap_point *points;
+  pendres_trapping_arc *arcs, *next;
+  pendres_trapping_point *points;
   pendres_strobe_lane *lanes;
 } closing;
 
@@ -169,12 +174,12 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
 {
   size_t n = 0, again = 0;
   for (size_t i = 0; i < c->open; i++) {
-    pendres_trap_ring *r = c->arcs[i].a->of;
+    pendres_trapping_ring *r = c->arcs[i].a->of;
     if (++r->more > c->most) r->failed = 1;
   }
-  pendres_trap_point *middle = c->points + c->used;
+  pendres_trapping_point *middle = c->points + c->used;
   for (size_t i = 0; i < c->open; i++) {
-    const pendres_trap_arc arc = c->arcs[i];
+    const pendres_trapping_arc arc = c->arcs[i];
     if (arc.a->of->failed) continue;
     const double half = 0.5 * width_of(arc.a, arc.b), angle = arc.a->angle + half;
     start(&middle[2 * n], arc.a->of, angle, &c->lanes[2 * n]);
@@ -183,51 +188,52 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
   }
   const pendres_status status = pendres_strobe_run(ctx, 2 * n, c->lanes, look, middle);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const pendres_trap_arc arc = c->arcs[i];
-    const pendres_trap_ring *r = arc.a->of;
-    pendres_trap_point *m = &middle[2 * i];
+    const pendres_trapping_arc arc = c->arcs[i];
+    const pendres_trapping_ring *r = arc.a->of;
+    pendres_trapping_point *m = &middle[2 * i];
     if (r->failed) continue;
     take_tangents(m, m + 1);
-    if (!arc_home(r, arc.a, m)) c->next[again++] = (pendres_trap_arc){arc.a, m};
-    if (!arc_home(r, m, arc.b)) c->next[again++] = (pendres_trap_arc){m, arc.b};
+    if (!arc_home(r, arc.a, m)) c->next[again++] = (pendres_trapping_arc){arc.a, m};
+    if (!arc_home(r, m, arc.b)) c->next[again++] = (pendres_trapping_arc){m, arc.b};
   }
   c->used += 2 * n;
   c->open = again;
-  pendres_trap_arc *const swap = c->arcs;
+  pendres_trapping_arc *const swap = c->arcs;
   c->arcs = c->next;
   c->next = swap;
   return status;
 }
 
 /* Take the tangents at all points of the rings that hold, and list their open arcs. */
-static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trap_ring **rings,
-                                 pendres_trap_point *points, closing *c)
+static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trapping_ring **rings,
+                                 pendres_trapping_point *points, closing *c)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
-    pendres_trap_ring *r = rings[i];
-    if (!pendres_trap_ring_holds(r, points + r->first)) continue;
+    pendres_trapping_ring *r = rings[i];
+    if (!pendres_trapping_ring_holds(r, points + r->first)) continue;
     const double step = beside * two_pi / r->points;
     for (int j = 0; j < r->points; j++, count++)
       start(&c->points[count], r, points[r->first + (size_t)j].angle + step, &c->lanes[count]);
   }
   const pendres_status status = pendres_strobe_run(ctx, count, c->lanes, look, c->points);
   for (size_t k = 0; k < count && status == PENDRES_OK;) {
-    const pendres_trap_ring *r = c->points[k].of;
-    pendres_trap_point *own = points + r->first;
+    const pendres_trapping_ring *r = c->points[k].of;
+    pendres_trapping_point *own = points + r->first;
     for (int j = 0; j < r->points; j++, k++)
       if (!r->failed) take_tangents(&own[j], &c->points[k]);
-    if (!r->failed) c->open += pendres_trap_ring_open(r, own, c->arcs + c->open);
+    if (!r->failed) c->open += pendres_trapping_ring_open(r, own, c->arcs + c->open);
   }
   return status;
 }
 
-pendres_status pendres_trap_rings_close(pendres_context *ctx, size_t n, pendres_trap_ring **rings,
-                                        pendres_trap_point *points, int most)
+pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
+                                            pendres_trapping_ring **rings,
+                                            pendres_trapping_point *points, int most)
 {
   size_t arcs = 0, hold = 0;
   for (size_t i = 0; i < n; i++) {
-    if (!pendres_trap_ring_holds(rings[i], points + rings[i]->first)) continue;
+    if (!pendres_trapping_ring_holds(rings[i], points + rings[i]->first)) continue;
     arcs += (size_t)rings[i]->points;
     hold++;
   }
