@@ -141,10 +141,10 @@ static void orbits(void **state)
   const double amplitudes[] = { NAN, INFINITY, -1.0, 0.0, 3.2, DBL_MAX };
   double one = 1.0, error;
   for (size_t i = 0; i < COUNT(amplitudes); i++)
-    REFUSED(pendres_free_frequency_integrate(f->ctx, 1, &amplitudes[i], &one, &error));
-  REFUSED(pendres_free_frequency_integrate(f->ctx, 1, NULL, &one, &error));
-  REFUSED(pendres_free_frequency_integrate(f->ctx, 1, &one, NULL, &error));
-  REFUSED(pendres_free_frequency_integrate(f->ctx, 1, &one, &one, NULL));
+    REFUSED(pendres_free_find(f->ctx, 1, &amplitudes[i], &one, &error));
+  REFUSED(pendres_free_find(f->ctx, 1, NULL, &one, &error));
+  REFUSED(pendres_free_find(f->ctx, 1, &one, NULL, &error));
+  REFUSED(pendres_free_find(f->ctx, 1, &one, &one, NULL));
   assert_int_equal(f->wrong, 0);
 }
 

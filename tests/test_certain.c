@@ -14,6 +14,7 @@
 #include "engine/context_internal.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
+#include "states_fixture.h"
 
 static const double pi = 3.14159265358979323846;
 static const long double half_pi = 1.57079632679489661923132169163975144L;
@@ -109,7 +110,7 @@ static void true_labels(void **state)
     int certain = 0;
     for (size_t k = 0; k < MEMBERS; k++) {
       p[k] = fractal;
-      x[k] = pendres_ensemble_x(&e, k + 1);
+      x[k] = member_x(&e, k + 1);
       v[k] = e.v;
     }
     check_ok(pendres_settle(ctx, MEMBERS, p, x, v, outcome, &set));
@@ -211,7 +212,7 @@ static void other_steps(void **state)
     check_ok(pendres_context_create(&options[t], &ctx));
     for (size_t k = 0; k < MEMBERS; k++) {
       p[k] = fractal;
-      x[k] = pendres_ensemble_x(&e, k + 1);
+      x[k] = member_x(&e, k + 1);
       v[k] = e.v;
     }
     check_ok(pendres_settle(ctx, MEMBERS, p, x, v, outcome, &set));

@@ -11,6 +11,7 @@
 
 #include "orbits/chaos.h"
 #include "orbits/recurrence.h"
+#include "states_fixture.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -111,7 +112,7 @@ static void long_period(void **state)
 {
   const pendres_pendulum p = {.damping = 0.001, .drive_amplitude = 0.2, .drive_frequency = 1.1};
   const pendres_ensemble e = pendres_ensemble_default();
-  const double x = pendres_ensemble_x(&e, 163), v = 0.0;
+  const double x = member_x(&e, 163), v = 0.0;
   pendres_context *ctx = NULL;
   pendres_outcome outcome;
   pendres_attractors *set = NULL;

@@ -80,7 +80,7 @@ static void bad_options(void **state)
     double frequency, error;
     const pendres_options asked = {.tolerance = i == 0 ? 1e-14 : 0.1};
     assert_int_equal(pendres_context_create(&asked, &ctx), 0);
-    assert_int_equal(pendres_free_frequency_integrate(ctx, 1, &amplitude, &frequency, &error),
+    assert_int_equal(pendres_free_find(ctx, 1, &amplitude, &frequency, &error),
                      i == 0 ? PENDRES_INVALID_ARGUMENT : PENDRES_OK);
     if (i == 0)
       assert_non_null(strstr(pendres_context_message(ctx), "at least 1e-13"));

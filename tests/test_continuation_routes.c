@@ -9,7 +9,7 @@
 
 #include <pendres/attractor.h>
 #include <pendres/continuation.h>
-#include <pendres/pendulum.h>
+#include <pendres/free.h>
 #include <pendres/strobe.h>
 
 #include "check.h"

@@ -195,7 +195,7 @@ static void parseval(void **state)
   check_ok(pendres_spectrum_get(s, NULL, density, error));
   assert_true(isnan(density[0]) && isnan(error[0]));
   check_ok(pendres_spectrum_add(s, N, value));
-  assert_true(pendres_spectrum_segments(s) == 1 && pendres_spectrum_count(s) == LINES);
+  assert_true(pendres_spectrum_count(s) == LINES);
   check_ok(pendres_spectrum_get(s, frequency, density, error));
   assert_true(frequency[0] == 0.0 && isinf(error[3]));
   check_relative(frequency[LINES - 1], 0.5 * two_pi / interval, 1e-14);
@@ -214,7 +214,6 @@ static void a_line(void **state)
   for (int i = 0; i < N; i++) value[i] = 3.0 * cos(two_pi * AT * i / N + 0.3);
   check_ok(pendres_spectrum_create(N, 0.1, &s));
   for (int i = 0; i < PIECES; i++) check_ok(pendres_spectrum_add(s, N, value));
-  assert_int_equal(pendres_spectrum_segments(s), 2 * PIECES - 1);
   check_ok(pendres_spectrum_get(s, frequency, density, error));
   for (int k = 0; k < LINES; k++) {
     const double share = k == AT ? 2.0 / 3.0 : abs(k - AT) == 1 ? 1.0 / 6.0 : 0.0;

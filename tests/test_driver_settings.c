@@ -377,8 +377,8 @@ static void test_verify(void **state)
                                     .deflate = -1 };
   assert_int_equal(pendres_store_dimension(
     store, &(pendres_store_spec){.name = "x", .long_name = "x"}, 600, NULL), PENDRES_OK);
-  assert_int_equal(pendres_store_put(store, &one, &scalar, 1), PENDRES_OK);
-  assert_int_equal(pendres_store_put(store, &many, numbers, 600), PENDRES_OK);
+  assert_int_equal(pendres_store_put(store, &one, &scalar, NULL, 1), PENDRES_OK);
+  assert_int_equal(pendres_store_put(store, &many, numbers, NULL, 600), PENDRES_OK);
   const pendres_store_entry origin[] = { { .key = "deck_name", .text = "a.nml" },
                                          { .key = "version", .text = "7" } };
   assert_int_equal(pendres_store_provenance(store, origin, 2), PENDRES_OK);

@@ -98,7 +98,7 @@ static void second_contexts_ask_for_the_first(void **state)
       check_ok(pendres_context_create(&o, &ctx));
       intruder a = {.ctx = ctx, .in_thread = in_thread, .asked = 1 - when};
       pendres_context_set_interrupt(ctx, intrude_once, &a);
-      check_ok(pendres_free_frequency_integrate(ctx, 1, &amplitude, &frequency, &error));
+      check_ok(pendres_free_find(ctx, 1, &amplitude, &frequency, &error));
       asked = a.asked;
       if (asked > 1) check_refused(&a);
       pendres_context_free(ctx);

@@ -10,6 +10,7 @@
 
 #include "context_fixture.h"
 #include "analysis/sweeps/hysteresis_jump.h"
+#include "states_fixture.h"
 
 /* A fractal boundary between two states: of the ensemble's members some are uncertain. */
 static const pendres_pendulum fractal = {.drive_amplitude = 0.3629997361386908,
@@ -41,8 +42,8 @@ static int certain_points(pendres_context *ctx, const pendres_pendulum *p, doubl
 static void start_that_is_trapped(void **state)
 {
   const pendres_ensemble e = pendres_ensemble_default();
-  assert_int_equal(certain_points(*state, &fractal, pendres_ensemble_x(&e, 1), 0.0), VALUES);
-  assert_int_equal(certain_points(*state, &fractal, pendres_ensemble_x(&e, 4), 0.0), 0);
+  assert_int_equal(certain_points(*state, &fractal, member_x(&e, 1), 0.0), VALUES);
+  assert_int_equal(certain_points(*state, &fractal, member_x(&e, 4), 0.0), 0);
 }
 
 /* Under both drives averages decide: of neighbours of this start some turn one way, some the other.
@@ -73,7 +74,7 @@ static void share_of_trials(void **state)
   int first = 0;
   for (size_t i = 0; i < N; i++) {
     p[i] = fractal;
-    x[i] = pendres_ensemble_x(&e, 1 + 12 * i);
+    x[i] = member_x(&e, 1 + 12 * i);
   }
   check_ok(pendres_settle(*state, N, p, x, v, outcome, NULL));
   for (int i = 0; i < N; i++) {

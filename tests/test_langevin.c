@@ -7,6 +7,8 @@
 
 #include <gsl/gsl_cdf.h>
 
+#include "noise/noise_common.h"
+
 /* Two periods of free flight with strong noise: the well counts for nothing. */
 static void free_diffusion_is_ornstein_uhlenbeck(void **state)
 {

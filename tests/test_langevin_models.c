@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+#include "noise/noise_common.h"
+
 static const char *const names[PENDRES_LANGEVIN_STATISTICS] = {
   "mean x", "mean v", "var x", "cov xv", "var v", "cosine", "sine", "loop area"};
 
@@ -103,7 +105,7 @@ static void boltzmann(const pendres_pendulum *p, double *mean, double *variance)
 {
   double sum[3] = {0.0};
   for (int i = -4000; i <= 4000; i++) {
-    const double x = 1e-3 * i, w = exp(-pendres_pendulum_potential(p, x) / p->temperature);
+    const double x = 1e-3 * i, w = exp(-pendres_pendulum_energy(p, x, 0.0) / p->temperature);
     for (int k = 0; k < 3; k++) sum[k] += w * pow(x, k);
   }
   *mean = sum[1] / sum[0];

@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+#include "noise/noise_common.h"
+
 /* ---- The same bytes ---------------------------------------------------------------------- */
 
 enum { MANY = 100 };

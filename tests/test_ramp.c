@@ -14,6 +14,8 @@
 
 #include "context_fixture.h"
 
+#include "analysis/sweeps/ramp_watch.h"
+
 static const double two_pi = 6.28318530717958647693;
 
 enum { MOST_POINTS = 100 };

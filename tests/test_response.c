@@ -12,6 +12,7 @@
 #include "analysis/resonance/response_internal.h"
 
 #include "analysis/resonance/response_loop.h"
+#include "states_fixture.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -93,7 +94,7 @@ static void average(const pendres_pendulum *p, const pendres_ensemble *e, averag
   for (int m = 0; m < MEMBERS; m++) {
     double cosine, sine;
     int seen = 0;
-    well[m] = follow(p, pendres_ensemble_x(e, (size_t)m + 1), e->v, loop);
+    well[m] = follow(p, member_x(e, (size_t)m + 1), e->v, loop);
     for (int i = 0; i < m; i++) seen |= well[i] == well[m];
     out->wells += !seen;
     harmonic(loop, &cosine, &sine);

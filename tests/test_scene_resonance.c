@@ -4,6 +4,8 @@
  */
 #include "scene_fixture.h"
 
+#include <pendres/free.h>
+
 #include "scenes/failed.h"
 #include "scenes/peak.h"
 

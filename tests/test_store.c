@@ -8,6 +8,8 @@
 
 #include <sys/wait.h>
 
+#include "store/internal.h"
+
 /* ---- A file with one of everything ----------------------------------------------------------- */
 
 enum { DAMPINGS = 3, PERIODS = 700, WIDE = 300000 };
@@ -49,21 +51,21 @@ static void write_root(pendres_store *store)
     store,
     &(pendres_store_spec){.name = "method", .type = PENDRES_STORE_STRING, .long_name = "method"}, 2,
     methods));
-  OK(pendres_store_result(store, &loop_area, &id, &error_id));
+  OK(pendres_store_variable(store, &loop_area, &id, &error_id));
   /* Rows in any order, some twice. */
   for (uint64_t r = DAMPINGS; r-- > 0;) {
     OK(pendres_store_write_rows(store, id, r, 1, areas + r * PERIODS, PERIODS));
     OK(pendres_store_write_rows(store, id, r, 1, areas + r * PERIODS, PERIODS));
   }
   OK(pendres_store_write(store, error_id, errors, DAMPINGS * PERIODS));
-  OK(pendres_store_put_result(store, &(pendres_store_spec){ .name = "cusp_damping",
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "cusp_damping",
        .long_name = "damping at the cusp" }, &scalar, &scalar_error, 1));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "label", .type = PENDRES_STORE_INT8,
        .dimensions = { "damping" }, .long_name = "attractor", .flag_count = LENGTH(meanings),
-       .flag_values = codes, .flag_meanings = meanings }, labels, DAMPINGS));
+       .flag_values = codes, .flag_meanings = meanings }, labels, NULL, DAMPINGS));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "method_title",
        .type = PENDRES_STORE_STRING, .dimensions = { "method" }, .long_name = "title" },
-       methods, 2));
+       methods, NULL, 2));
   free(areas);
   free(errors);
 }
@@ -83,7 +85,8 @@ static void write_groups(pendres_store *store)
     &(pendres_store_spec){.group = "paper/fig2", .name = "point", .type = PENDRES_STORE_INT64,
                           .long_name = "point"}, 3, index));
   OK(pendres_store_put(store, &(pendres_store_spec){ .group = "/paper/fig2/", .name = "turns",
-       .type = PENDRES_STORE_INT32, .dimensions = { "point" }, .long_name = "turns" }, turns, 3));
+       .type = PENDRES_STORE_INT32, .dimensions = { "point" }, .long_name = "turns" }, turns, NULL,
+       3));
   OK(pendres_store_dimension(
     store, &(pendres_store_spec){.group = "paper", .name = "damping", .long_name = "damping"},
     DAMPINGS, damping));
@@ -91,7 +94,7 @@ static void write_groups(pendres_store *store)
     store, &(pendres_store_spec){.group = "paper", .name = "fold", .long_name = "fold"}, 0, NULL));
   OK(pendres_store_variable(store, &(pendres_store_spec){ .group = "paper",
        .name = "fold_damping", .dimensions = { "damping", "fold" },
-       .long_name = "damping of the fold" }, &id));
+       .long_name = "damping of the fold" }, &id, NULL));
   OK(pendres_store_write(store, id, &none, 0));
 }
 
@@ -111,10 +114,10 @@ static void write_large(pendres_store *store)
     store, &(pendres_store_spec){.group = "large", .name = "sample", .long_name = "sample"}, WIDE,
     NULL));
   OK(pendres_store_put(store, &(pendres_store_spec){ .group = "large", .name = "wide",
-       .dimensions = { "side", "sample" }, .long_name = "wide" }, wide, 2 * WIDE));
+       .dimensions = { "side", "sample" }, .long_name = "wide" }, wide, NULL, 2 * WIDE));
   OK(pendres_store_put(store, &(pendres_store_spec){ .group = "large", .name = "tall",
        .type = PENDRES_STORE_INT64, .dimensions = { "sample" }, .long_name = "tall" },
-       tall, WIDE));
+       tall, NULL, WIDE));
   free(wide);
   free(tall);
 }
@@ -133,9 +136,7 @@ static void write_provenance_entries(pendres_store *store)
 static void write_provenance(pendres_store *store)
 {
   write_provenance_entries(store);
-  OK(pendres_store_attribute_text(store, NULL, NULL, "title", "a better title"));
-  OK(pendres_store_attribute_double(store, "paper", "damping", "largest", 0.1));
-  OK(pendres_store_attribute_integer(store, "paper", NULL, "figure", 2));
+  OK(pendres_store_attribute(store, NULL, NULL, "title", "a better title"));
 }
 
 /* What GNU Octave can load: text in groups alone. */
@@ -153,11 +154,11 @@ static void write_numbers(const char *path)
   OK(pendres_store_dimension(store, &(pendres_store_spec){.name = "turn", .long_name = "turn"}, 3,
                              corner));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "area", .long_name = "area",
-       .dimensions = { "row", "turn" } }, corner, 6));
+       .dimensions = { "row", "turn" } }, corner, NULL, 6));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "damping", .long_name = "damping" },
-       &number, 1));
+       &number, NULL, 1));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "state", .dimensions = { "turn" },
-       .type = PENDRES_STORE_INT8, .long_name = "state" }, labels, 3));
+       .type = PENDRES_STORE_INT8, .long_name = "state" }, labels, NULL, 3));
   OK(pendres_store_dimension(
     store,
     &(pendres_store_spec){.group = "paper/f02", .name = "quantity", .type = PENDRES_STORE_STRING,
@@ -294,10 +295,6 @@ static void what_is_written_is_read(void **state)
              "&scene\n  title = 'caf\xc3\xa9 \xc3\xa9'\n/\n");
   OK(pendres_store_read(store, "provenance", "seed", PENDRES_STORE_INT64, index, 1));
   assert_int_equal(index[0], -42);
-  OK(pendres_store_read_attribute_double(store, "paper", "damping", "largest", &number));
-  assert_true(number == 0.1);
-  OK(pendres_store_read_attribute_double(store, "paper", NULL, "figure", &number));
-  assert_true(number == 2);
   assert_int_equal(pendres_store_has(store, "paper", "turns"), 0);
   assert_int_equal(pendres_store_has(store, "paper/fig2", "turns"), 1);
   assert_int_equal(pendres_store_has(store, "paper/fig2", NULL), 1);
@@ -398,7 +395,7 @@ static void bits_have_masks(void **state)
   (void)state;
   in_folder(path, "bits.h5");
   OK(pendres_store_create(path, NULL, &store));
-  OK(pendres_store_put(store, &spec, &sum, 1));
+  OK(pendres_store_put(store, &spec, &sum, NULL, 1));
   OK(pendres_store_close(store));
   pendres_store_free(store);
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);

@@ -13,6 +13,8 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "store/internal.h"
+
 /* ---- Files that cannot be written, and files that must not be ------------------------------- */
 
 static void check_no_create(const char *path, const char *words)
@@ -85,7 +87,7 @@ static void abandoned_run_leaves_the_old_file(void **state)
   write_file(part, "\211HDF\r\n\032\nleft by a run that was killed");
 
   OK(pendres_store_create(path, NULL, &store));
-  OK(pendres_store_put(store, &spec, &value, 1));
+  OK(pendres_store_put(store, &spec, &value, NULL, 1));
   assert_true(exists(part));
   check_contents(path, "old");
   OK(pendres_store_abandon(store, 0));
@@ -100,7 +102,7 @@ static void abandoned_run_leaves_the_old_file(void **state)
   check_contents(path, "old");
 
   OK(pendres_store_create(path, NULL, &store));
-  OK(pendres_store_put(store, &spec, &value, 1));
+  OK(pendres_store_put(store, &spec, &value, NULL, 1));
   OK(pendres_store_abandon(store, 1));
   pendres_store_free(store);
   check_contents(path, "old");
@@ -131,7 +133,8 @@ static void failed_rename_keeps_the_results(void **state)
   in_folder(path, "taken.h5");
   in_folder(part, "taken.h5.part");
   OK(pendres_store_create(path, NULL, &store));
-  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "y", .long_name = "y" }, &value, 1));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "y", .long_name = "y" }, &value, NULL,
+                       1));
   assert_int_equal(mkdir(path, 0777), 0);
   assert_int_equal(pendres_store_close(store), PENDRES_IO);
   assert_non_null(strstr(pendres_store_message(store), "whole"));
@@ -253,7 +256,7 @@ static pendres_status run_until_full(const char *path, int *step)
     store, &(pendres_store_spec){.name = "c", .long_name = "c"}, ROW, NULL);
   if (!status)
     status = pendres_store_variable(store, &(pendres_store_spec){ .name = "y", .long_name = "y",
-               .dimensions = { "r", "c" } }, &id);
+               .dimensions = { "r", "c" } }, &id, NULL);
   for (uint64_t r = 0; r < ROWS && !status; r++) {
     /* Numbers that do not compress. */
     for (int i = 0; i < ROW; i++) row[i] = (random = random * 1664525u + 1013904223u) / 3.0;
@@ -366,7 +369,7 @@ static void flushed_rows_survive_a_kill(void **state)
       pendres_store_dimension(store, &(pendres_store_spec){.name = "c", .long_name = "c"}, ROW,
                               NULL) ||
       pendres_store_variable(store, &(pendres_store_spec){ .name = "y", .long_name = "y",
-        .dimensions = { "r", "c" } }, &id);
+        .dimensions = { "r", "c" } }, &id, NULL);
 
     for (uint64_t r = 0; r < FLUSHED + 5 && !bad; r++) {
       for (int i = 0; i < ROW; i++) row[i] = (double)r + 1e-3 * i;

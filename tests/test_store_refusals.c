@@ -5,6 +5,8 @@
 
 #include <sys/wait.h>
 
+#include "store/internal.h"
+
 /* ---- Refusals -------------------------------------------------------------------------------- */
 
 /* The same file twice: once with every mistake in between. */
@@ -18,7 +20,7 @@ static void write_small(const char *path, void (*mistakes)(pendres_store *store,
   OK(pendres_store_dimension(
     store, &(pendres_store_spec){.group = "a", .name = "x", .long_name = "x"}, 2, values));
   OK(pendres_store_variable(store, &(pendres_store_spec){ .group = "a", .name = "y",
-       .dimensions = { "x" }, .long_name = "y" }, &id));
+       .dimensions = { "x" }, .long_name = "y" }, &id, NULL));
   if (mistakes) mistakes(store, id);
   OK(pendres_store_write(store, id, values, 2));
   OK(pendres_store_close(store));
@@ -37,7 +39,7 @@ static void wrong_definitions(pendres_store *store, int id)
   do {                                                                                            \
     pendres_store_spec kept = spec;                                                               \
     change;                                                                                       \
-    REFUSED(pendres_store_variable(store, &spec, &made), words);                                  \
+    REFUSED(pendres_store_variable(store, &spec, &made, NULL), words);                            \
     assert_int_equal(made, -1);                                                                   \
     spec = kept;                                                                                  \
   } while (0)
@@ -68,12 +70,12 @@ static void wrong_definitions(pendres_store *store, int id)
   SPEC(spec.flag_count = 1, "meaning");
   SPEC(spec.flag_count = 129, "flags");
 #undef SPEC
-  REFUSED(pendres_store_variable(store, NULL, &made), "no specification");
+  REFUSED(pendres_store_variable(store, NULL, &made, NULL), "no specification");
   spec.type = PENDRES_STORE_STRING;
-  REFUSED(pendres_store_result(store, &spec, &made, &error_made), "no error estimate");
+  REFUSED(pendres_store_variable(store, &spec, &made, &error_made), "no error estimate");
   assert_int_equal(error_made, -1);
   REFUSED(pendres_store_put(store, &(pendres_store_spec){ .group = "a", .name = "y",
-            .dimensions = { "x" }, .long_name = "y" }, values, 2), "exists already");
+            .dimensions = { "x" }, .long_name = "y" }, values, NULL, 2), "exists already");
   REFUSED(pendres_store_dimension(
     store, &(pendres_store_spec){.group = "a", .name = "x", .long_name = "x"}, 3,
     NULL), "exists already");
@@ -111,10 +113,8 @@ static void wrong_values(pendres_store *store, int id)
   REFUSED(pendres_store_write_rows(store, id, 3, 0, values, 0), "2 rows");
   REFUSED(pendres_store_write_rows(store, id, 1, UINT64_MAX, values, 0), "2 rows");
   REFUSED(pendres_store_write_rows(store, id, 0, 1, values, 2), "1 elements are wanted, 2");
-  REFUSED(pendres_store_attribute_text(store, "a", "y", "two words", "x"), "not a name");
-  REFUSED(pendres_store_attribute_text(store, "a", "y", "note", NULL), "needs a text");
-  REFUSED(pendres_store_attribute_double(store, "a", "nothing", "note", 1), "no variable");
-  REFUSED(pendres_store_attribute_integer(store, "a", "y", NULL, 1), "not a name");
+  REFUSED(pendres_store_attribute(store, "a", "y", "two words", "x"), "not a name");
+  REFUSED(pendres_store_attribute(store, "a", "y", "note", NULL), "needs a text");
 }
 
 static void mistakes_leave_no_trace(void **state)
@@ -137,14 +137,14 @@ static void result_is_made_whole_or_not(void **state)
   const pendres_store_spec taken = { .name = "power_error", .long_name = "taken" };
   const pendres_store_spec power = { .name = "power", .long_name = "power" };
   const double value = 1;
-  int id = -1;
+  int error_id, id = -1;
 
   (void)state;
   OK(pendres_store_create(in_folder(path, "half.h5"), NULL, &store));
-  OK(pendres_store_put(store, &taken, &value, 1));
-  REFUSED(pendres_store_result(store, &power, &id, NULL), "power_error");
+  OK(pendres_store_put(store, &taken, &value, NULL, 1));
+  REFUSED(pendres_store_variable(store, &power, &id, &error_id), "power_error");
   assert_int_equal(pendres_store_has(store, NULL, "power"), 0);
-  OK(pendres_store_put(store, &power, &value, 1));
+  OK(pendres_store_put(store, &power, &value, NULL, 1));
   pendres_store_free(store);
 }
 

@@ -8,6 +8,9 @@
 
 #include <pendres/sweep.h>
 
+#include "analysis/sweeps/sweep.h"
+#include "states_fixture.h"
+
 static void range_has_exact_ends(void **state)
 {
   (void)state;
@@ -189,8 +192,8 @@ static void ensemble_is_half_open(void **state)
   const pendres_ensemble e = pendres_ensemble_default();
   assert_int_equal(e.members, 200);
   assert_true(e.v == 0.0);
-  check_near(pendres_ensemble_x(&e, 1), -1.57079632679489661923 + 0.0314159265358979323846, 5e-16);
-  check_near(pendres_ensemble_x(&e, 200), 4.71238898038468985769, 1e-15);
+  check_near(member_x(&e, 1), -1.57079632679489661923 + 0.0314159265358979323846, 5e-16);
+  check_near(member_x(&e, 200), 4.71238898038468985769, 1e-15);
 }
 
 int main(void)

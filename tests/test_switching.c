@@ -4,6 +4,7 @@
 #include "switching_fixture.h"
 
 #include "noise/cores.h"
+#include "noise/noise_common.h"
 
 #include <stdlib.h>
 #include <string.h>

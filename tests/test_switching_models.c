@@ -160,7 +160,7 @@ static void detailed_balance(void **state)
   (void)state;
   check_near(top - top * top * top + 0.05, 0.0, 1e-6);
   for (double x = -4.0; x < 4.0; x += h)
-    weight[x > top] += h * exp(-pendres_pendulum_potential(&p, x) / p.temperature);
+    weight[x > top] += h * exp(-pendres_pendulum_energy(&p, x, 0.0) / p.temperature);
   pendres_attractors *set = attractors(p);
   assert_int_equal(pendres_attractors_count(set), 2);
   const size_t left = pendres_attractors_get(set, 0)->orbit.x < 0.0 ? 0 : 1;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include <pendres/free.h>
 #include <pendres/reference.h>
 
 #include "validation/exact.h"
@@ -179,7 +180,7 @@ static pendres_status free_frequency(hard_sheet *sheet, pendres_context *ctx, do
                                      double *frequency, double *error)
 {
   const pendres_status status =
-    pendres_free_frequency_integrate(ctx, 1, &amplitude, frequency, error);
+    pendres_free_find(ctx, 1, &amplitude, frequency, error);
   return status == PENDRES_OK ? status : hard_failed(sheet, status, ctx);
 }
 
@@ -238,13 +239,13 @@ static pendres_status drift(hard_sheet *sheet, pendres_context *ctx, const pendr
   for (int i = 0; i < SWINGS; i++) {
     x[i] = 0.5 * pi + amplitude[i];
     v[i] = 0.0;
-    before[i] = pendres_pendulum_energy(x[i], v[i]);
+    before[i] = pendres_pendulum_energy(&p[i], x[i], v[i]);
   }
   const pendres_status status = pendres_strobe_advance(ctx, SWINGS, p, x, v, periods, NULL);
   if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
   *largest = 0.0;
   for (int i = 0; i < SWINGS; i++)
-    *largest = hard_larger(*largest, fabs(pendres_pendulum_energy(x[i], v[i]) - before[i]));
+    *largest = hard_larger(*largest, fabs(pendres_pendulum_energy(&p[i], x[i], v[i]) - before[i]));
   return status;
 }
 

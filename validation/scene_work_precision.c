@@ -268,6 +268,9 @@ static pendres_status write_results(scene_run *run, const work *w, const scene_t
 {
   static const scene_column name = {.name = "method_name", .long_name = "method",
                                     .type = SCENE_TEXT};
+  const pendres_store_spec unit = {.name = "unit", .long_name = "pendulums that were run",
+                                   .type = PENDRES_STORE_STRING};
+  const char *words = w->d->unit;
   const scene_table methods = {.dimensions = {"method"}, .n = w->methods,
                                .stride = sizeof *w->d->methods.name, .rows = w->d->methods.name};
   pendres_status status = scene_numbering(run, "method", w->methods, "method, by number");
@@ -276,8 +279,7 @@ static pendres_status write_results(scene_run *run, const work *w, const scene_t
   if (status == PENDRES_OK) status = SCENE_WRITE(run, benchmarks, columns);
   if (status == PENDRES_OK) status = write_left_out(run, w);
   if (status == PENDRES_OK)
-    status = scene_stored(run, pendres_store_put_text(run->store, NULL, "unit",
-                                                      "pendulums that were run", w->d->unit));
+    status = scene_stored(run, pendres_store_put(run->store, &unit, &words, NULL, 1));
   if (status == PENDRES_OK) status = write_settling(run, &w->settled);
   if (status == PENDRES_OK) status = write_ours(run, w);
   return status == PENDRES_OK ? write_others(run) : status;

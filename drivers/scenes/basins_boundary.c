@@ -23,7 +23,7 @@ static pendres_status put_boundary(scene_run *run, const pendres_boundary *curve
                                      .long_name = words[k], .units = k == 0 ? "rad" : "1"};
     for (size_t i = 0; i < n; i++)
       error[i] = pendres_boundary_error(curve)[i] / (k == 0 ? 1.0 : time);
-    status = pendres_store_put_result(
+    status = pendres_store_put(
       store, &spec, k == 0 ? pendres_boundary_x(curve) : pendres_boundary_v(curve),
       error, n);
   }
@@ -34,13 +34,13 @@ static pendres_status put_boundary(scene_run *run, const pendres_boundary *curve
   const pendres_store_spec spec = {.name = "boundary_piece", .dimensions = {"boundary_point"},
                                    .long_name = "piece of the boundary that the point belongs to",
                                    .type = PENDRES_STORE_INT32};
-  if (status == PENDRES_OK) status = pendres_store_put(store, &spec, piece, n);
+  if (status == PENDRES_OK) status = pendres_store_put(store, &spec, piece, NULL, n);
   free(piece);
   const pendres_store_spec whole = {.name = "boundary_complete",
                                     .long_name = "1: all of the boundary within the window",
                                     .type = PENDRES_STORE_INT64};
   const int64_t complete = pendres_boundary_complete(curve);
-  return status == PENDRES_OK ? pendres_store_put(store, &whole, &complete, 1) : status;
+  return status == PENDRES_OK ? pendres_store_put(store, &whole, &complete, NULL, 1) : status;
 }
 
 pendres_status basins_write_boundary(basins *b)

@@ -275,7 +275,7 @@ static pendres_status write_strobes(scene_run *run, const cloud_work *w)
       .name = names[k], .dimensions = { "temperature", "attractor", "strobe" },
       .long_name = words[k], .units = units[k],
       .comment = "trajectory after trajectory; NaN after an escape" };
-    status = pendres_store_put(run->store, &spec, k == 0 ? w->x : w->v,
+    status = pendres_store_put(run->store, &spec, k == 0 ? w->x : w->v, NULL,
                                w->temperatures * w->attractors * w->strobes);
   }
   return status;
@@ -316,7 +316,7 @@ static pendres_status write_failed(scene_run *run, const cloud_work *w)
                        "noisy cloud at temperature %.10g, attractor %zu",
                        cloud_request(w, i).temperature, i % w->attractors);
   }
-  return pendres_store_put(run->store, &spec, w->failed.reason, w->failed.n);
+  return pendres_store_put(run->store, &spec, w->failed.reason, NULL, w->failed.n);
 }
 
 static pendres_status write_results(scene_run *run, const cloud_work *w)

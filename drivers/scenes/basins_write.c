@@ -105,7 +105,7 @@ static pendres_status write_cut(basins *b)
   state_rows(n, b->cut, rows);
   status = SCENE_WRITE(b->run, &table, b->column);
   if (status != PENDRES_OK) return status;
-  status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",
+  status = pendres_store_attribute(b->run->store, "cut", NULL, "description",
                                         "the line v = 0");
   return scene_stored(b->run, status);
 }

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pendres/free.h>
+
 #include "scenes/curves.h"
 #include "scenes/rotations.h"
 
@@ -233,7 +235,7 @@ static pendres_status write_free(scene_run *run)
     &(pendres_store_spec){.name = "free_amplitude", .long_name = "amplitude of the free pendulum",
                           .units = "rad"}, FREE, amplitude);
   if (status == PENDRES_OK)
-    status = pendres_store_put_result(run->store, &spec, frequency, error, FREE);
+    status = pendres_store_put(run->store, &spec, frequency, error, FREE);
   return scene_stored(run, status);
 }
 

@@ -220,8 +220,8 @@ static pendres_status write_column(scene_run *run, const scene_table *t, size_t 
   if (c->when != NULL && !c->when(run->deck)) return run->status;
   describe(run, t, c, &v);
   pendres_status status = c->type == SCENE_REAL
-                            ? pendres_store_result(run->store, &v.spec, &id, &error_id)
-                            : pendres_store_variable(run->store, &v.spec, &id);
+                            ? pendres_store_variable(run->store, &v.spec, &id, &error_id)
+                            : pendres_store_variable(run->store, &v.spec, &id, NULL);
   for (size_t at = 0; at < all && status == PENDRES_OK; at += most) {
     piece p = {.first = at, .values = all - at < most ? all - at : most};
     status = take_piece(run, t, rows, &p);
@@ -298,7 +298,7 @@ pendres_status scene_columns_define(scene_run *run, const scene_table *t,
   for (size_t k = 0; k < of->count && status == PENDRES_OK; k++) {
     variable v;
     describe(run, t, &of->column[k], &v);
-    status = pendres_store_variable(run->store, &v.spec, &of->number[k]);
+    status = pendres_store_variable(run->store, &v.spec, &of->number[k], NULL);
   }
   return scene_stored(run, status);
 }

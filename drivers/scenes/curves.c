@@ -138,7 +138,7 @@ static pendres_status put_scalar(const scene_lines *l, const char *name, const c
 {
   const pendres_store_spec spec = {.name = name, .long_name = long_name, .units = units};
   const pendres_status status =
-    pendres_store_put_result(l->run->store, &spec, &value[0], &value[1], 1);
+    pendres_store_put(l->run->store, &spec, &value[0], &value[1], 1);
   return scene_stored(l->run, status);
 }
 
@@ -172,7 +172,7 @@ static pendres_status write_failed(const scene_lines *l)
   const int8_t reason =
     (int8_t)scene_failure_of(pendres_phase_diagram_curves_outcome(l->diagram, NULL));
   scene_failure_flags(&spec);
-  const pendres_status status = pendres_store_put(l->run->store, &spec, &reason, 1);
+  const pendres_status status = pendres_store_put(l->run->store, &spec, &reason, NULL, 1);
   return scene_stored(l->run, status);
 }
 

@@ -106,14 +106,14 @@ static pendres_status rename_angle(pendres_store *store, const char *group, cons
   pendres_status status =
     pendres_store_read_attribute_text(store, group, name, "units", &text);
   if (status == PENDRES_OK && strcmp(text, "rad") == 0 && !is_phase(name))
-    status = pendres_store_attribute_text(store, group, name, "units", "1");
+    status = pendres_store_attribute(store, group, name, "units", "1");
   free(text);
   text = NULL;
   if (status == PENDRES_OK || status == PENDRES_NOT_FOUND)
     status = pendres_store_read_attribute_text(store, group, name, "long_name", &text);
   char *words = status == PENDRES_OK ? without_angle(text) : NULL;
   if (words != NULL)
-    status = pendres_store_attribute_text(store, group, name, "long_name", words);
+    status = pendres_store_attribute(store, group, name, "long_name", words);
   free(text);
   free(words);
   return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
@@ -142,7 +142,7 @@ static pendres_status rename_angles(pendres_store *store, const char *group)
 static pendres_status define(pendres_store *store, const char *name, const char *words)
 {
   return words != NULL && pendres_store_has(store, "", name)
-           ? pendres_store_attribute_text(store, "", name, "comment", words) : PENDRES_OK;
+           ? pendres_store_attribute(store, "", name, "comment", words) : PENDRES_OK;
 }
 
 pendres_status scene_define(scene_run *run)

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include <pendres/free.h>
+
 /* Amplitudes a task takes: a block of the library. */
 enum { CHUNK = 192, TABLE_ROWS = 13 };
 
@@ -21,10 +23,10 @@ typedef struct row {
 static row row_of(double amplitude, double integrated, double error)
 {
   static const double rounding = 4.5e-16;
-  return (row){amplitude, pendres_free_frequency(amplitude),
-               pendres_free_frequency_error(amplitude),
-               pendres_free_frequency_kittel(amplitude), rounding,
-               pendres_free_frequency_belendez(amplitude), rounding, integrated, error};
+  pendres_free f;
+  pendres_free_get(amplitude, &f);
+  return (row){amplitude, f.frequency, f.frequency_error, f.kittel, rounding, f.belendez, rounding,
+               integrated, error};
 }
 
 static pendres_status compute(const scene_some *some)
@@ -33,7 +35,7 @@ static pendres_status compute(const scene_some *some)
   double frequency[CHUNK], error[CHUNK];
   row *rows = some->rows;
   const pendres_status status =
-    pendres_free_frequency_integrate(some->ctx, some->n, amplitude, frequency, error);
+    pendres_free_find(some->ctx, some->n, amplitude, frequency, error);
   for (size_t i = 0; i < some->n && status == PENDRES_OK; i++)
     rows[i] = row_of(amplitude[i], frequency[i], error[i]);
   return status;

@@ -396,7 +396,7 @@ pendres_status scene_lines_write_doubts(const scene_lines *l)
     .name = "branch_doubts",
     .type = PENDRES_STORE_INT32,
     .long_name = "points of branches at which stability or turns and the bifurcations disagree"};
-  const pendres_status status = pendres_store_put(l->run->store, &spec, &doubts, 1);
+  const pendres_status status = pendres_store_put(l->run->store, &spec, &doubts, NULL, 1);
   return scene_stored(l->run, status);
 }
 

@@ -170,7 +170,7 @@ static pendres_status define(orbit_work *w, const char *name, const char *long_n
   const pendres_store_spec spec = { .name = name, .dimensions = { "sample" },
                                     .long_name = long_name, .units = units };
   const pendres_status status =
-    pendres_store_result(w->run->store, &spec, &out->value, &out->error);
+    pendres_store_variable(w->run->store, &spec, &out->value, &out->error);
   return scene_stored(w->run, status);
 }
 

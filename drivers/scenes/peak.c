@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include <pendres/free.h>
+
 /* The error of the free frequency of an amplitude. It falls ever faster to zero, where the pendulum
    stands on its head: an amplitude that may be as large may have any frequency below. */
 static double free_error(double amplitude, double error)

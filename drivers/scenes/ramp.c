@@ -231,20 +231,20 @@ static pendres_status put_way(scene_run *run, const work *w)
   memcpy(spec.dimensions, dimensions, sizeof dimensions);
   pendres_status status =
     scene_numbering(run, "point", w->points, "number of the point of a way");
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, time, n);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, time, NULL, n);
   spec.name = "ramp_parameter";
   spec.long_name = "value of the parameter that moves";
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, value, n);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, value, NULL, n);
   spec.name = "ramp_x";
   spec.long_name = "position at the strobe, without noise";
   spec.units = "rad";
   if (status == PENDRES_OK)
-    status = pendres_store_put_result(run->store, &spec, w->x, w->x_error, n);
+    status = pendres_store_put(run->store, &spec, w->x, w->x_error, n);
   spec.name = "ramp_v";
   spec.long_name = "velocity at the strobe, without noise";
   spec.units = "1";
   if (status == PENDRES_OK)
-    status = pendres_store_put_result(run->store, &spec, w->v, w->v_error, n);
+    status = pendres_store_put(run->store, &spec, w->v, w->v_error, n);
   free(time);
   return scene_stored(run, status);
 }
@@ -315,7 +315,7 @@ static pendres_status put_scatter(scene_run *run, const work *w)
   pendres_status status =
     scene_numbering(run, "trajectory", w->trajectories, "number of the noisy trajectory");
   if (status == PENDRES_OK)
-    status = scene_stored(run, pendres_store_put(run->store, &spec, w->noisy,
+    status = scene_stored(run, pendres_store_put(run->store, &spec, w->noisy, NULL,
                                                  w->ramp.jumps * w->trajectories));
   return status == PENDRES_OK ? SCENE_WRITE(run, &table, columns) : status;
 }

@@ -112,14 +112,14 @@ pendres_status scene_put(scene_run *run, const pendres_store_spec *spec, const v
                          size_t n)
 {
   if (!scene_going(run)) return run->status;
-  return scene_stored(run, pendres_store_put(run->store, spec, values, n));
+  return scene_stored(run, pendres_store_put(run->store, spec, values, NULL, n));
 }
 
 pendres_status scene_put_result(scene_run *run, const pendres_store_spec *spec,
                                 const double *values, const double *errors, size_t n)
 {
   if (!scene_going(run)) return run->status;
-  return scene_stored(run, pendres_store_put_result(run->store, spec, values, errors, n));
+  return scene_stored(run, pendres_store_put(run->store, spec, values, errors, n));
 }
 
 pendres_status scene_put_dimension(scene_run *run, const pendres_store_spec *spec,
@@ -304,7 +304,7 @@ static pendres_status write_coefficients(scene_run *run, char *coordinates)
                                       .long_name = p.force == PENDRES_FORCE_POLYNOMIAL
                                                      ? "coefficient of the polynomial force"
                                                      : "coefficient of the force" };
-    status = pendres_store_put(run->store, &spec, &p.force_coefficients[i], 1);
+    status = pendres_store_put(run->store, &spec, &p.force_coefficients[i], NULL, 1);
     if (coordinates[0] != '\0') strcat(coordinates, " ");
     strcat(coordinates, spec.name);
   }
@@ -321,9 +321,9 @@ pendres_status scene_write_identity(scene_run *run)
   char coordinates[(7 + PENDRES_FORCE_COEFFICIENTS) * DECK_NAME] = "";
   const char *slash = strrchr(d->name, '/');
   pendres_status status =
-    pendres_store_attribute_text(run->store, "", NULL, "scene", deck_kind_name(d->kind));
+    pendres_store_attribute(run->store, "", NULL, "scene", deck_kind_name(d->kind));
   if (status == PENDRES_OK)
-    status = pendres_store_attribute_text(run->store, "", NULL, "deck",
+    status = pendres_store_attribute(run->store, "", NULL, "deck",
                                           slash != NULL ? slash + 1 : d->name);
   for (size_t i = 0; i < sizeof parameters / sizeof *parameters && status == PENDRES_OK; i++) {
     const deck_axis_id axis = parameters[i];
@@ -334,13 +334,13 @@ pendres_status scene_write_identity(scene_run *run)
     const pendres_store_spec spec = { .name = deck_axis_name(axis),
                                       .long_name = about[axis].words,
                                       .units = about[axis].units };
-    status = pendres_store_put(run->store, &spec, &value, 1);
+    status = pendres_store_put(run->store, &spec, &value, NULL, 1);
     if (coordinates[0] != '\0') strcat(coordinates, " ");
     strcat(coordinates, spec.name);
   }
   if (status == PENDRES_OK) status = write_coefficients(run, coordinates);
   if (status == PENDRES_OK && coordinates[0] != '\0')
-    status = pendres_store_attribute_text(run->store, "", NULL, "coordinates", coordinates);
+    status = pendres_store_attribute(run->store, "", NULL, "coordinates", coordinates);
   return status == PENDRES_OK ? scene_define(run) : scene_stored(run, status);
 }
 
@@ -393,8 +393,7 @@ static pendres_status put_paper(pendres_store *store, size_t n, const scene_prin
     number[i] = paper_value(&values[i], which);
     error[i] = values[i].error;
   }
-  return which == PAPER_PRINTED ? pendres_store_put(store, &spec, number, n)
-                                : pendres_store_put_result(store, &spec, number, error, n);
+  return pendres_store_put(store, &spec, number, which == PAPER_PRINTED ? NULL : error, n);
 }
 
 pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values)

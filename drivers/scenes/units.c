@@ -93,8 +93,8 @@ static pendres_status copy(scene_run *run, const char *name, const conversion *c
   for (size_t i = 0; i < (error != NULL ? 2 * n : n) && status == PENDRES_OK; i++)
     value[i] *= c->factor;
   if (status == PENDRES_OK)
-    status = error != NULL ? pendres_store_put_result(run->store, &spec, value, error, n)
-                           : pendres_store_put(run->store, &spec, value, n);
+    status = error != NULL ? pendres_store_put(run->store, &spec, value, error, n)
+                           : pendres_store_put(run->store, &spec, value, NULL, n);
   /* Axes stand in front of every other result already. */
   if (status == PENDRES_OK && rank <= 1 && (rank == 0 || strcmp(dimension[0], name) != 0))
     status = tell(run, &(result){converted, rank == 1 ? dimension[0] : NULL, n, value, error});
@@ -136,7 +136,7 @@ static pendres_status extend_coordinates(scene_run *run)
     if (list[0] != '\0') strcat(list, " ");
     strcat(list, names[i]);
   }
-  return pendres_store_attribute_text(run->store, "", NULL, "coordinates", list);
+  return pendres_store_attribute(run->store, "", NULL, "coordinates", list);
 }
 
 /* The copies join the members while these are gone through. */
@@ -157,7 +157,7 @@ pendres_status scene_write_units(scene_run *run)
     free(name);
   }
   if (status == PENDRES_OK || status == PENDRES_NOT_FOUND)
-    status = pendres_store_put(run->store, &spec, &natural, 1);
+    status = pendres_store_put(run->store, &spec, &natural, NULL, 1);
   if (status == PENDRES_OK) status = extend_coordinates(run);
   return scene_stored(run, status);
 }

@@ -68,15 +68,6 @@ typedef struct pendres_basin_state {
 } pendres_basin_state;
 
 /**
- * The error a drive period that labels of a grid are computed with at first: ten times the
- * tolerance, if that is tighter than the default of 1e-8. Else what a picture needs, a thousandth
- * of the smallest spacing, at most 1e-5 and at least ten times the tolerance. States about this
- * close to a basin's boundary may be on its other side: those that are not known to be certain are
- * PENDRES_BASIN_UNCERTAIN.
- */
-double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid);
-
-/**
  * The attractors that the states of a grid go to, from initial guesses spread evenly over it. *out
  * is to be freed by pendres_attractors_free.
  */

@@ -1,11 +1,10 @@
 /**
  * @file free.h
- * @brief The free pendulum by integration.
+ * @brief The free pendulum: its frequency by elliptic integrals, and by integration.
  *
  * Owns: the frequency of the undamped, undriven pendulum as a function of its
- * amplitude, found from the equation of motion alone. Its purpose is a check
- * from end to end: the answer is also known in closed form
- * (pendres_free_frequency in pendulum.h).
+ * amplitude: in closed form, and found from the equation of motion alone, which
+ * is a check from end to end.
  *
  * Equation: y'' = -sin y, y(0) = a, y'(0) = 0; the frequency is 2 pi / period.
  */
@@ -20,6 +19,26 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/**
+ * Exact frequency of the free undamped pendulum of amplitude 0 <= a < pi:
+ * pi / (2 K(k)), k = sin(a/2) (paper eqs. 1.3-1.5). NaN outside the range.
+ */
+double pendres_free_frequency(double amplitude);
+
+/** The free pendulum's frequency, and two approximations of it. NaN outside of the range. */
+typedef struct pendres_free {
+  double frequency;       /**< pendres_free_frequency() */
+  double frequency_error; /**< what rounding makes of it: some units in the last place by the
+                               formula, and what it makes that the amplitude itself is rounded to a
+                               double: next to pi the frequency f falls by f / ((pi - a) K) a
+                               radian */
+  double kittel;          /**< 1 - a^2/16 (paper eq. 1.1) */
+  double belendez;        /**< (1 + sqrt(cos(a/2)))^2 / 4, Belendez et al. (paper eq. 1.2) */
+} pendres_free;
+
+/** All of these at an amplitude a. Nothing happens if out is NULL. Thread safe. */
+void pendres_free_get(double amplitude, pendres_free *out);
 
 /**
  * Frequencies of n free pendulums.
@@ -41,7 +60,7 @@ extern "C" {
  *
  * Thread safety: as the context.
  */
-pendres_status pendres_free_frequency_integrate(pendres_context *ctx, size_t n,
+pendres_status pendres_free_find(pendres_context *ctx, size_t n,
                                                 const double *amplitude, double *frequency,
                                                 double *error);
 

@@ -184,16 +184,6 @@ pendres_status pendres_langevin_measure(pendres_context *ctx,
                                         pendres_langevin_cloud *cloud, double *strobe_x,
                                         double *strobe_v);
 
-/**
- * Merge n clouds of one pendulum, whose trajectories started at one point, into the cloud of all of
- * them. Errors of the parts combine as those of independent means. Parts that are empty, since all
- * trajectories have left, count in `left` and `exposure` only.
- *
- * Errors: PENDRES_INVALID_ARGUMENT if out is NULL, or parts is NULL and n > 0.
- */
-pendres_status pendres_langevin_merge(size_t n, const pendres_langevin_cloud *parts,
-                                      pendres_langevin_cloud *out);
-
 /** The systematic error (bias) that steps of finite length give a cloud. */
 typedef struct pendres_langevin_bias {
   int steps_per_period; /**< the steps a drive period whose bias it is */
@@ -205,17 +195,6 @@ typedef struct pendres_langevin_bias {
    *  deviation of x where that is larger; for the loop area the loop area. */
   double scale[PENDRES_LANGEVIN_STATISTICS];
 } pendres_langevin_bias;
-
-/**
- * Bias of n = request->steps_per_period steps a period for the cloud of a request, from pairs of
- * trajectories with n and 2 n steps and the same noise. At order four their difference is 15/16 of
- * the bias; *bias holds 16/15 of it. The noise differs from that of pendres_langevin_measure.
- *
- * Errors: as pendres_langevin_measure.
- */
-pendres_status pendres_langevin_measure_bias(pendres_context *ctx,
-                                             const pendres_langevin_request *request,
-                                             pendres_langevin_bias *bias);
 
 /**
  * Choose the steps a period by step doubling: the fewest found for which the bias of each of
@@ -240,18 +219,6 @@ typedef struct pendres_langevin_interval {
   double upper; /**< upper end of the confidence interval */
 } pendres_langevin_interval;
 
-/**
- * Rate of rare independent events, and its exact (Poisson) confidence interval of the given level,
- * 0 < level < 1. Garwood, Biometrika 28 (1936) 437; from 500 events on by Wilson and Hilferty's
- * approximation, whose error is below 1e-4 of the interval's width at levels from 0.1 to 0.999,
- * below 1e-3 beyond. events may be a fraction: a count divided by its dispersion.
- *
- * Errors: PENDRES_INVALID_ARGUMENT (then all of *rate is NaN, unless rate is NULL),
- * PENDRES_OUT_OF_MEMORY.
- */
-pendres_status pendres_langevin_rate(double events, double exposure, double level,
-                                     pendres_langevin_interval *rate);
-
 /* ---- Linear noise theory ----------------------------------------------------------------- */
 
 /** A symmetric 2 x 2 matrix over (x, v). */
@@ -260,15 +227,6 @@ typedef struct pendres_langevin_covariance {
   double xv; /**< covariance of x and v */
   double vv; /**< variance of v */
 } pendres_langevin_covariance;
-
-/**
- * Solve sigma = M sigma M^T + Q (the discrete Lyapunov equation): sigma is the covariance that a
- * linear map M with noise of covariance Q settles to. m holds M row by row (xx, xv, vx, vv).
- *
- * Errors: PENDRES_INVALID_ARGUMENT; PENDRES_NOT_FOUND if M does not contract.
- */
-pendres_status pendres_langevin_lyapunov(const double m[4], const pendres_langevin_covariance *q,
-                                         pendres_langevin_covariance *sigma);
 
 /** Linear noise theory along a closed orbit. */
 typedef struct pendres_langevin_linear {

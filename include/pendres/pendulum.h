@@ -161,29 +161,12 @@ pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **wh
 /** Acceleration x'' at position x, velocity v, time t, without noise. NaN if p is NULL. */
 double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double v, double t);
 
-/** Derivatives of the acceleration by x and v: *dx = -f'(x), *dv = -damping. The parametric drive,
-    which multiplies *dx by 1 + parametric_amplitude cos(drive_frequency t), is left out. dx and dv
-    may be NULL. If p is NULL, *dx is that of the plain pendulum and *dv is NaN. */
-void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v,
-                               double *dx, double *dv);
-
-/** Energy v^2/2 - sin x of the plain pendulum; the barrier top has energy 1, a well's bottom -1. */
-double pendres_pendulum_energy(double x, double v);
-
-/** Potential of p without its periodic drives, the integral of f - torque: -sin x - torque x, or
-    a1 x^2/2 + ... + a5 x^6/6 - torque x, or that of another force. NaN if p is NULL. */
-double pendres_pendulum_potential(const pendres_pendulum *p, double x);
-
-/** Number of the well of the plain pendulum that x lies in: n for
-    -pi/2 + 2 pi n < x <= 3 pi/2 + 2 pi n; 0 for NaN and where |x| >= 1e15. */
-long pendres_pendulum_well(double x);
-
 /**
- * Replace a state of the plain pendulum (of angle y = x - pi/2) by its mirror image, y -> -y and
- * v -> -v. A trajectory and its mirror image obey the same equation half a drive period
- * apart. x and v may be NULL.
+ * Energy of p without its periodic drives: v^2/2 and the potential, the integral of f - torque:
+ * -sin x - torque x, or a1 x^2/2 + ... + a5 x^6/6 - torque x, or that of another force. NaN if p is
+ * NULL. The plain pendulum's barrier top has energy 1, a well's bottom -1.
  */
-void pendres_pendulum_mirror(double *x, double *v);
+double pendres_pendulum_energy(const pendres_pendulum *p, double x, double v);
 
 /** Closed form of the driven harmonic oscillator y'' + gamma y' + y = F0 cos(omega t). */
 typedef struct pendres_harmonic {
@@ -198,25 +181,6 @@ typedef struct pendres_harmonic {
     area NaN. Returns PENDRES_OK, or PENDRES_INVALID_ARGUMENT if p is not valid or out is NULL.
     Source: Landau and Lifshitz, Mechanics, section 26. */
 pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harmonic *out);
-
-/**
- * Exact frequency of the free undamped pendulum of amplitude 0 <= a < pi:
- * pi / (2 K(k)), k = sin(a/2) (paper eqs. 1.3-1.5). NaN outside the range.
- */
-double pendres_free_frequency(double amplitude);
-
-/**
- * Error of pendres_free_frequency(): what rounding makes of it. Some units in the last place by the
- * formula, and what it makes that the amplitude itself is rounded to a double: next to pi the
- * frequency f falls by f / ((pi - a) K) a radian. NaN outside the range.
- */
-double pendres_free_frequency_error(double amplitude);
-
-/** Kittel's approximation 1 - a^2/16 (paper eq. 1.1). */
-double pendres_free_frequency_kittel(double amplitude);
-
-/** Approximation of Belendez et al., (1 + sqrt(cos(a/2)))^2 / 4 (paper eq. 1.2). */
-double pendres_free_frequency_belendez(double amplitude);
 
 #ifdef __cplusplus
 }

@@ -78,16 +78,13 @@ typedef struct pendres_ramp_jump {
 typedef struct pendres_ramp_record {
   long every;      /**< drive periods from one point to the next, at least 1. Point k is at time
                         k every, the first is the start */
-  double *x;       /**< [pendres_ramp_periods(ramp) / every + 1] position at drive phase 0, whole
+  double *x;       /**< [period[corners - 1] / every + 1] position at drive phase 0, whole
                         turns included */
   double *v;       /**< velocity, likewise */
   double *x_error; /**< error of x, from two runs of different steps; infinite from where these
                         have lost each other */
   double *v_error; /**< error of v, likewise */
 } pendres_ramp_record;
-
-/** Drive periods from the ramp's start to its end; 0 if it has none. */
-long pendres_ramp_periods(const pendres_ramp *ramp);
 
 /** The parameter at a time in drive periods; NaN before the start, behind the end, and without a
     ramp. */

@@ -67,12 +67,6 @@ typedef struct pendres_rotation {
 pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_onset *out);
 
 /**
- * The damping above which nothing rotates at a torque of 1, and from which on the least torque is
- * 1; and its error. PENDRES_INVALID_ARGUMENT without either. Thread safe.
- */
-pendres_status pendres_rotation_most_damping(double *damping, double *error);
-
-/**
  * The rotation of p, which has the pendulum's force and neither drive nor parametric drive; its
  * drive frequency is not used, the damping lies between 1e-9 and 100.
  *

@@ -53,9 +53,6 @@ void pendres_spectrum_free(pendres_spectrum *s);
  */
 pendres_status pendres_spectrum_add(pendres_spectrum *s, size_t n, const double *value);
 
-/** Segments averaged so far; 0 for NULL. What is left of the record after the last is not used. */
-size_t pendres_spectrum_segments(const pendres_spectrum *s);
-
 /** Frequencies of the spectrum: half as many as samples of a segment, and one; 0 for NULL. */
 size_t pendres_spectrum_count(const pendres_spectrum *s);
 

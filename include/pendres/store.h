@@ -12,7 +12,7 @@
  *
  *     if (pendres_store_create("run.h5", &(pendres_store_options){ .title = "A run" }, &store) ||
  *         pendres_store_dimension(store, &damping, n, gamma) ||
- *         pendres_store_put_result(store, &area, areas, errors, n) ||
+ *         pendres_store_put(store, &area, areas, errors, n) ||
  *         pendres_store_close(store))
  *       fprintf(stderr, "%s\n", pendres_store_message(store));
  *     pendres_store_free(store);
@@ -149,13 +149,6 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
 pendres_status pendres_store_close(pendres_store *store);
 
 /**
- * Give up: stop writing and remove PATH.part, or keep it if keep_part is not 0 (all that was
- * written up to now is then readable in it, provided no earlier call failed with PENDRES_IO).
- * PATH is not touched. As after pendres_store_close(), only message and free remain.
- */
-pendres_status pendres_store_abandon(pendres_store *store, int keep_part);
-
-/**
  * Remove PATH.part, unless it is whole, and do nothing else: for a program that is ended within a
  * call of the store, as HDF5 does by exit() when it gets no memory for a handle (and it may crash).
  * Only what a signal handler may do. NULL is allowed; a store without a part is left as it is.
@@ -175,9 +168,6 @@ const char *pendres_store_message(const pendres_store *store);
  *  here if the process is killed later. Costs a rewrite of chunks that are not full. */
 pendres_status pendres_store_flush(pendres_store *store);
 
-/** Make a group, and those above it. Not an error if it exists. */
-pendres_status pendres_store_group(pendres_store *store, const char *group);
-
 /**
  * Define a dimension and its scale. Of spec are read: group, name, which must be new, type,
  * long_name and units. values[size] of that type are written at once; NULL: 0, 1, ... size - 1 as
@@ -186,15 +176,14 @@ pendres_status pendres_store_group(pendres_store *store, const char *group);
 pendres_status pendres_store_dimension(pendres_store *store, const pendres_store_spec *spec,
                                        uint64_t size, const void *values);
 
-/** Define a variable; *id is what the writing functions take. The name must be new and the
- *  dimensions must exist in the same group. */
-pendres_status pendres_store_variable(pendres_store *store, const pendres_store_spec *spec,
-                                      int *id);
-
-/** Define a number NAME and, of the same shape and units, the double NAME_error, named in the
- *  attribute `ancillary_variables` of the first. Either both are made or none. */
-pendres_status pendres_store_result(pendres_store *store, const pendres_store_spec *spec, int *id,
-                                    int *error_id);
+/**
+ * Define a variable; *id is what the writing functions take. The name must be new and the
+ * dimensions must exist in the same group. Where error_id is not NULL it is a number with an error
+ * estimate: the double NAME_error of the same shape and units is defined too, and named in the
+ * attribute `ancillary_variables` of the first. Either both are made or none.
+ */
+pendres_status pendres_store_variable(pendres_store *store, const pendres_store_spec *spec, int *id,
+                                      int *error_id);
 
 /** Write a whole variable of n elements; n must be its size (1 for a scalar). data holds
  *  elements of its type, the last dimension fastest. */
@@ -205,31 +194,18 @@ pendres_status pendres_store_write(pendres_store *store, int id, const void *dat
 pendres_status pendres_store_write_rows(pendres_store *store, int id, uint64_t first,
                                         uint64_t rows, const void *data, size_t n);
 
-/** Define a variable and write all of it in one call. */
+/** Define a variable and write all of it in one call: with its error estimates error[n], if these
+ *  are not NULL. */
 pendres_status pendres_store_put(pendres_store *store, const pendres_store_spec *spec,
-                                 const void *data, size_t n);
-/** Define a result and its error estimate, and write all of both, in one call. */
-pendres_status pendres_store_put_result(pendres_store *store, const pendres_store_spec *spec,
-                                        const void *data, const double *error, size_t n);
-/** Define a scalar text and write it in one call. */
-pendres_status pendres_store_put_text(pendres_store *store, const char *group, const char *name,
-                                      const char *long_name, const char *text);
+                                 const void *data, const double *error, size_t n);
 
 /**
  * Set a text attribute of `object` (a variable or dimension of the group), or of the group itself
  * if object is NULL. An attribute that exists is replaced. Those that make the layout
  * (DIMENSION_LIST and the like) are not to be touched.
  */
-pendres_status pendres_store_attribute_text(pendres_store *store, const char *group,
-                                            const char *object, const char *name,
-                                            const char *value);
-/** The same with a double. */
-pendres_status pendres_store_attribute_double(pendres_store *store, const char *group,
-                                              const char *object, const char *name, double value);
-/** The same with a whole number. */
-pendres_status pendres_store_attribute_integer(pendres_store *store, const char *group,
-                                               const char *object, const char *name,
-                                               int64_t value);
+pendres_status pendres_store_attribute(pendres_store *store, const char *group,
+                                       const char *object, const char *name, const char *value);
 
 /** Write n entries as scalars of the group "provenance". May be called more than once. */
 pendres_status pendres_store_provenance(pendres_store *store, const pendres_store_entry *entries,

@@ -32,9 +32,6 @@ typedef struct pendres_range {
   size_t count; /**< how many values there are, both ends included */
 } pendres_range;
 
-/** Value number i < count; NaN beyond, or without a range. */
-double pendres_range_value(const pendres_range *range, size_t i);
-
 /**
  * The values of an axis: the union of a list and a range, ascending, repeated values dropped:
  * those of the range within their rounding error of a listed one.
@@ -113,9 +110,6 @@ pendres_status pendres_ensemble_check(const pendres_ensemble *e, const char **wh
 
 /** Start of member k = 1..members; x and v may be NULL. NaN if there is no such member. */
 void pendres_ensemble_start(const pendres_ensemble *e, size_t k, double *x, double *v);
-
-/** The x of that start alone. */
-double pendres_ensemble_x(const pendres_ensemble *e, size_t k);
 
 #ifdef __cplusplus
 }

@@ -123,7 +123,7 @@ typedef struct pendres_switching_rate {
  * (0 < level < 1). A trajectory that has come to t is counted when it is seen in the core there,
  * some time after it went, and by then may be back: events / exposure is too low by this time times
  * the rates of s to t and back, to first order, which is made up for. Cores of half and of twice
- * their size give the same rates then. The interval is that of pendres_langevin_rate, for events
+ * their size give the same rates then. The interval is the exact (Poisson) one, for events
  * and exposure that are divided by the dispersion where it exceeds 1, widened as the error is.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.

@@ -85,5 +85,5 @@ def free_frequency_integrate(amplitude, *, context=None):
     given = as_numbers(amplitude)
     values = np.ascontiguousarray(given)
     frequency, error = np.empty(values.shape), np.empty(values.shape)
-    c.free_frequency_integrate(default_context(context), values.size, values, frequency, error)
+    c.free_find(default_context(context), values.size, values, frequency, error)
     return frequency.reshape(given.shape)[()], error.reshape(given.shape)[()]

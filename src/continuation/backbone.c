@@ -10,6 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pendres/free.h>
+
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"

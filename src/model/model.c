@@ -162,7 +162,7 @@ static double polynomial_potential(const double *a, double x)
   return sum;
 }
 
-double pendres_pendulum_potential(const pendres_pendulum *p, double x)
+double pendres_model_potential(const pendres_pendulum *p, double x)
 {
   if (p == NULL) return NAN;
   switch (p->force) {

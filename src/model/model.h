@@ -83,4 +83,14 @@ int pendres_model_is_linear(const pendres_pendulum *p);
 /* Whether two pendulums have the same parameters, but for the temperature. */
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b);
 
+/* Derivatives of the acceleration by x and v: *dx = -f'(x), *dv = -damping. The parametric drive,
+    which multiplies *dx by 1 + parametric_amplitude cos(drive_frequency t), is left out. dx and dv
+    may be NULL. If p is NULL, *dx is that of the plain pendulum and *dv is NaN. */
+void pendres_model_jacobian(const pendres_pendulum *p, double x, double v,
+                            double *dx, double *dv);
+
+/* Potential of p without its periodic drives, the integral of f - torque: -sin x - torque x, or
+    a1 x^2/2 + ... + a5 x^6/6 - torque x, or that of another force. NaN if p is NULL. */
+double pendres_model_potential(const pendres_pendulum *p, double x);
+
 #endif

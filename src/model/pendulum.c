@@ -1,4 +1,5 @@
 /* pendulum.c -- the model and its exact neighbours; see pendulum.h. */
+#include <pendres/free.h>
 #include <pendres/pendulum.h>
 
 #include <float.h>
@@ -40,8 +41,7 @@ double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double
          force * (1.0 + p->parametric_amplitude * drive);
 }
 
-void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, double *dx,
-                               double *dv)
+void pendres_model_jacobian(const pendres_pendulum *p, double x, double v, double *dx, double *dv)
 {
   (void)v;
   if (dx != NULL && p != NULL && pendres_model_of(p->force) == NULL) {
@@ -56,23 +56,9 @@ void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, do
   if (dv != NULL) *dv = p != NULL ? -p->damping : NAN;
 }
 
-double pendres_pendulum_energy(double x, double v)
+double pendres_pendulum_energy(const pendres_pendulum *p, double x, double v)
 {
-  return 0.5 * v * v - sin(x);
-}
-
-long pendres_pendulum_well(double x)
-{
-  /* The well's upper end belongs to it: the paper's ensemble is half open
-     at the lower end. Positions beyond all reason have no well that a long can number. */
-  if (!(fabs(x) < 1e15)) return 0;
-  return (long)ceil((x - 3.0 * half_pi) / two_pi);
-}
-
-void pendres_pendulum_mirror(double *x, double *v)
-{
-  if (x != NULL) *x = 2.0 * half_pi - *x;
-  if (v != NULL) *v = -*v;
+  return 0.5 * v * v + pendres_model_potential(p, x);
 }
 
 pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harmonic *out)
@@ -103,20 +89,14 @@ double pendres_free_frequency(double amplitude)
   return half_pi / k.val;
 }
 
-double pendres_free_frequency_error(double amplitude)
+void pendres_free_get(double a, pendres_free *out)
 {
-  const double frequency = pendres_free_frequency(amplitude);
-  const double k = half_pi / frequency;
-  return frequency * DBL_EPSILON * (4.0 + 1.0 / ((two_pi / 2.0 - amplitude) * k));
-}
-
-double pendres_free_frequency_kittel(double amplitude)
-{
-  return 1.0 - amplitude * amplitude / 16.0;
-}
-
-double pendres_free_frequency_belendez(double amplitude)
-{
-  const double s = 1.0 + sqrt(cos(amplitude / 2.0));
-  return s * s / 4.0;
+  if (out == NULL) return;
+  const double frequency = pendres_free_frequency(a), k = half_pi / frequency;
+  const double s = 1.0 + sqrt(cos(a / 2.0));
+  *out = (pendres_free){
+    .frequency = frequency,
+    .frequency_error =
+      frequency * DBL_EPSILON * (4.0 + 1.0 / ((two_pi / 2.0 - a) * k)),
+    .kittel = 1.0 - a * a / 16.0, .belendez = s * s / 4.0};
 }

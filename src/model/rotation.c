@@ -229,13 +229,6 @@ static double gap_at_angle(double angle, void *params)
   return gap(m);
 }
 
-static double gap_at_damping(double damping, void *params)
-{
-  motion *m = params;
-  m->damping = damping;
-  return gap(m);
-}
-
 /* The angle of the least torque between 0 and pi/2, and what its rounding is: the gap's over its
    slope. */
 static double least_angle(double damping, finesse how, double *rounding)
@@ -275,25 +268,6 @@ pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_on
   out->torque_error = cos(angle) * (2.0 * fabs(angle - check) + rounding) +
                       DBL_EPSILON * out->torque;
   out->end = PENDRES_ROTATION_HOMOCLINIC;
-  return PENDRES_OK;
-}
-
-pendres_status pendres_rotation_most_damping(double *damping, double *error)
-{
-  enum { WAYS = 2 };
-  const double h = 1e-4;
-  const finesse how[WAYS] = {fine, coarser};
-  double found[WAYS];
-  if (damping == NULL || error == NULL) return PENDRES_INVALID_ARGUMENT;
-  motion m = {.torque = 1.0, .angle = half_pi};
-  for (int i = 0; i < WAYS; i++) {
-    m.how = how[i];
-    found[i] = zero_of(gap_at_damping, &m, 1.0, 1.5);
-  }
-  m.how = fine;
-  const double slope = (gap_at_damping(found[0] + h, &m) - gap_at_damping(found[0], &m)) / h;
-  *damping = found[0];
-  *error = 2.0 * fabs(found[0] - found[1]) + 32.0 * DBL_EPSILON / fabs(slope);
   return PENDRES_OK;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "noise/langevin_window.h"
+#include "noise/noise_common.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, GROWTH = 64, TRIALS = 12, ORDER = 4 };
 

@@ -16,6 +16,7 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "model/units.h"
+#include "noise/noise_common.h"
 
 /* What is integrated: the orbit, its variation row by row, and the covariance. */
 enum { X, V, MXX, MXV, MVX, MVV, CXX, CXV, CVV, SIZE };
@@ -23,7 +24,7 @@ enum { X, V, MXX, MXV, MVX, MVV, CXX, CXV, CVV, SIZE };
 static void slope(const pendres_pendulum *p, double t, const double s[SIZE], double d[SIZE])
 {
   double jx, jv;
-  pendres_pendulum_jacobian(p, s[X], s[V], &jx, &jv);
+  pendres_model_jacobian(p, s[X], s[V], &jx, &jv);
   if (p->parametric_amplitude != 0.0)
     jx *= 1.0 + p->parametric_amplitude * cos(p->drive_frequency * t);
   d[X] = s[V];

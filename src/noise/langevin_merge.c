@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/angles.h"
+#include "noise/noise_common.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 

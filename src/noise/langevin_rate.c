@@ -8,6 +8,7 @@
 #include <gsl/gsl_roots.h>
 
 #include "base/student.h"
+#include "noise/noise_common.h"
 
 /*
  * A point of the gamma distribution of unit scale: beyond it, or up to it, lies a share `tail`.

@@ -60,7 +60,7 @@ static int gone(const counting *c, double x, double v)
   if (isnan(c->bottom)) return 0;
   if (!isfinite(x) || !isfinite(v)) return 1;
   return pendres_model_escapes(p, x - pendres_model_origin(p), v) &&
-         !(pendres_pendulum_potential(p, x) > c->bottom);
+         !(pendres_model_potential(p, x) > c->bottom);
 }
 
 static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *strobe)
@@ -188,7 +188,7 @@ static void start(const pendres_switching_request *q, counting *c)
   }
   c->bottom = !pendres_pendulum_leaves(&q->pendulum)
                 ? NAN
-                : pendres_pendulum_potential(&q->pendulum, home->x) -
+                : pendres_model_potential(&q->pendulum, home->x) -
                     no_return * q->pendulum.temperature;
 }
 

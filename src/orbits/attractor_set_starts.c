@@ -41,7 +41,7 @@ static size_t in_well(const pendres_pendulum *p, const double u[POINTS], int i, 
     const double part = (k + 0.5) / ACROSS;
     const double y = place(low) + part * (place(high) - place(low));
     const double at = pendres_model_origin(p) + y;
-    const double fastest = sqrt(2.0 * fmax(0.0, top - pendres_pendulum_potential(p, at)));
+    const double fastest = sqrt(2.0 * fmax(0.0, top - pendres_model_potential(p, at)));
     for (int j = -1; j <= 1; j++) {
       x[n] = at;
       v[n++] = 0.7 * fastest * j;
@@ -63,7 +63,7 @@ size_t pendres_attractor_set_starts(const pendres_pendulum *p,
   if (pendres_model_of(p->force)->period > 0.0) return n;
   double u[POINTS];
   for (int i = 0; i < POINTS; i++)
-    u[i] = pendres_pendulum_potential(p, pendres_model_origin(p) + place(i));
+    u[i] = pendres_model_potential(p, pendres_model_origin(p) + place(i));
   for (int i = 1, wells = 0; i + 1 < POINTS && wells < MOST_WELLS; i++) {
     if (!(u[i] < u[i - 1] && u[i] <= u[i + 1])) continue;
     const size_t more = in_well(p, u, i, x + n, v + n);

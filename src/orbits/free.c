@@ -37,7 +37,9 @@ typedef struct swing {
    the elliptic integral (Abramowitz and Stegun 17.3.26). */
 static double guess(double amplitude)
 {
-  if (amplitude < 2.8) return pendres_free_frequency_belendez(amplitude);
+  pendres_free f;
+  pendres_free_get(amplitude, &f);
+  if (amplitude < 2.8) return f.belendez;
   return 0.5 * pi / log(4.0 / sin(0.5 * (pi - amplitude)));
 }
 
@@ -213,7 +215,7 @@ static pendres_status free_frequency_integrate(pendres_context *ctx, size_t n,
   return find_all(ctx, n, amplitude, frequency, error);
 }
 
-pendres_status pendres_free_frequency_integrate(pendres_context *ctx, size_t n,
+pendres_status pendres_free_find(pendres_context *ctx, size_t n,
                                                 const double *amplitude, double *frequency,
                                                 double *error)
 {

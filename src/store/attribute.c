@@ -75,9 +75,8 @@ static pendres_status target(pendres_store *store, const char *group, const char
   return status;
 }
 
-pendres_status pendres_store_attribute_text(pendres_store *store, const char *group,
-                                            const char *object, const char *name,
-                                            const char *value)
+pendres_status pendres_store_attribute(pendres_store *store, const char *group,
+                                       const char *object, const char *name, const char *value)
 {
   pendres_store_quiet quiet;
   pendres_status status = pendres_store_enter(store, &quiet, 1);
@@ -88,33 +87,6 @@ pendres_status pendres_store_attribute_text(pendres_store *store, const char *gr
   if (!status) status = target(store, group, object, name, &id);
   if (!status) status = pendres_store_set_text(store, id, name, value);
   return pendres_store_leave(store, &quiet, status);
-}
-
-static pendres_status set_number(pendres_store *store, const char *group, const char *object,
-                                 const char *name, const pendres_store_value *value)
-{
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
-  hid_t id = H5I_INVALID_HID;
-
-  if (!status) status = target(store, group, object, name, &id);
-  if (!status) status = pendres_store_set(store, id, name, value);
-  return pendres_store_leave(store, &quiet, status);
-}
-
-pendres_status pendres_store_attribute_double(pendres_store *store, const char *group,
-                                              const char *object, const char *name, double value)
-{
-  return set_number(store, group, object, name,
-                    &(pendres_store_value){ H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 0, &value });
-}
-
-pendres_status pendres_store_attribute_integer(pendres_store *store, const char *group,
-                                               const char *object, const char *name,
-                                               int64_t value)
-{
-  return set_number(store, group, object, name,
-                    &(pendres_store_value){ H5T_STD_I64LE, H5T_NATIVE_INT64, 0, &value });
 }
 
 pendres_status pendres_store_provenance(pendres_store *store, const pendres_store_entry *entries,
@@ -139,7 +111,7 @@ pendres_status pendres_store_provenance(pendres_store *store, const pendres_stor
 
     status = pendres_store_put(store, &spec, entry->text ? (const void *)&entry->text
                                : entry->is_integer ? (const void *)&entry->integer
-                               : (const void *)&entry->number, 1);
+                               : (const void *)&entry->number, NULL, 1);
   }
   return status;
 }

@@ -302,37 +302,15 @@ pendres_status pendres_store_write(pendres_store *store, int id, const void *dat
 /* ---- Define and write in one call ------------------------------------------------------------ */
 
 pendres_status pendres_store_put(pendres_store *store, const pendres_store_spec *spec,
-                                 const void *data, size_t n)
+                                 const void *data, const double *error, size_t n)
 {
-  int id = -1;
+  int id = -1, error_id = -1;
   /* This is checked before a variable is made that would stay empty. */
   if (store && spec && n && !data)
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "'%s': no data",
                               spec->name ? spec->name : "");
-  pendres_status status = pendres_store_variable(store, spec, &id);
-
-  return status ? status : pendres_store_write(store, id, data, n);
-}
-
-pendres_status pendres_store_put_result(pendres_store *store, const pendres_store_spec *spec,
-                                        const void *data, const double *error, size_t n)
-{
-  int id = -1, error_id = -1;
-  if (store && spec && n && (!data || !error))
-    return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "'%s': no data or no errors",
-                              spec->name ? spec->name : "");
-  pendres_status status = pendres_store_result(store, spec, &id, &error_id);
+  pendres_status status = pendres_store_variable(store, spec, &id, error ? &error_id : NULL);
 
   if (!status) status = pendres_store_write(store, id, data, n);
-  return status ? status : pendres_store_write(store, error_id, error, n);
-}
-
-pendres_status pendres_store_put_text(pendres_store *store, const char *group, const char *name,
-                                      const char *long_name, const char *text)
-{
-  const pendres_store_spec spec = {
-    .group = group, .name = name, .long_name = long_name, .type = PENDRES_STORE_STRING
-  };
-
-  return pendres_store_put(store, &spec, text ? &text : NULL, 1);
+  return status || !error ? status : pendres_store_write(store, error_id, error, n);
 }

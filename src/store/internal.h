@@ -140,4 +140,14 @@ pendres_status pendres_store_make(pendres_store *store, const char *path,
 pendres_status pendres_store_node_write(pendres_store *store, const pendres_store_node *node,
                                         uint64_t first, uint64_t rows, const void *data);
 
+/* Make a group, and those above it. Not an error if it exists. */
+pendres_status pendres_store_group(pendres_store *store, const char *group);
+
+/*
+ * Give up: stop writing and remove PATH.part, or keep it if keep_part is not 0 (all that was
+ * written up to now is then readable in it, provided no earlier call failed with PENDRES_IO).
+ * PATH is not touched. As after pendres_store_close(), only message and free remain.
+ */
+pendres_status pendres_store_abandon(pendres_store *store, int keep_part);
+
 #endif

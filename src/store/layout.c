@@ -355,23 +355,6 @@ static pendres_status make_variable(pendres_store *store, const pendres_store_sp
   return status;
 }
 
-pendres_status pendres_store_variable(pendres_store *store, const pendres_store_spec *spec,
-                                      int *id)
-{
-  pendres_store_quiet quiet;
-  pendres_store_node node;
-  char *path = NULL;
-  int made = -1;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
-
-  if (!status) status = check_spec(store, spec, &node, &path);
-  if (!status) status = make_variable(store, spec, &node, path, &made);
-  status = pendres_store_leave(store, &quiet, status);
-  if (id) *id = status ? -1 : made;
-  free(path);
-  return status;
-}
-
 /* "NAME_error" and "error estimate of LONG NAME"; both malloc'd. */
 static pendres_status error_names(const pendres_store_spec *spec, char **name, char **long_name)
 {
@@ -385,40 +368,49 @@ static pendres_status error_names(const pendres_store_spec *spec, char **name, c
   return PENDRES_OK;
 }
 
-pendres_status pendres_store_result(pendres_store *store, const pendres_store_spec *spec, int *id,
-                                    int *error_id)
+/* What the error estimate of a variable is; its names are malloc'd. */
+static pendres_status error_of(pendres_store *store, const pendres_store_spec *spec,
+                               pendres_store_spec *out)
+{
+  char *name = NULL, *long_name = NULL;
+  if (spec->type == PENDRES_STORE_STRING)
+    return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT,
+                              "'%s': a text has no error estimate", spec->name);
+  const pendres_status status = error_names(spec, &name, &long_name);
+  *out = *spec;
+  out->name = name;
+  out->long_name = long_name;
+  out->type = PENDRES_STORE_DOUBLE;
+  out->flag_count = 0;
+  out->comment = NULL;
+  return status;
+}
+
+pendres_status pendres_store_variable(pendres_store *store, const pendres_store_spec *spec, int *id,
+                                      int *error_id)
 {
   pendres_store_quiet quiet;
   pendres_store_spec error = { 0 };
   pendres_store_node node, error_node;
-  char *path = NULL, *error_path = NULL, *name = NULL, *long_name = NULL;
+  char *path = NULL, *error_path = NULL;
   int made = -1, error_made = -1;
   pendres_status status = pendres_store_enter(store, &quiet, 1);
 
   if (!status) status = check_spec(store, spec, &node, &path);
-  if (!status && spec->type == PENDRES_STORE_STRING)
-    status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT,
-                                "'%s': a text has no error estimate", spec->name);
-  if (!status) status = error_names(spec, &name, &long_name);
-  if (!status) {
-    error = *spec;
-    error.name = name;
-    error.long_name = long_name;
-    error.type = PENDRES_STORE_DOUBLE;
-    error.flag_count = 0;
-    error.comment = NULL;
-    status = check_spec(store, &error, &error_node, &error_path);
-  }
+  if (!status && error_id) status = error_of(store, spec, &error);
+  if (!status && error_id) status = check_spec(store, &error, &error_node, &error_path);
   if (!status) status = make_variable(store, spec, &node, path, &made);
-  if (!status)
-    status = pendres_store_set_text(store, store->nodes[made].id, "ancillary_variables", name);
-  if (!status) status = make_variable(store, &error, &error_node, error_path, &error_made);
+  if (!status && error_id)
+    status =
+      pendres_store_set_text(store, store->nodes[made].id, "ancillary_variables", error.name);
+  if (!status && error_id)
+    status = make_variable(store, &error, &error_node, error_path, &error_made);
   status = pendres_store_leave(store, &quiet, status);
   if (id) *id = status ? -1 : made;
   if (error_id) *error_id = status ? -1 : error_made;
   free(path);
   free(error_path);
-  free(name);
-  free(long_name);
+  free((char *)error.name);
+  free((char *)error.long_name);
   return status;
 }

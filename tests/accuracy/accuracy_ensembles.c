@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "states_fixture.h"
+
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
@@ -71,7 +73,7 @@ static void compute(accuracy_random *r, void *of, long number)
   pendres_context_free(ctx);
   t->known = status == PENDRES_OK && t->found.states > 0;
   for (size_t k = 1; k <= MEMBERS && t->known; k++) {
-    const int s = true_state(t, pendres_ensemble_x(&t->ensemble, k));
+    const int s = true_state(t, member_x(&t->ensemble, k));
     if (s < 0) {
       t->known = 0;
       break;

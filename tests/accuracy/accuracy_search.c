@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "analysis/sweeps/sweep.h"
+
 enum { FREQUENCIES = 400, PART = 20, HOW = 200 };
 
 /* Where every member is chaotic a response takes seconds: what this long is not enough for stays

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "orbits/attractor_internal.h"
+#include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"

@@ -17,4 +17,13 @@ pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double mos
                                                 const pendres_basin_sample *sample,
                                                 pendres_basin_statistics *out);
 
+/*
+ * The error a drive period that labels of a grid are computed with at first: ten times the
+ * tolerance, if that is tighter than the default of 1e-8. Else what a picture needs, a thousandth
+ * of the smallest spacing, at most 1e-5 and at least ten times the tolerance. States about this
+ * close to a basin's boundary may be on its other side: those that are not known to be certain are
+ * PENDRES_BASIN_UNCERTAIN.
+ */
+double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid);
+
 #endif

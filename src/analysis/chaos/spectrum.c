@@ -32,11 +32,6 @@ size_t pendres_spectrum_count(const pendres_spectrum *s)
   return s != NULL ? s->length / 2 + 1 : 0;
 }
 
-size_t pendres_spectrum_segments(const pendres_spectrum *s)
-{
-  return s != NULL ? s->segments : 0;
-}
-
 void pendres_spectrum_free(pendres_spectrum *s)
 {
   if (s == NULL) return;

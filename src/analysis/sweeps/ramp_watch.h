@@ -77,4 +77,7 @@ void pendres_ramp_watch_see(pendres_ramp_watch *w, const pendres_langevin_strobe
 /* End the run: trajectories that are outside of their state have left it. */
 void pendres_ramp_watch_end(pendres_ramp_watch *w);
 
+/* Drive periods from the ramp's start to its end; 0 if it has none. */
+long pendres_ramp_periods(const pendres_ramp *ramp);
+
 #endif

@@ -1,5 +1,5 @@
 /* sweep.c -- axes and index arithmetic; see sweep.h. */
-#include <pendres/sweep.h>
+#include "analysis/sweeps/sweep.h"
 
 #include <float.h>
 #include <math.h>
@@ -195,9 +195,3 @@ void pendres_ensemble_start(const pendres_ensemble *e, size_t k, double *x, doub
   if (v != NULL) *v = at_v;
 }
 
-double pendres_ensemble_x(const pendres_ensemble *e, size_t k)
-{
-  double x = NAN;
-  pendres_ensemble_start(e, k, &x, NULL);
-  return x;
-}
