@@ -18,7 +18,7 @@ void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v)
   pendres_coordinates_out(l->pendulum, &s, x, v);
 }
 
-double pendres_strobe_doubt(double distance)
+double pendres_strobe_error(double distance)
 {
   return distance < 0.1 ? 2.0 * distance : INFINITY;
 }

@@ -41,7 +41,7 @@ void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v)
  * is therefore at least half the error. Where the runs are a tenth of a radian apart they have
  * separated, and the estimate is infinite.
  */
-double pendres_strobe_doubt(double distance);
+double pendres_strobe_error(double distance);
 
 /* Fail with the message that the state of a pendulum is not a number after `period` periods. */
 pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum *p, long period);

@@ -309,7 +309,7 @@ static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
 /* So much of the share of the transitions that is missed is claimed as an error, for what is of
    second order: in a double well with barriers of 3 to 5 temperatures a tenth was seen. Where half
    are missed nothing of second order is known, and all of it is claimed. */
-static const double doubt = 0.125, most_missed = 0.5;
+static const double second_order = 0.125, most_missed = 0.5;
 
 /*
  * The share of the transitions that is missed: a trajectory is seen on its new state only when it
@@ -353,7 +353,7 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
   const pendres_status status =
     pendres_langevin_rate(rate->events / d, rate->exposure / d, level, &i);
   if (status != PENDRES_OK) return status;
-  const double lost = missed(tally, s, t), off = lost < most_missed ? doubt * lost : lost;
+  const double lost = missed(tally, s, t), off = lost < most_missed ? second_order * lost : lost;
   rate->value = i.value / (1.0 - lost);
   rate->lower = i.lower / (1.0 - lost) * (1.0 - off);
   rate->upper = i.upper / (1.0 - lost) * (1.0 + off);

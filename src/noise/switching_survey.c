@@ -179,7 +179,7 @@ static void compare_ends(const pendres_switching_survey *q, const pendres_switch
   for (int s = 0; s < 2; s++) {
     if (q->state[s] < 0) continue;
     const double p = all->ends[q->state[s]] / n;
-    /* One in doubt is one trajectory at least. */
+    /* One uncertain state is one trajectory at least. */
     r->occupation[s] = (pendres_langevin_estimate){p, fmax(sqrt(p * (1.0 - p) / n), 1.0 / n)};
   }
   if (q->state[0] < 0 || q->state[1] < 0 || all->states != 2 ||

@@ -105,7 +105,8 @@ static void left_over(const result *coarse, const result *fine, double left[2])
   for (int i = 0; i < 2; i++) left[i] = rest * fabs(left[i]);
 }
 
-static void set_slope(const result *coarse, const result *fine, const pendres_orbit_doubt *doubt,
+static void set_slope(const result *coarse, const result *fine,
+                      const pendres_orbit_uncertainty *uncertainty,
                       double rounding, pendres_orbit *o, double rounded[2])
 {
   const double omega = o->pendulum.drive_frequency, drive = fabs(o->pendulum.drive_amplitude);
@@ -117,15 +118,15 @@ static void set_slope(const result *coarse, const result *fine, const pendres_or
   o->loop_area_slope = fine->slope;
   /* The slope depends on the derivative of the point as the other measures do on the point. */
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
-  const pendres_orbit_doubt slope_doubt = {
-    .apart = 1.5 * (derivative + doubt->apart),
-    .rounding = 2.0 * doubt->rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
+  const pendres_orbit_uncertainty slope_uncertainty = {
+    .apart = 1.5 * (derivative + uncertainty->apart),
+    .rounding = 2.0 * uncertainty->rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
                 12.0 * rounding * fine->derivative};
   o->loop_area_slope_error =
-    pendres_orbit_error(coarse->slope, fine->slope, pi * drive, &slope_doubt) +
+    pendres_orbit_error(coarse->slope, fine->slope, pi * drive, &slope_uncertainty) +
     1.5 * fabs(fine->slope_apart);
-  rounded[0] = doubt->rounding;
-  rounded[1] = pi * drive * slope_doubt.rounding;
+  rounded[0] = uncertainty->rounding;
+  rounded[1] = pi * drive * slope_uncertainty.rounding;
 }
 
 /* rounding: what all steps of the orbit leave of an angle of order one. */

@@ -17,9 +17,10 @@
  * an eighth of the difference of the whole orbits could make.
  */
 double pendres_orbit_error(double coarse, double fine, double sensitivity,
-                           const pendres_orbit_doubt *doubt)
+                           const pendres_orbit_uncertainty *uncertainty)
 {
-  return 0.25 * fabs(fine - coarse) + sensitivity * (0.12 * doubt->apart + doubt->rounding);
+  return 0.25 * fabs(fine - coarse) +
+         sensitivity * (0.12 * uncertainty->apart + uncertainty->rounding);
 }
 
 /*
@@ -37,7 +38,7 @@ static long turns_of_mean(const pendres_pendulum *p, double mean)
 
 /* The values of the table's measures and their errors. */
 static void set_rows(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
-                     const pendres_orbit_doubt *doubt, pendres_orbit *o)
+                     const pendres_orbit_uncertainty *uncertainty, pendres_orbit *o)
 {
   const pendres_orbit_row *row;
   for (size_t k = 0; (row = pendres_orbit_row_get(k)) != NULL; k++) {
@@ -48,7 +49,7 @@ static void set_rows(const pendres_orbit_measures *a, const pendres_orbit_measur
     if (error == NULL) continue;
     if (row->angle) coarse = fine->value + remainder(coarse - fine->value, two_pi);
     *error =
-      pendres_orbit_error(coarse, fine->value, fine->sensitivity, doubt) + fine->unresolved;
+      pendres_orbit_error(coarse, fine->value, fine->sensitivity, uncertainty) + fine->unresolved;
   }
 }
 
@@ -58,7 +59,7 @@ static void set_rows(const pendres_orbit_measures *a, const pendres_orbit_measur
  * swings about a bottom or a top, which all are centres.
  */
 static int is_symmetric(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
-                        const pendres_orbit_doubt *doubt, const pendres_orbit *o)
+                        const pendres_orbit_uncertainty *uncertainty, const pendres_orbit *o)
 {
   const double nothing = 1e-7 * fmax(1.0, b->amplitude);
   if (o->winding != 0 || !pendres_pendulum_symmetric(&o->pendulum)) return 0;
@@ -66,19 +67,19 @@ static int is_symmetric(const pendres_orbit_measures *a, const pendres_orbit_mea
   if (pendres_model_of(o->pendulum.force)->period > 0.0) return 1;
   const double centre = pendres_model_centre(&o->pendulum, b->mean_angle);
   return fabs(b->mean_angle - centre) <=
-         nothing + pendres_orbit_error(a->mean_angle, b->mean_angle, 1.0, doubt);
+         nothing + pendres_orbit_error(a->mean_angle, b->mean_angle, 1.0, uncertainty);
 }
 
 /* Everything but the point, the multipliers and the slopes. Returns the whole turns by which the
    orbit's mean lies outside of well 0. */
 static long set_measures(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
-                         const pendres_orbit_doubt *doubt, pendres_orbit *o)
+                         const pendres_orbit_uncertainty *uncertainty, pendres_orbit *o)
 {
   const pendres_pendulum *p = &o->pendulum;
   const double omega = p->drive_frequency;
   const long turns = turns_of_mean(p, b->mean_angle);
 
-  set_rows(a, b, doubt, o);
+  set_rows(a, b, uncertainty, o);
   o->mean_angle = b->mean_angle - two_pi * (double)turns;
   /* What the drives and the torque give is dissipated. A difference is an error of one of the two
      at least. */
@@ -93,7 +94,7 @@ static long set_measures(const pendres_orbit_measures *a, const pendres_orbit_me
   memcpy(o->cosine, b->cosine, sizeof o->cosine);
   memcpy(o->sine, b->sine, sizeof o->sine);
   o->harmonics_rest = b->harmonics_rest;
-  o->symmetric = is_symmetric(a, b, doubt, o);
+  o->symmetric = is_symmetric(a, b, uncertainty, o);
   return turns;
 }
 
@@ -128,7 +129,8 @@ static double size_of(const double (*m)[2])
 /* The error of the trace. Its two parts are looked at one by one, since their sum may agree by
    chance. With few steps both parts may agree by chance: then the entries off the diagonal tell, in
    units in which they are equal. */
-static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt)
+static double trace_error_of(const pendres_orbit_spectrum *s,
+                             const pendres_orbit_uncertainty *uncertainty)
 {
   const double upper = s->fine[0][0] - s->coarse[0][0], lower = s->fine[1][1] - s->coarse[1][1];
   const double bend = hypot(s->by_point[0][0][0] + s->by_point[0][1][1],
@@ -136,11 +138,12 @@ static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbi
   const double across =
     sqrt(fabs((s->fine[0][1] - s->coarse[0][1]) * (s->fine[1][0] - s->coarse[1][0])));
   return 0.3 * fabs(upper + lower) + 0.3 * (fabs(upper) + fabs(lower)) + 0.04 * across +
-         bend * (0.1 * doubt->apart + doubt->rounding) + s->left * size_of(s->fine);
+         bend * (0.1 * uncertainty->apart + uncertainty->rounding) + s->left * size_of(s->fine);
 }
 
 /* Monodromy matrix, multipliers and their error. */
-static void set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt,
+static void set_spectrum(const pendres_orbit_spectrum *s,
+                         const pendres_orbit_uncertainty *uncertainty,
                          pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency;
@@ -148,7 +151,7 @@ static void set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_do
   const double trace = s->fine[0][0] + s->fine[1][1];
   const double determinant =
     s->fine[0][0] * s->fine[1][1] - s->fine[0][1] * s->fine[1][0];
-  double trace_error = trace_error_of(s, doubt);
+  double trace_error = trace_error_of(s, uncertainty);
 
   o->monodromy[0][0] = s->fine[0][0];
   o->monodromy[0][1] = s->fine[0][1] / omega;
@@ -173,16 +176,16 @@ static void set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_do
 static void set_point(const pendres_orbit_twice *two, long turns, pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency;
-  const pendres_orbit_doubt *doubt = &two->at_start;
+  const pendres_orbit_uncertainty *uncertainty = &two->at_start;
   const pendres_coordinates s = {.y = two->fine[0], .w = two->fine[1], .turns = -turns};
   pendres_coordinates_out(&o->pendulum, &s, &o->x, &o->v);
   /* x itself is a double, and half of pi is none. */
-  o->x_error = pendres_orbit_error(two->coarse[0], two->fine[0], 1.0, doubt) + two->left[0] +
+  o->x_error = pendres_orbit_error(two->coarse[0], two->fine[0], 1.0, uncertainty) + two->left[0] +
                0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
   /* Errors by rounding swing between y and v: below omega = 1, v has those of y. */
   const double w_error =
-    pendres_orbit_error(two->coarse[1], two->fine[1], 1.0, doubt) + two->left[1];
-  o->v_error = omega * w_error + fmax(0.0, 1.0 - omega) * doubt->rounding;
+    pendres_orbit_error(two->coarse[1], two->fine[1], 1.0, uncertainty) + two->left[1];
+  o->v_error = omega * w_error + fmax(0.0, 1.0 - omega) * uncertainty->rounding;
 }
 
 void pendres_orbit_set(const pendres_orbit_twice *two, pendres_orbit *o)

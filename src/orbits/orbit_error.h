@@ -11,14 +11,14 @@
 #include "orbits/orbit_measure.h"
 
 /* How well an orbit is known, from two computations. */
-typedef struct pendres_orbit_doubt {
+typedef struct pendres_orbit_uncertainty {
   double apart;    /* difference of the two, in y and w, anywhere on the orbit */
   double rounding; /* rounding error of y and w */
-} pendres_orbit_doubt;
+} pendres_orbit_uncertainty;
 
 /* Error of the finer of two values; sensitivity: its derivative by y and w. */
 double pendres_orbit_error(double coarse, double fine, double sensitivity,
-                           const pendres_orbit_doubt *doubt);
+                           const pendres_orbit_uncertainty *uncertainty);
 
 /*
  * The distance of two computations at a short distance from the orbit, from the difference of the
@@ -46,7 +46,7 @@ typedef struct pendres_orbit_twice {
   double coarse[2], fine[2];  /* y and w at phase 0 */
   double left[2];             /* further errors of the finer one, in y and w */
   const pendres_orbit_measures *coarse_measures, *fine_measures;
-  pendres_orbit_doubt at_start, along; /* at phase 0, and anywhere */
+  pendres_orbit_uncertainty at_start, along; /* at phase 0, and anywhere */
   pendres_orbit_spectrum spectrum;
 } pendres_orbit_twice;
 

@@ -97,9 +97,9 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   const double *x = from->x, *v = from->v;
   const double accuracy = pendres_accuracy_to_settle(ctx);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
-  double *doubt = malloc((n + 1) * sizeof *doubt);
+  double *error_ratio = malloc((n + 1) * sizeof *error_ratio);
   long *budget = malloc((sets + 1) * sizeof *budget);
-  if (lanes == NULL || doubt == NULL || budget == NULL) {
+  if (lanes == NULL || error_ratio == NULL || budget == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
     goto done;
   }
@@ -107,7 +107,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum *p = &attractor_sets[set[i]].pendulum;
     outcome[i] = pendres_settle_unresolved;
-    doubt[i] = NAN;
+    error_ratio[i] = NAN;
     last = speed;
     speed = pendres_steps_speed(p, x[i], v[i]);
     if (i > 0 && set[i] == set[i - 1] && speed == last)
@@ -124,7 +124,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   if (status == PENDRES_OK) status = send_guesses(ctx, sets, attractor_sets, n, set, lanes);
   pendres_settle_labelling l = {
     .attractor_sets =
-      attractor_sets, .set = set, .budget = budget, .outcome = outcome, .doubt = doubt};
+      attractor_sets, .set = set, .budget = budget, .outcome = outcome, .error_ratio = error_ratio};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
   if (status == PENDRES_OK)
     status = pendres_settle_search(
@@ -139,7 +139,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   ctx->cost.settled_pendulums += (double)n;
 done:
   free(lanes);
-  free(doubt);
+  free(error_ratio);
   free(budget);
   return status;
 }
@@ -214,8 +214,8 @@ pendres_status pendres_settle_known(pendres_context *ctx,
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   size_t *order = malloc((n + 1) * sizeof *order);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
-  double *doubt = malloc((n + 1) * sizeof *doubt);
-  if (order == NULL || lanes == NULL || doubt == NULL) {
+  double *error_ratio = malloc((n + 1) * sizeof *error_ratio);
+  if (order == NULL || lanes == NULL || error_ratio == NULL) {
     (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
     goto done;
   }
@@ -224,13 +224,13 @@ pendres_status pendres_settle_known(pendres_context *ctx,
   order_by_steps(n, lanes, order);
   for (size_t i = 0; i < n; i++) {
     outcome[i] = pendres_settle_unresolved;
-    doubt[i] = NAN;
+    error_ratio[i] = NAN;
   }
   long most = pendres_settle_last_budget(ctx, attractor_set);
   const long soon = pendres_settle_first_budget(&attractor_set->pendulum);
   if (budget == PENDRES_SETTLE_SHORT && soon < most) most = soon;
   pendres_settle_labelling l = {.attractor_sets = attractor_set, .order = order, .budget = &most,
-                                .outcome = outcome, .doubt = doubt};
+                                .outcome = outcome, .error_ratio = error_ratio};
   status = pendres_settle_lanes(ctx, n, lanes, &l);
   const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = starts->x, .v = starts->v,
                                             .accuracy = accuracy};
@@ -239,6 +239,6 @@ pendres_status pendres_settle_known(pendres_context *ctx,
 done:
   free(order);
   free(lanes);
-  free(doubt);
+  free(error_ratio);
   return status;
 }

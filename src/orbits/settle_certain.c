@@ -12,41 +12,41 @@ static const double most_exact = 1e-14;
    the run before. */
 static const double to_spare = 4.0, at_least = 30.0;
 
-/* The pendulums in doubt that are to be run again. */
-typedef struct doubtful {
+/* The pendulums with uncertain labels that are to be run again. */
+typedef struct uncertain_labels {
   size_t count;
   size_t *index; /* in the batch */
   size_t *set;
   pendres_strobe_lane *lanes;
   pendres_outcome *outcome;
-  double *doubt, *accuracy; /* of the latest run */
-} doubtful;
+  double *error_ratio, *accuracy; /* of the latest run */
+} uncertain_labels;
 
-static void free_doubtful(doubtful *d)
+static void free_uncertain(uncertain_labels *d)
 {
   free(d->index);
   free(d->set);
   free(d->lanes);
   free(d->outcome);
-  free(d->doubt);
+  free(d->error_ratio);
   free(d->accuracy);
 }
 
-static pendres_status allocate_doubtful(pendres_context *ctx, doubtful *d, size_t n)
+static pendres_status allocate_uncertain(pendres_context *ctx, uncertain_labels *d, size_t n)
 {
   d->index = malloc(n * sizeof *d->index);
   d->set = malloc(n * sizeof *d->set);
   d->lanes = malloc(n * sizeof *d->lanes);
   d->outcome = malloc(n * sizeof *d->outcome);
-  d->doubt = malloc(n * sizeof *d->doubt);
+  d->error_ratio = malloc(n * sizeof *d->error_ratio);
   d->accuracy = malloc(n * sizeof *d->accuracy);
   if (d->index == NULL || d->set == NULL || d->lanes == NULL ||
-      d->outcome == NULL || d->doubt == NULL || d->accuracy == NULL)
+      d->outcome == NULL || d->error_ratio == NULL || d->accuracy == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
   return PENDRES_OK;
 }
 
-static int in_doubt(const pendres_outcome *o)
+static int is_uncertain(const pendres_outcome *o)
 {
   return pendres_settle_ended(o) && !o->certain;
 }
@@ -66,32 +66,33 @@ static void excuse(const pendres_settle_labelled *l)
   }
 }
 
-static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled *l,
+                             uncertain_labels *d)
 {
   size_t n = 0;
   excuse(l);
-  for (size_t i = 0; i < l->n; i++) n += in_doubt(&l->job->outcome[i]);
+  for (size_t i = 0; i < l->n; i++) n += is_uncertain(&l->job->outcome[i]);
   if (n == 0) return PENDRES_OK;
-  const pendres_status status = allocate_doubtful(ctx, d, n);
+  const pendres_status status = allocate_uncertain(ctx, d, n);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < l->n; i++) {
-    if (!in_doubt(&l->job->outcome[i])) continue;
+    if (!is_uncertain(&l->job->outcome[i])) continue;
     d->index[d->count] = i;
     d->set[d->count] = l->job->set != NULL ? l->job->set[i] : 0;
-    d->doubt[d->count] = l->job->doubt[i];
+    d->error_ratio[d->count] = l->job->error_ratio[i];
     d->accuracy[d->count++] = l->accuracy;
   }
   return status;
 }
 
-/* The error a period that should leave no doubt: a power of ten, so that many pendulums share it,
-   and blocks stay full. How much more exact a run must be from which a pendulum's error grew beyond
-   all bounds is not known: the most exact one follows. A doubt that was not kept, as that of lanes
-   that were hunted for, is a NaN, which leaves at_least. */
-static double tighter(double accuracy, double doubt)
+/* The error a period that should leave no label uncertain: a power of ten, so that many pendulums
+   share it and blocks stay full. Where the error has grown beyond all bounds, it is not known how
+   much more exact the next run must be: the most exact one follows. A ratio that was not kept, as
+   that of lanes whose attractor was searched for, is NaN, which leaves at_least. */
+static double tighter(double accuracy, double error_ratio)
 {
-  if (isinf(doubt)) return most_exact;
-  const double wanted = accuracy / fmax(at_least, to_spare * doubt);
+  if (isinf(error_ratio)) return most_exact;
+  const double wanted = accuracy / fmax(at_least, to_spare * error_ratio);
   if (!(wanted > most_exact)) return most_exact;
   return fmax(most_exact, pow(10.0, floor(log10(wanted))));
 }
@@ -107,7 +108,8 @@ static int coarse_rung(int steps)
 
 /* Load what is to be run, with errors a period of d->accuracy, and drop what needs too many
    steps. */
-static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *l,
+                           uncertain_labels *d)
 {
   size_t n = 0;
   for (size_t k = 0; k < d->count; k++) {
@@ -115,13 +117,13 @@ static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *
     const pendres_status status =
       pendres_settle_load(ctx, &l->job->attractor_sets[d->set[k]].pendulum, l->x[i], l->v[i],
                           d->accuracy[k], &d->lanes[n]);
-    if (status == PENDRES_TOLERANCE_UNREACHABLE) continue; /* it stays in doubt: no failure */
+    if (status == PENDRES_TOLERANCE_UNREACHABLE) continue; /* it stays uncertain: no failure */
     if (status != PENDRES_OK) return status;
     d->lanes[n].steps = coarse_rung(d->lanes[n].steps);
     d->index[n] = i;
     d->set[n] = d->set[k];
     d->accuracy[n] = d->accuracy[k];
-    d->doubt[n] = NAN;
+    d->error_ratio[n] = NAN;
     d->outcome[n++] = pendres_settle_unresolved;
   }
   d->count = n;
@@ -130,7 +132,7 @@ static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *
 
 /* Set for how many periods each set's pendulums are followed: more than most of them need. */
 static pendres_status allow(pendres_context *ctx, const pendres_settle_labelled *l,
-                            const doubtful *d, long **budget)
+                            const uncertain_labels *d, long **budget)
 {
   size_t sets = 0;
   for (size_t k = 0; k < d->count; k++) sets = d->set[k] >= sets ? d->set[k] + 1 : sets;
@@ -147,13 +149,15 @@ static pendres_status allow(pendres_context *ctx, const pendres_settle_labelled 
 }
 
 /* Run all that are left once more. */
-static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l,
+                          uncertain_labels *d)
 {
   long *budget = NULL;
   pendres_status status = load(ctx, l, d);
   if (status == PENDRES_OK) status = allow(ctx, l, d, &budget);
   pendres_settle_labelling job = {.attractor_sets = l->job->attractor_sets, .set = d->set,
-                                  .budget = budget, .outcome = d->outcome, .doubt = d->doubt,
+                                  .budget = budget, .outcome = d->outcome,
+                                  .error_ratio = d->error_ratio,
                                   .drop_lost = 1};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, d->count, d->lanes, &job);
   free(budget);
@@ -162,23 +166,23 @@ static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l
 
 /*
  * The outcome of the run counts, unless the pendulum was lost or has not settled in it. Pendulums
- * that are still in doubt, and can be run more exactly, stay in the list.
+ * that are still uncertain, and can be run more exactly, stay in the list.
  */
-static void take_over(const pendres_settle_labelled *l, doubtful *d)
+static void take_over(const pendres_settle_labelled *l, uncertain_labels *d)
 {
   size_t left = 0;
   for (size_t k = 0; k < d->count; k++) {
     const size_t i = d->index[k];
     const int ended = pendres_settle_ended(&d->outcome[k]);
-    if (!ended && !isinf(d->doubt[k])) continue;
+    if (!ended && !isinf(d->error_ratio[k])) continue;
     if (ended) {
       l->job->outcome[i] = d->outcome[k];
-      l->job->doubt[i] = d->doubt[k];
+      l->job->error_ratio[i] = d->error_ratio[k];
     }
     if (d->outcome[k].certain || d->accuracy[k] <= most_exact) continue;
     d->index[left] = i;
     d->set[left] = d->set[k];
-    d->doubt[left] = d->doubt[k];
+    d->error_ratio[left] = d->error_ratio[k];
     d->accuracy[left++] = d->accuracy[k];
   }
   d->count = left;
@@ -186,7 +190,8 @@ static void take_over(const pendres_settle_labelled *l, doubtful *d)
 
 /* For methods whose errors are not carried along: labels stay, and are certain where those of fixed
    steps are certain and agree. */
-static pendres_status compare(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+static pendres_status compare(pendres_context *ctx, const pendres_settle_labelled *l,
+                              uncertain_labels *d)
 {
   pendres_outcome *mine = malloc((l->n + 1) * sizeof *mine);
   if (mine == NULL)
@@ -201,7 +206,8 @@ static pendres_status compare(pendres_context *ctx, const pendres_settle_labelle
   while (d->count > 0 && status == PENDRES_OK) {
     status = run(ctx, &other, d);
     if (status == PENDRES_OK) take_over(&other, d);
-    for (size_t k = 0; k < d->count; k++) d->accuracy[k] = tighter(d->accuracy[k], d->doubt[k]);
+    for (size_t k = 0; k < d->count; k++)
+      d->accuracy[k] = tighter(d->accuracy[k], d->error_ratio[k]);
   }
   for (size_t i = 0; i < l->n && status == PENDRES_OK; i++) {
     pendres_outcome *o = &l->job->outcome[i];
@@ -214,7 +220,7 @@ static pendres_status compare(pendres_context *ctx, const pendres_settle_labelle
 
 pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l)
 {
-  doubtful d = {0};
+  uncertain_labels d = {0};
   pendres_status status = gather(ctx, l, &d);
   if (!pendres_settle_carries(ctx) && status == PENDRES_OK && d.count > 0) {
     const pendres_options asked = ctx->options;
@@ -224,10 +230,10 @@ pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle
     ctx->options = asked;
   }
   while (pendres_settle_carries(ctx) && d.count > 0 && status == PENDRES_OK) {
-    for (size_t k = 0; k < d.count; k++) d.accuracy[k] = tighter(d.accuracy[k], d.doubt[k]);
+    for (size_t k = 0; k < d.count; k++) d.accuracy[k] = tighter(d.accuracy[k], d.error_ratio[k]);
     status = run(ctx, l, &d);
     if (status == PENDRES_OK) take_over(l, &d);
   }
-  free_doubtful(&d);
+  free_uncertain(&d);
   return status;
 }

@@ -13,15 +13,15 @@
 
 /* A batch that has been labelled; arrays are by the numbers of its pendulums. */
 typedef struct pendres_settle_labelled {
-  const pendres_settle_labelling *job; /* doubt must be kept; outcome and doubt may change */
+  const pendres_settle_labelling *job; /* error_ratio must be kept; it and outcome may change */
   size_t n;
   const double *x, *v; /* the starts */
   double accuracy;     /* error a period that they were run with */
 } pendres_settle_labelled;
 
 /*
- * Make labels certain that are not. Pendulums that are still in doubt after the most exact run, and
- * those that reach no trapping ellipse in a further run, keep their latest label, which is not
+ * Make labels certain that are not. Pendulums that are still uncertain after the most exact run,
+ * and those that reach no trapping ellipse in a further run, keep their latest label, which is not
  * certain. A further run of a pendulum ends where its error has grown so large that no label can
  * be certain.
  *

@@ -105,7 +105,7 @@ static int longer_streak(const pendres_attractor_set *c, const pendres_strobe_la
 }
 
 /*
- * The doubt of a label is the ratio of the error to the largest one that cannot change the label.
+ * What decides is the ratio of the error to the largest one that cannot change the label.
  * The error is three standard deviations of what was carried along. Inside an ellipse a twentieth
  * of the radius is allowed (trapping_ellipse.h). On the way there the error must stay small against
  * the distance to a basin boundary: the two grow alike, until the distance is that between
@@ -113,28 +113,29 @@ static int longer_streak(const pendres_attractor_set *c, const pendres_strobe_la
  * times as large as that distance, it is no longer known what the pendulum does: the lane is lost.
  */
 static const double deviations = 3.0, borne = 0.03;
-static const double most_doubt = 100.0; /* of a lane that is not lost */
+static const double most_error_ratio = 100.0; /* of a lane that is not lost */
 
-double pendres_settle_doubt_on_way(double worst)
+double pendres_settle_error_ratio(double worst)
 {
   return deviations * sqrt(worst) / borne;
 }
 
-static double doubt_in_ellipse(const pendres_trapping_ellipse *t, const pendres_strobe_lane *lane)
+static double error_ratio_in_ellipse(const pendres_trapping_ellipse *t,
+                                     const pendres_strobe_lane *lane)
 {
   const pendres_flow_error *e = &lane->off;
   const double variance =
     t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
   const double here = deviations * sqrt(variance) / (pendres_trapping_margin * t->radius);
-  const double before = pendres_settle_doubt_on_way(lane->worst);
+  const double before = pendres_settle_error_ratio(lane->worst);
   if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not carried */
   return isnan(before) || before > here ? before : here;
 }
 
-static void judge(const pendres_settle_labelling *l, size_t i, double doubt)
+static void judge(const pendres_settle_labelling *l, size_t i, double error_ratio)
 {
-  l->outcome[i].certain = doubt <= 1.0; /* what is no number is not */
-  if (l->doubt != NULL) l->doubt[i] = doubt;
+  l->outcome[i].certain = error_ratio <= 1.0; /* what is no number is not */
+  if (l->error_ratio != NULL) l->error_ratio[i] = error_ratio;
 }
 
 /*
@@ -152,7 +153,7 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_at
     (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
                       .attractor = c->cover[streak / STREAK_SCALE]->attractor,
                       .settling_periods = lane->period - streak % STREAK_SCALE + 1};
-  judge(l, i, lane->added > 0.0 ? pendres_settle_doubt_on_way(l->entry[i]) : NAN);
+  judge(l, i, lane->added > 0.0 ? pendres_settle_error_ratio(l->entry[i]) : NAN);
   return 1;
 }
 
@@ -165,7 +166,7 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
   o->attractor = attractor;
   o->label = c->attractors[attractor].label;
   o->settling_periods = lane->period;
-  judge(l, i, doubt_in_ellipse(pendres_attractor_set_ellipse(c, lane), lane));
+  judge(l, i, error_ratio_in_ellipse(pendres_attractor_set_ellipse(c, lane), lane));
   return 1;
 }
 
@@ -182,7 +183,7 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
   l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_ESCAPE,
                                     .attractor = PENDRES_ATTRACTOR_ESCAPED,
                                     .settling_periods = lane->period};
-  judge(l, i, lane->added > 0.0 ? pendres_settle_doubt_on_way(worst) : NAN);
+  judge(l, i, lane->added > 0.0 ? pendres_settle_error_ratio(worst) : NAN);
 }
 
 /* Whether a lane has escaped, or is lost. The last period of a lost one is looked at once more. */
@@ -225,8 +226,9 @@ static int lost(const pendres_settle_labelling *l, size_t i, const pendres_attra
                 const pendres_strobe_lane *lane)
 {
   const int on_chaos = c->covers > 0 && l->streak[i] > 0;
-  if (pendres_settle_doubt_on_way(on_chaos ? l->entry[i] : lane->worst) <= most_doubt) return 0;
-  l->doubt[i] = INFINITY;
+  const double worst = on_chaos ? l->entry[i] : lane->worst;
+  if (pendres_settle_error_ratio(worst) <= most_error_ratio) return 0;
+  l->error_ratio[i] = INFINITY;
   return 1;
 }
 

@@ -28,7 +28,7 @@ typedef struct pendres_settle_labelling {
   const long *budget;       /* of each set, periods in all */
   pendres_outcome *outcome;
   pendres_settle_history *histories; /* NULL: not kept */
-  double *doubt;            /* of each lane that settles: the ratio of the error that it carries to
+  double *error_ratio;      /* of each lane that settles: the ratio of the error that it carries to
                                the largest one that cannot change its label, which is certain up to
                                1. Infinite where the run ended with the lane lost. NULL: not
                                kept */
@@ -74,9 +74,9 @@ int pendres_settle_carries(const pendres_context *ctx);
 /* The variance of the error that a step adds. */
 double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps);
 
-/* The doubt (pendres_settle_labelling) of what is not in an ellipse, from the largest variance
-   that its error has had so far. */
-double pendres_settle_doubt_on_way(double worst);
+/* The error_ratio (pendres_settle_labelling) of what is not in an ellipse, from the largest
+   variance that its error has had so far. */
+double pendres_settle_error_ratio(double worst);
 
 /* Run the lanes that are unresolved; those inside an ellipse are done before they begin. */
 pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,

@@ -95,7 +95,7 @@ static double distance(const pendres_strobe_lane *a, const pendres_coordinates *
 static double error_of(double apart, double noise, const pendres_strobe_lane *l)
 {
   const double v = fabs(l->w) * l->pendulum->drive_frequency;
-  return pendres_strobe_doubt(apart) + 2.0 * noise +
+  return pendres_strobe_error(apart) + 2.0 * noise +
          2.2e-16 * fmax(8.0 + two_pi * fabs((double)l->turns), v);
 }
 
@@ -140,7 +140,7 @@ static int compare(void *arg, size_t index, const pendres_strobe_lane *lane)
   const stretch *s = arg;
   const pendres_coordinates *at = place_of(s, index, lane->period);
   const double apart = at != NULL ? distance(lane, at) : 0.0;
-  if (!(pendres_strobe_doubt(apart) < INFINITY)) s->apart[index] = INFINITY;
+  if (!(pendres_strobe_error(apart) < INFINITY)) s->apart[index] = INFINITY;
   if (lane->period == s->periods) s->apart[index] = fmax(s->apart[index], apart);
   return lane->period >= s->last;
 }

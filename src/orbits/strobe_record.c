@@ -124,11 +124,11 @@ static pendres_status estimate(pendres_context *ctx, pendres_recording *next, co
   for (size_t k = 1; k < n && status == PENDRES_OK; k++) {
     const double dx = fabs(first->x[k] - finer[k]), dv = fabs(first->v[k] - finer[n + k]);
     /* The larger of the two: either may be small by chance, where it changes its sign. */
-    const double doubt = pendres_strobe_doubt(fmax(dx, dv));
-    if (!(doubt + x_error[k] + v_error[k] < INFINITY)) next->lost = 1;
+    const double error = pendres_strobe_error(fmax(dx, dv));
+    if (!(error + x_error[k] + v_error[k] < INFINITY)) next->lost = 1;
     const double lost = next->lost ? INFINITY : 0.0;
-    x_error[k] = lost + doubt + 2.0 * x_error[k] + 2.2e-16 * fabs(first->x[k]);
-    v_error[k] = lost + doubt + 2.0 * v_error[k] + 2.2e-16 * fabs(first->v[k]);
+    x_error[k] = lost + error + 2.0 * x_error[k] + 2.2e-16 * fabs(first->x[k]);
+    v_error[k] = lost + error + 2.0 * v_error[k] + 2.2e-16 * fabs(first->v[k]);
   }
   free(finer);
   return status;

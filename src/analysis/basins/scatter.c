@@ -72,13 +72,13 @@ static usable list_usable(const pendres_scatter *s, int scales, const double *di
 static double variance_of_logs(const pendres_scatter *s, const usable *u, int m, const double *c)
 {
   double weight[QUANTITIES] = {0.0};
-  double doubtful = 0.0;
+  double uncertain = 0.0;
   for (int i = 0; i < m; i++) {
     const int k = u->scale[i];
     weight[k] = c[i] / s->total[k];
-    doubtful += weight[k] * weight[k] * s->doubtful[k];
+    uncertain += weight[k] * weight[k] * s->uncertain[k];
   }
-  return pendres_scatter_variance(s, weight) + doubtful;
+  return pendres_scatter_variance(s, weight) + uncertain;
 }
 
 /* What counts that are not known may change such a combination by. */

@@ -28,7 +28,7 @@ typedef struct pendres_scatter {
   double total[PENDRES_SCATTER_QUANTITIES];
   /* The caller's: of the counts at each distance, those in which an end is uncertain, whom errors
      move to and fro across boundaries, and those in which it is not known at all. */
-  double doubtful[PENDRES_BASIN_SCALES], unknown[PENDRES_BASIN_SCALES];
+  double uncertain[PENDRES_BASIN_SCALES], unknown[PENDRES_BASIN_SCALES];
   double last[2][PENDRES_SCATTER_QUANTITIES]; /* the two groups before */
   double square[PENDRES_SCATTER_QUANTITIES][PENDRES_SCATTER_QUANTITIES]; /* of differences */
 } pendres_scatter;
@@ -45,7 +45,7 @@ double pendres_scatter_variance(const pendres_scatter *s, const double *weight);
  * of uncertain states and the numbers tried; NaN if fewer than three are.
  *
  * Its error is made of the scatter, and of what slopes between neighbouring distances differ by
- * beyond their scatter, since a power law holds only within limits, and of what is doubtful or
+ * beyond their scatter, since a power law holds only within limits, and of what is uncertain or
  * not known. From the smallest distance on,
  * as many are used as make that error least.
  */

@@ -26,12 +26,12 @@ struct pendres_basin_sums {
   member *members;    /* the last two: what is unresolved, and what escapes */
   pendres_basin_end by;
   int64_t *box_rows;  /* ends of the rows of unfinished boxes */
-  uint8_t *box_doubt; /* states of them that are uncertain, by column */
+  uint8_t *box_uncertain; /* states of them that are uncertain, by column */
   double group[PENDRES_SCATTER_QUANTITIES]; /* of the unfinished boxes' rows */
   double counts[PENDRES_BASIN_SCALES];      /* of uncertain states, over all rows */
   pendres_scatter scatter; /* between rows of boxes */
   size_t uncertain;        /* states that may belong elsewhere */
-  double entropy_doubt, boundary_doubt; /* what these can change of boxes' entropy, and boxes */
+  double entropy_error, boundary_error; /* what these can change of boxes' entropy, and boxes */
   double suspect;          /* states that may be labelled wrongly, though nobody knows which */
   pendres_basin_tally tally;
   pendres_basin_well *wells;
@@ -84,9 +84,9 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
   s->v_share = shares_of(grid->nv, grid->v);
   s->members = calloc(attractors + 2, sizeof *s->members);
   s->box_rows = calloc(BOX * grid->nv, sizeof *s->box_rows);
-  s->box_doubt = calloc(grid->nv, sizeof *s->box_doubt);
+  s->box_uncertain = calloc(grid->nv, sizeof *s->box_uncertain);
   if (s->x_share == NULL || s->v_share == NULL || s->members == NULL ||
-      s->box_rows == NULL || s->box_doubt == NULL) {
+      s->box_rows == NULL || s->box_uncertain == NULL) {
     pendres_basin_sums_free(s);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -101,7 +101,7 @@ void pendres_basin_sums_free(pendres_basin_sums *s)
   free(s->v_share);
   free(s->members);
   free(s->box_rows);
-  free(s->box_doubt);
+  free(s->box_uncertain);
   free(s->wells);
   pendres_basin_tally_free(&s->tally);
   free(s);
@@ -129,19 +129,19 @@ static int count_kinds(const pendres_basin_sums *s, size_t left, int *count)
 }
 
 /* What uncertain states can change: a box's entropy, and whether there is a boundary in it. */
-static void add_doubt(pendres_basin_sums *s, size_t left, int kinds, const int *count)
+static void add_uncertain(pendres_basin_sums *s, size_t left, int kinds, const int *count)
 {
-  int doubt = 0, largest = count[0], smallest = count[0];
-  for (size_t j = left; j < left + BOX; j++) doubt += s->box_doubt[j];
-  if (doubt == 0) return;
+  int uncertain = 0, largest = count[0], smallest = count[0];
+  for (size_t j = left; j < left + BOX; j++) uncertain += s->box_uncertain[j];
+  if (uncertain == 0) return;
   for (int k = 1; k < kinds; k++) {
     if (count[k] > largest) largest = count[k];
     if (count[k] < smallest) smallest = count[k];
   }
   /* One state that goes from m to n of its box changes the entropy by log(m / n) / 25. */
-  s->entropy_doubt +=
-    doubt * (kinds > 1 ? log((largest + 1.0) / smallest) / BOX_STATES : state_entropy);
-  s->boundary_doubt += BOX_STATES - largest <= doubt;
+  s->entropy_error +=
+    uncertain * (kinds > 1 ? log((largest + 1.0) / smallest) / BOX_STATES : state_entropy);
+  s->boundary_error += BOX_STATES - largest <= uncertain;
 }
 
 static void add_boxes(pendres_basin_sums *s)
@@ -156,9 +156,9 @@ static void add_boxes(pendres_basin_sums *s)
     }
     s->group[PENDRES_SCATTER_ENTROPY] += entropy;
     s->group[PENDRES_SCATTER_BOUNDARY_BOXES] += kinds > 1;
-    add_doubt(s, left, kinds, count);
+    add_uncertain(s, left, kinds, count);
   }
-  memset(s->box_doubt, 0, s->nv * sizeof *s->box_doubt);
+  memset(s->box_uncertain, 0, s->nv * sizeof *s->box_uncertain);
 }
 
 /* Add a share of a row to that of the area, and its second difference to the scatter. */
@@ -240,7 +240,7 @@ static pendres_status add_row(pendres_basin_sums *s, const pendres_basin_state *
     s->members[a].row_share += s->v_share[j];
     if (state[j].how == PENDRES_BASIN_UNCERTAIN) {
       s->uncertain++;
-      s->box_doubt[j]++;
+      s->box_uncertain[j]++;
     }
     if (j > 0 && a != last) {
       s->members[a].crossings += 1.0;
@@ -307,12 +307,12 @@ static double fraction_error(const pendres_basin_sums *s, const member *m, doubl
 {
   const double states = (double)s->rows * (double)s->nv, n = (double)s->rows;
   const double ends = sqrt((m->crossings + 1.0) / 3.0) / states;
-  const double doubt =
+  const double uncertain =
     (lost + s->suspect) / states + s->members[s->attractors].share;
-  if (s->rows == 1) return ends + doubt;
-  if (s->rows < 4) return ends + 0.5 * fabs(m->last[0] - m->last[1]) + doubt;
+  if (s->rows == 1) return ends + uncertain;
+  if (s->rows < 4) return ends + 0.5 * fabs(m->last[0] - m->last[1]) + uncertain;
   const double student = pendres_student(PENDRES_ONE_SIGMA, (n - 2.0) * 18.0 / 35.0);
-  return fmax(ends, 2.0 * student * sqrt(m->square / 6.0 * n / (n - 2.0))) + doubt;
+  return fmax(ends, 2.0 * student * sqrt(m->square / 6.0 * n / (n - 2.0))) + uncertain;
 }
 
 /* The mean entropy over all boxes, and over those with a boundary. */
@@ -333,7 +333,7 @@ static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statisti
   out->boundary_boxes = boundary / boxes;
   out->entropy = entropy / boxes;
   out->entropy_error = sqrt(pendres_scatter_variance(&s->scatter, weight)) +
-                       (part * s->entropy_doubt + suspect) / boxes;
+                       (part * s->entropy_error + suspect) / boxes;
   /* Nor is no boundary at all a certainty: one state may be unlike the others of its box. */
   if (out->entropy_error < state_entropy / boxes) out->entropy_error = state_entropy / boxes;
   if (boundary == 0.0) return;
@@ -345,7 +345,7 @@ static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statisti
   const double each = fmax(1.0, fabs(out->boundary_entropy / state_entropy - 1.0));
   out->boundary_entropy_error =
     sqrt(pendres_scatter_variance(&s->scatter, weight)) +
-    (part * (s->entropy_doubt + out->boundary_entropy * s->boundary_doubt) + suspect * each) /
+    (part * (s->entropy_error + out->boundary_entropy * s->boundary_error) + suspect * each) /
       boundary;
 }
 
@@ -362,14 +362,14 @@ static void conclude_exponent(const pendres_basin_sums *s, pendres_basin_statist
     weight[k] = 1.0;
     scatter.total[k] = s->counts[k]; /* rows that make no box as well */
     /* A state that is labelled wrongly makes itself and two others uncertain. */
-    scatter.doubtful[k] = 3.0 * (double)s->uncertain;
+    scatter.uncertain[k] = 3.0 * (double)s->uncertain;
     scatter.unknown[k] = 3.0 * (double)s->members[s->attractors].states;
     out->distance[k] = used ? s->step * (double)((size_t)1 << k) : NAN;
     out->uncertain[k] = used ? s->counts[k] / tried[k] : NAN;
     /* Rows at the end that make no box scatter like the others. */
     out->uncertain_error[k] =
       used ? sqrt(pendres_scatter_variance(&scatter, weight) * rows / grouped +
-                  scatter.doubtful[k]) / tried[k] + scatter.unknown[k] / tried[k] +
+                  scatter.uncertain[k]) / tried[k] + scatter.unknown[k] / tried[k] +
                3.0 * s->suspect / ((double)s->nv * rows)
            : NAN;
     /* Not below one state in all of them: that none is unlike is no certainty. */

@@ -66,7 +66,7 @@ static void count_sample(pendres_scatter *s, int scales, pendres_basin_end by,
     if (is_unknown(&outcome[0]) || is_unknown(one) || is_unknown(two))
       s->unknown[k] += 1.0;
     else if (!(outcome[0].certain && one->certain && two->certain))
-      s->doubtful[k] += 1.0;
+      s->uncertain[k] += 1.0;
   }
   pendres_scatter_add(s, unlike);
 }
@@ -82,7 +82,7 @@ static void conclude(const pendres_scatter *s, pendres_basin_statistics *out)
     out->uncertain[k] = share;
     /* Not below one state in all of them: none or all that are alike is no certainty. */
     out->uncertain_error[k] =
-      fmax(sqrt(share * (1.0 - share) / n + s->doubtful[k] / (n * n)), 1.0 / n) +
+      fmax(sqrt(share * (1.0 - share) / n + s->uncertain[k] / (n * n)), 1.0 / n) +
       s->unknown[k] / n;
   }
   pendres_scatter_exponent(s, out->scales, out->distance, tried, &out->uncertainty_exponent,

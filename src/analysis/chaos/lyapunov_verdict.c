@@ -95,7 +95,7 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
   const job *j = arg;
   pendres_runner *r = &j->runner[index];
   pendres_runner_trust(r, lane,
-                       pendres_settle_doubt_on_way(lane->worst));
+                       pendres_settle_error_ratio(lane->worst));
   if (pendres_runner_leaves(r, lane)) return 1;
   if (pendres_runner_comes_back(r, lane)) {
     r->state = PENDRES_RUNNER_CAUGHT;

@@ -237,9 +237,9 @@ static double lag_error(const pendres_scan_point *at, const pendres_scan_point *
   const double direction[2] = {o->cosine[0] / radius, o->sine[0] / radius};
   const double across = direction[0] * apart[1] - direction[1] * apart[0];
   const double turning = direction[0] * turn[1] - direction[1] * turn[0];
-  const pendres_orbit_doubt doubt = {hypot(apart[0], apart[1]), coarser->rounding};
+  const pendres_orbit_uncertainty uncertainty = {hypot(apart[0], apart[1]), coarser->rounding};
   const double off = (rest * fabs(o->loop_area_slope) + coarser->slope_rounding) / curvature;
-  return (pendres_orbit_error(across, 0.0, 1.0, &doubt) + fabs(turning * off)) / radius +
+  return (pendres_orbit_error(across, 0.0, 1.0, &uncertainty) + fabs(turning * off)) / radius +
          chance * full;
 }
 

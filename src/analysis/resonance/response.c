@@ -113,15 +113,15 @@ static void clear_means(pendres_response *r)
   r->sa_fraction = r->la_fraction = r->sa_fraction_error = r->la_fraction_error = NAN;
 }
 
-/* The loop averaged over the members that have one; lost, doubt: shares of all members. */
-static void average_loops(pendres_response *r, sums *s, double lost, double doubt)
+/* The loop averaged over the members that have one; lost, uncertain: shares of all members. */
+static void average_loops(pendres_response *r, sums *s, double lost, double uncertain)
 {
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
     s->cosine[m] /= s->loop_share;
     s->sine[m] /= s->loop_share;
   }
   /* A member that moves from one loop to another changes the mean twice. */
-  const double moved = lost * r->mean_amplitude + 2.0 * doubt * s->widest;
+  const double moved = lost * r->mean_amplitude + 2.0 * uncertain * s->widest;
   r->mean_loop_amplitude = s->lone;
   r->mean_loop_amplitude_error =
     fmax(s->loop_error, s->loop_amplitude_error) / s->loop_share + moved;
@@ -161,26 +161,26 @@ static void average(pendres_response *r, const parted *p)
   }
   const double members = (double)(resolved + p->lost), lost = (double)p->lost / members;
   /* An uncertain member may belong to any of the states that are there. */
-  const double doubt =
+  const double uncertain =
     p->attractors > 1 ? (double)r->uncertain / members + r->sampling : 0.0;
-  const double area_doubt = lost * s.largest + doubt * (s.most - s.least);
+  const double area_error = lost * s.largest + uncertain * (s.most - s.least);
   r->mean_loop_area = s.area;
   /* A lost member may belong to any state, known or not. */
-  r->mean_loop_area_error = s.area_error + area_doubt;
+  r->mean_loop_area_error = s.area_error + area_error;
   r->mean_power = s.power;
-  r->mean_power_error = s.power_error + area_doubt * r->pendulum.drive_frequency / two_pi;
+  r->mean_power_error = s.power_error + area_error * r->pendulum.drive_frequency / two_pi;
   if (named > 0) {
     r->sa_fraction = sa / members;
     r->la_fraction = la / members;
     r->sa_fraction_error = r->la_fraction_error =
-      lost + (p->attractors > 1 ? doubt : r->sampling);
+      lost + (p->attractors > 1 ? uncertain : r->sampling);
   }
   if (s.amplitude_share > 0.0) {
     r->mean_amplitude = s.amplitude / s.amplitude_share;
     r->mean_amplitude_error =
-      s.amplitude_error / s.amplitude_share + lost * r->mean_amplitude + doubt * s.widest;
+      s.amplitude_error / s.amplitude_share + lost * r->mean_amplitude + uncertain * s.widest;
   }
-  if (s.loop_share > 0.0) average_loops(r, &s, lost, doubt);
+  if (s.loop_share > 0.0) average_loops(r, &s, lost, uncertain);
 }
 
 void pendres_response_average(pendres_response *r)

@@ -83,10 +83,10 @@ void pendres_response_name_by(const pendres_small_end *end, pendres_response *r)
     all += r->state_members[i];
   }
   const double members = (double)all;
-  const size_t doubt = r->unresolved + r->unlisted + (r->states > 1 ? r->uncertain : 0);
+  const size_t uncertain = r->unresolved + r->unlisted + (r->states > 1 ? r->uncertain : 0);
   r->sa_fraction = (double)sa / members;
   r->la_fraction = (double)la / members;
-  r->sa_fraction_error = r->la_fraction_error = (double)doubt / members + r->sampling;
+  r->sa_fraction_error = r->la_fraction_error = (double)uncertain / members + r->sampling;
 }
 
 static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response *responses)

@@ -13,7 +13,7 @@ enum { BATCH = 32 /* frequencies evaluated side by side */ };
 
 /* The work of one evaluation of a pendulum's equation, and of one step of Newton's method: about
    seconds of one processor, but the same number on every machine. Periods would not do as a
-   measure: pendulums whose labels are in doubt are integrated again with ten times as many
+   measure: pendulums whose labels are uncertain are integrated again with ten times as many
    steps. */
 static const double work_of_slope = 2.5e-9, work_of_newton = 4e-4;
 /* The least work of a period, for estimates. */

@@ -225,7 +225,7 @@ static pendres_status follow(pendres_context *ctx, motion *m, const course *c, d
  */
 static double error_of(double distance)
 {
-  return pendres_strobe_doubt(distance) < INFINITY ? distance : INFINITY;
+  return pendres_strobe_error(distance) < INFINITY ? distance : INFINITY;
 }
 
 /* The largest share of an error that can be left after some periods. */
