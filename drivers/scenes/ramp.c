@@ -2,15 +2,18 @@
 #include "scenes/ramp.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "scenes/check.h"
-#include "scenes/columns.h"
-#include "scenes/failed.h"
+#include "scenes/points.h"
 
 /* The trajectories of a task: some blocks. */
 enum { DIRECTIONS = 2, PART = 192 };
+
+/* A strobe of the ramp without noise. */
+typedef struct row {
+  double time, value, x, x_error, v, v_error;
+  int state;
+} row;
 
 typedef struct work {
   const deck *d;
@@ -18,12 +21,11 @@ typedef struct work {
   pendres_ramp ramp;
   long *period;                /* its corners, */
   double *value;               /* and the values there */
-  pendres_hysteresis_point *point; /* of the path, in its order */
   long every;                  /* drive periods between two points recorded */
   size_t points;               /* recorded each way */
-  double *x, *v, *x_error, *v_error; /* [DIRECTIONS * points], both ways in the order of time */
+  scene_points way;            /* one: all of the ramp, taken apart into: */
+  row *rows;                   /* [DIRECTIONS][points], both ways in the order of time */
   pendres_ramp_jump *jump;
-  scene_verdict verdict;       /* of the ramp without noise */
   size_t trajectories;         /* 0: no noise */
   double *noisy;               /* [jumps][trajectories] values */
   pendres_ramp_summary *summary; /* [jumps] */
@@ -43,16 +45,16 @@ static long periods_of(const deck *d, const deck_axis *a, long *every)
 }
 
 /* The corners: up, and the same way back. */
-static int lay_out(work *w, const deck_axis *a)
+static void lay_out(scene_run *run, work *w, const deck_axis *a)
 {
   const deck_numbers *p = &w->d->ramp.protocol;
   const long turn = periods_of(w->d, a, &w->every);
   const size_t listed = p->count / 2, way = listed > 0 ? listed + 1 : 2;
   size_t n = 0;
   w->points = (size_t)(turn / w->every) + 1;
-  w->period = malloc(2 * way * sizeof *w->period);
-  w->value = malloc(2 * way * sizeof *w->value);
-  if (w->period == NULL || w->value == NULL) return 0;
+  w->period = scene_array(run, 2 * way, sizeof *w->period);
+  w->value = scene_array(run, 2 * way, sizeof *w->value);
+  if (!scene_going(run)) return;
   for (size_t i = 0; i < listed; i++, n++) {
     w->period[n] = (long)p->number[2 * i];
     w->value[n] = p->number[2 * i + 1];
@@ -74,13 +76,11 @@ static int lay_out(work *w, const deck_axis *a)
   w->ramp.corners = n;
   w->ramp.period = w->period;
   w->ramp.value = w->value;
-  return 1;
 }
 
-static pendres_status prepare(work *w, deck_axis_id axis, const scene_along_path *path)
+static void prepare(scene_run *run, work *w, deck_axis_id axis, const scene_along_path *path)
 {
   const deck *d = w->d;
-  const deck_axis *a = &d->axis[axis];
   const size_t n = path->points, half = n / DIRECTIONS;
   w->name = deck_axis_name(axis);
   w->ramp = (pendres_ramp){.pendulum = scene_along_pendulum(d),
@@ -88,92 +88,75 @@ static pendres_status prepare(work *w, deck_axis_id axis, const scene_along_path
                            .jumps = path->jumps, .jump = path->jump};
   w->trajectories = deck_has_noise(d) ? (size_t)d->noise.trajectories : 0;
   if (w->trajectories > 0) w->ramp.pendulum.temperature = d->axis[DECK_AXIS_TEMPERATURE].value[0];
-  if (!lay_out(w, a)) return PENDRES_OUT_OF_MEMORY;
-  w->point = malloc(n * sizeof *w->point);
-  w->x = malloc(4 * DIRECTIONS * w->points * sizeof *w->x);
-  w->jump = calloc(path->jumps + 1, sizeof *w->jump);
-  w->noisy = malloc((path->jumps * w->trajectories + 1) * sizeof *w->noisy);
-  w->summary = calloc(path->jumps + 1, sizeof *w->summary);
-  if (w->point == NULL || w->x == NULL || w->jump == NULL || w->noisy == NULL ||
-      w->summary == NULL)
-    return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < half; i++) {
-    w->point[i] = path->point[i];
-    w->point[n - 1 - i] = path->point[half + i];
+  lay_out(run, w, &d->axis[axis]);
+  pendres_hysteresis_point *point = scene_array(run, n, sizeof *point);
+  w->rows = scene_array(run, DIRECTIONS * w->points, sizeof *w->rows);
+  w->jump = scene_array(run, path->jumps, sizeof *w->jump);
+  w->noisy = scene_array(run, path->jumps * w->trajectories, sizeof *w->noisy);
+  w->summary = scene_array(run, path->jumps, sizeof *w->summary);
+  if (!scene_going(run)) return;
+  for (size_t i = 0; i < half; i++) { /* in the order of the path */
+    point[i] = path->point[i];
+    point[n - 1 - i] = path->point[half + i];
   }
-  w->ramp.point = w->point;
-  w->v = w->x + DIRECTIONS * w->points;
-  w->x_error = w->v + DIRECTIONS * w->points;
-  w->v_error = w->x_error + DIRECTIONS * w->points;
-  return PENDRES_OK;
-}
-
-static void clear(work *w)
-{
-  free(w->period);
-  free(w->value);
-  free(w->point);
-  free(w->x);
-  free(w->jump);
-  free(w->noisy);
-  free(w->summary);
+  w->ramp.point = point;
 }
 
 /* ---- tasks --------------------------------------------------------------------------------- */
 
-/* A record: the jumps, then x, v and their errors, and what became of it. The turning point is one
-   strobe of both ways. */
+/* A record: the jumps, then x, v and their errors. The turning point is one strobe of both ways. */
 static size_t samples(const work *w)
 {
   return DIRECTIONS * (w->points - 1) + 1;
 }
 
-static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static pendres_status follow(const scene_some *some)
 {
-  const work *w = arg;
+  const work *w = some->of->arg;
   const size_t n = samples(w);
-  (void)task;
-  pendres_ramp_jump *jump = out->data;
+  pendres_ramp_jump *jump = some->rows;
   double *x = (double *)(jump + w->ramp.jumps);
   const pendres_ramp_record record = {.every = w->every, .x = x, .v = x + n, .x_error = x + 2 * n,
                                       .v_error = x + 3 * n};
-  pendres_status status = pendres_ramp_follow(ctx, &w->ramp, &record, jump);
-  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  return pendres_ramp_follow(some->ctx, &w->ramp, &record, jump);
+}
+
+static void leave_out(const scene_points *p, size_t point, void *out)
+{
+  const work *w = p->arg;
+  pendres_ramp_jump *jump = out;
+  double *x = (double *)(jump + w->ramp.jumps);
+  (void)point;
   for (size_t k = 0; k < w->ramp.jumps; k++)
     jump[k] = (pendres_ramp_jump){.time = NAN, .value = NAN, .value_error = NAN, .delay = NAN,
                                   .delay_error = NAN};
-  for (size_t k = 0; k < 4 * n; k++) x[k] = NAN;
-  return scene_verdict_note((scene_verdict *)(x + 4 * n), status, pendres_context_message(ctx));
+  for (size_t k = 0; k < 4 * samples(w); k++) x[k] = NAN;
 }
 
-static size_t bytes_of(const work *w)
+/* What the pendulum does at a point of the ramp. */
+enum { FOLLOWED, ESCAPED, FAILED };
+
+static const char *state_names(int value)
 {
-  return w->ramp.jumps * sizeof *w->jump + 4 * samples(w) * sizeof(double) + sizeof w->verdict;
+  static const char *const names[] = {"followed", "escape", "failed"};
+  return value >= FOLLOWED && value <= FAILED ? names[value] : NULL;
 }
 
-static int check(const void *arg, size_t task, const farm_record *in)
+static pendres_status collect(const scene_points *p, size_t first, size_t n, const void *in)
 {
-  const work *w = arg;
-  scene_verdict v;
-  (void)task;
-  if (in->size != bytes_of(w)) return 0;
-  memcpy(&v, (const char *)in->data + in->size - sizeof v, sizeof v);
-  return scene_check_verdict(&v);
-}
-
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  const size_t n = samples(w), points = w->points;
-  const pendres_ramp_jump *jump = in->data;
+  work *w = p->arg;
+  const pendres_ramp_jump *jump = in;
   const double *x = (const double *)(jump + w->ramp.jumps);
-  double *const to[4] = {w->x, w->v, w->x_error, w->v_error};
-  (void)task;
-  memcpy(&w->verdict, x + 4 * n, sizeof w->verdict);
+  const size_t all = samples(w);
+  const int failed = p->failed.reason[0] != SCENE_FAILURE_NONE;
+  (void)first;
+  (void)n;
   memcpy(w->jump, jump, w->ramp.jumps * sizeof *jump);
-  for (int k = 0; k < 4; k++) {
-    memcpy(to[k], x + (size_t)k * n, points * sizeof *x);
-    memcpy(to[k] + points, x + (size_t)k * n + points - 1, points * sizeof *x);
+  for (size_t i = 0; i < DIRECTIONS * w->points; i++) {
+    const size_t k = i < w->points ? i : i - 1;
+    const double time = (double)((long)k * w->every);
+    w->rows[i] = (row){time, pendres_ramp_value(&w->ramp, time), x[k], x[2 * all + k], x[all + k],
+                       x[3 * all + k], failed ? FAILED : isnan(x[k]) ? ESCAPED : FOLLOWED};
   }
   return PENDRES_OK;
 }
@@ -215,69 +198,29 @@ static pendres_status collect_part(void *arg, size_t task, const farm_record *in
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-static pendres_status put_way(scene_run *run, const work *w)
+static void put_way(scene_run *run, const work *w)
 {
-  const size_t n = DIRECTIONS * w->points;
-  const char *dimensions[2] = {"direction", "point"};
-  double *time = malloc(2 * n * sizeof *time), *value = time + n;
-  if (time == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory: %zu points", n);
-  for (size_t i = 0; i < n; i++) {
-    const size_t strobe = i < w->points ? i : i - 1;
-    time[i] = (double)((long)strobe * w->every);
-    value[i] = pendres_ramp_value(&w->ramp, time[i]);
-  }
-  pendres_store_spec spec = {.name = "ramp_time", .units = "1",
-                             .long_name = "drive periods since the ramp's start"};
-  memcpy(spec.dimensions, dimensions, sizeof dimensions);
-  pendres_status status =
-    scene_numbering(run, "point", w->points, "number of the point of a way");
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, time, NULL, n);
-  spec.name = "ramp_parameter";
-  spec.long_name = "value of the parameter that moves";
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, value, NULL, n);
-  spec.name = "ramp_x";
-  spec.long_name = "position at the strobe, without noise";
-  spec.units = "rad";
-  if (status == PENDRES_OK)
-    status = pendres_store_put(run->store, &spec, w->x, w->x_error, n);
-  spec.name = "ramp_v";
-  spec.long_name = "velocity at the strobe, without noise";
-  spec.units = "1";
-  if (status == PENDRES_OK)
-    status = pendres_store_put(run->store, &spec, w->v, w->v_error, n);
-  free(time);
-  return scene_stored(run, status);
-}
-
-/* What the pendulum does at a point of the ramp. */
-static const char *state_names(int value)
-{
-  static const char *const names[] = {"followed", "escape", "failed"};
-  return value >= 0 && value < 3 ? names[value] : NULL;
-}
-
-static pendres_status put_states(scene_run *run, const work *w)
-{
-  static const scene_column column = {
-    .name = "ramp_state", .type = SCENE_FLAG, .names = state_names,
-    .long_name = "whether the ramp's pendulum is still there, without noise"};
-  const size_t n = DIRECTIONS * w->points;
-  const int failed = w->verdict.reason != SCENE_FAILURE_NONE;
-  int *state = malloc(n * sizeof *state);
-  if (state == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory: %zu points", n);
-  for (size_t i = 0; i < n; i++) state[i] = failed ? 2 : isnan(w->x[i]);
-  const scene_table table = {.dimensions = {"direction", "point"}, .n = n, .stride = sizeof *state,
-                             .rows = state};
-  const pendres_status status = scene_columns_write(run, &table, 1, &column);
-  free(state);
-  if (!failed) return status;
+  static const scene_column columns[] = {
+    SCENE_COLUMN_OF(SCENE_PLAIN, row, time, "drive periods since the ramp's start"),
+    {.name = "parameter", .type = SCENE_PLAIN, .value = offsetof(row, value),
+     .long_name = "value of the parameter that moves"},
+    SCENE_COLUMN(row, x, "position at the strobe, without noise", "rad"),
+    SCENE_COLUMN(row, v, "velocity at the strobe, without noise", "1"),
+    SCENE_CODE(row, state, "whether the ramp's pendulum is still there, without noise",
+               state_names),
+  };
+  const scene_table table = {.dimensions = {"direction", "point"}, .prefix = "ramp",
+                             .n = DIRECTIONS * w->points, .stride = sizeof *w->rows,
+                             .rows = w->rows};
+  scene_numbering(run, "point", w->points, "number of the point of a way");
+  SCENE_WRITE(run, &table, columns);
+  if (!scene_going(run) || w->way.failed.reason[0] == SCENE_FAILURE_NONE) return;
   run->failed_points++;
-  scene_failure_tell(run, (scene_failure)w->verdict.reason, w->verdict.words,
+  scene_failure_tell(run, (scene_failure)w->way.failed.reason[0], w->way.failed.words[0],
                      "the ramp of %s in real time", w->name);
-  return status;
 }
 
-static pendres_status put_delays(scene_run *run, const work *w)
+static void put_delays(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
     {.name = "jump_delay", .units = "1", .value = offsetof(pendres_ramp_jump, delay),
@@ -292,10 +235,10 @@ static pendres_status put_delays(scene_run *run, const work *w)
   };
   const scene_table table = {.dimensions = {"jump"}, .n = w->ramp.jumps,
                              .stride = sizeof *w->jump, .rows = w->jump};
-  return SCENE_WRITE(run, &table, columns);
+  SCENE_WRITE(run, &table, columns);
 }
 
-static pendres_status put_scatter(scene_run *run, const work *w)
+static void put_scatter(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
     {.name = "jump_mean", .units = "1", .value = offsetof(pendres_ramp_summary, mean),
@@ -312,18 +255,15 @@ static pendres_status put_scatter(scene_run *run, const work *w)
   const pendres_store_spec spec = {
     .name = "jump_noisy_parameter", .dimensions = {"jump", "trajectory"}, .units = "1",
     .long_name = "value at which each noisy trajectory leaves the state; NaN: it does not"};
-  pendres_status status =
-    scene_numbering(run, "trajectory", w->trajectories, "number of the noisy trajectory");
-  if (status == PENDRES_OK)
-    status = scene_stored(run, pendres_store_put(run->store, &spec, w->noisy, NULL,
-                                                 w->ramp.jumps * w->trajectories));
-  return status == PENDRES_OK ? SCENE_WRITE(run, &table, columns) : status;
+  scene_numbering(run, "trajectory", w->trajectories, "number of the noisy trajectory");
+  scene_put(run, &spec, w->noisy, w->ramp.jumps * w->trajectories);
+  SCENE_WRITE(run, &table, columns);
 }
 
 static void tabulate(FILE *out, const work *w)
 {
   enum { LINES = 40 };
-  if (out == NULL || w->ramp.jumps == 0) return;
+  if (w->ramp.jumps == 0) return;
   fprintf(out, "\nin real time:\n%-5s %-30s %s\n", "way", "delay",
           w->trajectories > 0 ? "with noise: mean, standard deviation, trajectories" : "");
   for (size_t k = 0; k < w->ramp.jumps && k < LINES; k++) {
@@ -341,40 +281,38 @@ static void tabulate(FILE *out, const work *w)
 
 /* ---- all of it ----------------------------------------------------------------------------- */
 
-static pendres_status compute(scene_run *run, work *w)
+static void compute(scene_run *run, work *w)
 {
   const size_t tasks = (w->trajectories + PART - 1) / PART;
-  const farm_stage ramp = {
-    .what = "ramps", .tasks = 1, .task = follow, .check = check, .collect = collect, .arg = w,
-    .record_size = bytes_of(w)};
   const farm_stage noise = {.what = "parts of the noisy trajectories", .tasks = tasks,
                             .record_size = 1, .last = 1, .task = scatter,
                             .check = check_part, .collect = collect_part, .arg = w};
-  pendres_status status = scene_compute(run, &ramp);
-  const int failed = w->verdict.reason != SCENE_FAILURE_NONE;
+  SCENE_COMPUTE(run, &w->way, "ramps", .last = 0);
+  if (!scene_going(run)) return;
   for (size_t k = 0; k < w->ramp.jumps * w->trajectories; k++) w->noisy[k] = NAN;
-  if (status != PENDRES_OK || tasks == 0 || w->ramp.jumps == 0 || failed) return status;
-  status = scene_compute(run, &noise);
-  for (size_t k = 0; k < w->ramp.jumps && status == PENDRES_OK; k++)
-    status = pendres_ramp_summarize(w->trajectories, w->noisy + k * w->trajectories,
-                                    &w->summary[k]);
-  return status;
+  if (tasks == 0 || w->ramp.jumps == 0 || w->way.failed.reason[0] != SCENE_FAILURE_NONE) return;
+  scene_compute(run, &noise);
+  for (size_t k = 0; k < w->ramp.jumps && scene_going(run); k++) {
+    const pendres_status status = pendres_ramp_summarize(
+      w->trajectories, w->noisy + k * w->trajectories, &w->summary[k]);
+    if (status != PENDRES_OK)
+      scene_fail(run, status, "values of a jump: %s", pendres_status_message(status));
+  }
 }
 
-pendres_status scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_along_path *path)
+void scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_along_path *path)
 {
-  work w = {.d = run->deck};
-  if (!deck_has_ramp(run->deck)) return PENDRES_OK;
-  pendres_status status = prepare(&w, axis, path);
-  if (status != PENDRES_OK) (void)scene_fail(run, status, "out of memory for a ramp");
-  if (status == PENDRES_OK) status = compute(run, &w);
-  if (status == PENDRES_OK) status = put_way(run, &w);
-  if (status == PENDRES_OK) status = put_states(run, &w);
-  if (status == PENDRES_OK) status = put_delays(run, &w);
-  if (status == PENDRES_OK && w.trajectories > 0) status = put_scatter(run, &w);
-  if (status == PENDRES_OK) tabulate(run->table, &w);
-  clear(&w);
-  return status;
+  work w = {.d = run->deck,
+            .way = {.n = 1, .chunk = 1, .compute = follow, .leave_out = leave_out,
+                    .collect = collect, .arg = &w}};
+  if (!scene_going(run) || !deck_has_ramp(run->deck)) return;
+  prepare(run, &w, axis, path);
+  w.way.size = w.ramp.jumps * sizeof *w.jump + 4 * samples(&w) * sizeof(double);
+  compute(run, &w);
+  put_way(run, &w);
+  put_delays(run, &w);
+  if (w.trajectories > 0) put_scatter(run, &w);
+  if (scene_prints(run)) tabulate(run->table, &w);
 }
 
 void scene_ramp_describe(const deck *d, deck_axis_id axis, FILE *out)

@@ -11,7 +11,7 @@
 
 /* All of it, where the deck asks for a ramp; the dimensions `direction` and `jump` exist. The path
    was followed up and down, and the points of the way back are in the order of the axis. */
-pendres_status scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_along_path *path);
+void scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_along_path *path);
 
 /* What is said of it before a run. */
 void scene_ramp_describe(const deck *d, deck_axis_id axis, FILE *out);
