@@ -76,12 +76,10 @@ static pendres_status find_cascade(const scene_some *some)
   return PENDRES_OK;
 }
 
-static int check_cascade(const scene_points *p, size_t first, size_t n, const void *rows)
+static int check_cascade(const scene_points *p, const void *row)
 {
   (void)p;
-  (void)first;
-  (void)n;
-  return scene_check_code(((const pendres_cascade *)rows)->doublings,
+  return scene_check_code(((const pendres_cascade *)row)->doublings,
                           PENDRES_CASCADE_DOUBLINGS + 1);
 }
 
@@ -119,12 +117,10 @@ static void no_strobes(const scene_points *p, size_t point, void *row)
   r->attractors = NOT_KNOWN;
 }
 
-static int check_strobes(const scene_points *p, size_t first, size_t n, const void *rows)
+static int check_strobes(const scene_points *p, const void *row)
 {
   const int64_t attractors = ((const record *)rows)->attractors;
   (void)p;
-  (void)first;
-  (void)n;
   return attractors >= NOT_KNOWN && attractors <= INT_MAX;
 }
 

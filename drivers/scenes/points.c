@@ -188,11 +188,13 @@ static int check(const void *arg, size_t task, const farm_record *in)
     if (m.point < t.first || m.point >= t.first + t.n || m.reason < 0 ||
         m.reason >= SCENE_FAILURE_COUNT || memchr(m.words, '\0', sizeof m.words) == NULL)
       return 0;
-  if (p->check != NULL) return p->check(p, t.first, t.n, in->data);
-  for (size_t i = 0; i < t.n; i++)
-    if (!scene_columns_fit(p->column_count, p->columns, (const char *)in->data + i * p->size))
-      return 0;
-  return 1;
+  int good = 1;
+  for (size_t i = 0; good && i < t.n; i++) {
+    const char *row = (const char *)in->data + i * p->size;
+    good = p->check != NULL ? p->check(p, row)
+                            : scene_columns_fit(p->column_count, p->columns, row);
+  }
+  return good;
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)

@@ -43,8 +43,8 @@ struct scene_points {
   /* Fill what is not NaN in the record of a point that has no result, all of whose columns are
      blank; NULL: it stays so. */
   void (*leave_out)(const scene_points *p, size_t point, void *row);
-  /* Can these be records, by the numbers in them? NULL: what the columns say. */
-  int (*check)(const scene_points *p, size_t first, size_t n, const void *rows);
+  /* Can this be a record, by the numbers in it? NULL: what the columns say. */
+  int (*check)(const scene_points *p, const void *row);
   const scene_column *columns;
   size_t column_count;
   /* Take over finished points, in their order; NULL: they are kept in `rows` or, if there are

@@ -113,14 +113,10 @@ static pendres_status compute(const scene_some *some)
   return status;
 }
 
-static int check(const scene_points *p, size_t first, size_t n, const void *rows)
+static int check(const scene_points *p, const void *row)
 {
-  const pendres_response *points = rows;
-  int good = 1;
   (void)p;
-  (void)first;
-  for (size_t k = 0; good && k < n; k++) good = scene_check_response(&points[k]);
-  return good;
+  return scene_check_response(row);
 }
 
 /* ---- resonances ---------------------------------------------------------------------------- */
@@ -190,8 +186,11 @@ static pendres_status name_states(const void *arg, size_t task, pendres_context 
 static int check_names(const void *arg, size_t task, const farm_record *in)
 {
   const grid *g = arg;
-  return in->size == g->values * sizeof(pendres_response) &&
-         check(&g->points, task * g->values, g->values, in->data);
+  const pendres_response *points = in->data;
+  int good = in->size == g->values * sizeof *points;
+  (void)task;
+  for (size_t i = 0; good && i < g->values; i++) good = scene_check_response(&points[i]);
+  return good;
 }
 
 static pendres_status collect_names(void *arg, size_t task, const farm_record *in)

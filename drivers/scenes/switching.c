@@ -7,11 +7,9 @@
  * no results; all are, if the steps of a state cannot be chosen.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include "scenes/check.h"
-#include "scenes/columns.h"
-#include "scenes/failed.h"
+#include "scenes/points.h"
 
 static const double level = 0.95;
 
@@ -22,14 +20,14 @@ typedef struct work {
   pendres_attractors *set;
   pendres_switching_survey survey;
   size_t temperatures, parts;
-  int steps[STATES];                /* a drive period; 0 where there is no such state */
-  pendres_switching_tally *sums;    /* [temperature] */
+  scene_points choices;             /* [state] of int: steps a drive period; 0: no such state */
+  scene_points counts;              /* [temperature][part] of pendres_switching_tally, */
+  pendres_switching_tally *sums;    /* [temperature] which are added up here */
   pendres_switching_rates *rates;   /* [temperature] */
   pendres_switching_activation activation[WAYS];
   pendres_switching_way way[WAYS];  /* that there are: without wells none to another */
   int ways, told;                   /* how many, and how many the table tells */
   int escapes;                      /* to infinity; there are no other wells then */
-  scene_failures choices;           /* [state] of the steps */
   scene_failures failed;            /* [temperature] */
   char name[STATES][24], state[STATES][40]; /* of the states: "sa", "the small-amplitude state" */
   char suffix[WAYS][56], words[WAYS][120];  /* of the ways */
@@ -94,76 +92,60 @@ static void describe(const deck *d, FILE *out)
 
 /* ---- tasks --------------------------------------------------------------------------------- */
 
-/* What the choice of a state's steps finds. */
-typedef struct choice {
-  int steps;
-  scene_verdict verdict;
-} choice;
-
-/* What is counted of a part. */
-typedef struct part {
-  pendres_switching_tally tally;
-  scene_verdict verdict;
-} part;
-
-static pendres_status choose(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static void name_choice(const scene_points *p, size_t state, char *text, size_t size)
 {
-  const work *w = arg;
-  choice *c = out->data;
-  farm_point(out, 1, "steps for %s", w->state[task]);
-  const pendres_status status =
-    pendres_switching_choose_steps(ctx, &w->survey, (int)task, &c->steps);
-  return scene_verdict_point(&c->verdict, status, pendres_context_message(ctx), out);
+  const work *w = p->arg;
+  snprintf(text, size, "steps for %s", w->state[state]);
 }
 
-static int check_choice(const void *arg, size_t task, const farm_record *in)
+static pendres_status choose(const scene_some *some)
 {
-  const choice *c = in->data;
-  (void)arg;
-  (void)task;
-  return in->size == sizeof *c && scene_check_code(c->steps, 1000001) &&
-         scene_check_verdict(&c->verdict);
+  const work *w = some->of->arg;
+  return pendres_switching_choose_steps(some->ctx, &w->survey, (int)some->first, some->rows);
 }
 
-static int check_part(const void *arg, size_t task, const farm_record *in)
+static int check_choice(const scene_points *p, const void *row)
 {
-  const part *p = in->data;
-  (void)arg;
-  (void)task;
-  return in->size == sizeof *p && p->tally.states <= PENDRES_SWITCHING_STATES &&
-         scene_check_verdict(&p->verdict);
+  (void)p;
+  return scene_check_code(*(const int *)row, 1000001);
 }
 
-static pendres_status collect_choice(void *arg, size_t task, const farm_record *in)
+static double temperature_of(const work *w, size_t part)
 {
-  work *w = arg;
-  const choice *c = in->data;
-  w->steps[task] = c->steps;
-  scene_failures_take(&w->choices, task, &c->verdict);
-  return PENDRES_OK;
+  return w->d->axis[DECK_AXIS_TEMPERATURE].value[part / w->parts];
 }
 
-static pendres_status count(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static void name_count(const scene_points *p, size_t point, char *text, size_t size)
 {
-  const work *w = arg;
-  part *p = out->data;
-  const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[task / w->parts];
+  const work *w = p->arg;
+  snprintf(text, size, "temperature %.10g, part %zu", temperature_of(w, point),
+           point % w->parts + 1);
+}
+
+static pendres_status count(const scene_some *some)
+{
+  const work *w = some->of->arg;
   if (w->survey.steps_per_period == 0) return PENDRES_OK; /* they could not be chosen */
-  farm_point(out, 1, "temperature %.10g, part %zu", temperature, task % w->parts + 1);
-  const pendres_status status =
-    pendres_switching_follow(ctx, &w->survey, temperature, task % w->parts, &p->tally);
-  return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
+  return pendres_switching_follow(some->ctx, &w->survey, temperature_of(w, some->first),
+                                  some->first % w->parts, some->rows);
+}
+
+static int check_count(const scene_points *p, const void *row)
+{
+  (void)p;
+  return ((const pendres_switching_tally *)row)->states <= PENDRES_SWITCHING_STATES;
 }
 
 /* A temperature of which parts fail is marked with the first failure. */
-static pendres_status collect_part(void *arg, size_t task, const farm_record *in)
+static pendres_status collect_count(const scene_points *p, size_t first, size_t n, const void *rows)
 {
-  work *w = arg;
-  const part *p = in->data;
-  const size_t temperature = task / w->parts;
-  pendres_switching_add(&w->sums[temperature], &p->tally);
+  work *w = p->arg;
+  const size_t temperature = first / w->parts;
+  (void)n;
+  pendres_switching_add(&w->sums[temperature], rows);
   if (w->failed.reason[temperature] == SCENE_FAILURE_NONE)
-    scene_failures_take(&w->failed, temperature, &p->verdict);
+    scene_failures_mark(&w->failed, temperature, (scene_failure)p->failed.reason[first],
+                        p->failed.words[first]);
   return PENDRES_OK;
 }
 
@@ -200,12 +182,18 @@ static pendres_status find_states(scene_run *run, work *w)
   return PENDRES_OK;
 }
 
+static int more_steps(const work *w)
+{
+  const int *steps = w->choices.rows;
+  return steps[SA] > steps[LA] ? steps[SA] : steps[LA];
+}
+
 /* Steps for both states, since trajectories visit both; 0 if those of either are not known. */
 static int steps_of(const work *w)
 {
   for (int s = 0; s < STATES; s++)
-    if (w->choices.reason[s] != SCENE_FAILURE_NONE) return 0;
-  return w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA];
+    if (w->choices.failed.reason[s] != SCENE_FAILURE_NONE) return 0;
+  return more_steps(w);
 }
 
 /*
@@ -217,9 +205,9 @@ static pendres_status conclude(work *w, size_t i)
 {
   const int *state = w->survey.state;
   for (int s = STATES - 1; s >= 0; s--)
-    if (w->choices.reason[s] != SCENE_FAILURE_NONE)
-      scene_failures_mark(&w->failed, i, (scene_failure)w->choices.reason[s],
-                          w->choices.words[s]);
+    if (w->choices.failed.reason[s] != SCENE_FAILURE_NONE)
+      scene_failures_mark(&w->failed, i, (scene_failure)w->choices.failed.reason[s],
+                          w->choices.failed.words[s]);
   const int broken = w->failed.reason[i] != SCENE_FAILURE_NONE;
   const int both = w->way[0] == PENDRES_SWITCHING_FORTH;
   if (!broken && both && (state[SA] < 0 || state[LA] < 0))
@@ -230,34 +218,23 @@ static pendres_status conclude(work *w, size_t i)
                                     broken ? NULL : &w->sums[i], &w->rates[i]);
 }
 
-static pendres_status compute(scene_run *run, work *w)
+static void compute(scene_run *run, work *w)
 {
-  w->parts = pendres_switching_parts(&w->survey);
-  w->sums = calloc(w->temperatures, sizeof *w->sums);
-  w->rates = calloc(w->temperatures, sizeof *w->rates);
-  if (w->sums == NULL || w->rates == NULL ||
-      scene_failures_create(run, STATES, &w->choices) != PENDRES_OK ||
-      scene_failures_create(run, w->temperatures, &w->failed) != PENDRES_OK)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu temperatures",
-                      w->temperatures);
-  pendres_status status =
-    scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = STATES, .task = choose,
-                                      .cheap = 1,
-                                      .record_size = sizeof(choice), .check = check_choice,
-                                      .collect = collect_choice,
-                                      .arg = w });
-  w->survey.steps_per_period = steps_of(w);
-  if (status == PENDRES_OK)
-    status = scene_compute(run, &(farm_stage){ .what = "chunks", .last = 1, .task = count,
-                                               .tasks = w->temperatures * w->parts,
-                                               .record_size = sizeof(part), .check = check_part,
-                                               .collect = collect_part, .arg = w });
-  if (status != PENDRES_OK) return status;
+  pendres_status status = PENDRES_OK;
+  find_states(run, w);
+  w->parts = scene_going(run) ? pendres_switching_parts(&w->survey) : 1;
+  w->sums = scene_array(run, w->temperatures, sizeof *w->sums);
+  w->rates = scene_array(run, w->temperatures, sizeof *w->rates);
+  scene_failures_create(run, w->temperatures, &w->failed);
+  SCENE_COMPUTE(run, &w->choices, "choices of steps", .cheap = 1);
+  if (scene_going(run)) w->survey.steps_per_period = steps_of(w);
+  w->counts.n = w->temperatures * w->parts;
+  SCENE_COMPUTE(run, &w->counts, "chunks", .last = 1);
+  if (!scene_going(run)) return;
   for (size_t i = 0; i < w->temperatures && status == PENDRES_OK; i++) status = conclude(w, i);
   if (status == PENDRES_OK)
     status = pendres_switching_activate(&w->survey, w->temperatures, w->rates, w->activation);
-  if (status != PENDRES_OK) return scene_fail(run, status, "rates cannot be computed");
-  return status;
+  if (status != PENDRES_OK) scene_fail(run, status, "rates cannot be computed");
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
@@ -315,7 +292,7 @@ static const char *const verdicts[PENDRES_SWITCHING_VERDICTS] = {
 };
 
 /* Where trajectories end, by their basins and by the rates. */
-static pendres_status write_occupation(scene_run *run, const work *w, int state)
+static void write_occupation(scene_run *run, const work *w, int state)
 {
 #define OF_STATE(what, field) \
   (offsetof(pendres_switching_rates, what) + offsetof(pendres_langevin_estimate, field))
@@ -331,11 +308,11 @@ static pendres_status write_occupation(scene_run *run, const work *w, int state)
     .dimensions = {"temperature"}, .star = w->name[state], .words = w->state[state],
     .n = w->temperatures, .stride = sizeof *w->rates,
     .rows = first + (size_t)state * sizeof(pendres_langevin_estimate)};
-  return SCENE_WRITE(run, &table, columns);
+  SCENE_WRITE(run, &table, columns);
 }
 
 /* Exposures, steps, and the interval's level. */
-static pendres_status write_circumstances(scene_run *run, const work *w)
+static void write_circumstances(scene_run *run, const work *w)
 {
   static const scene_column exposure = {
     .name = "exposure_*", .long_name = "time spent on", .type = SCENE_PLAIN};
@@ -349,41 +326,40 @@ static pendres_status write_circumstances(scene_run *run, const work *w)
   static const scene_column steps = {
     .name = "steps_per_period", .long_name = "steps a drive period of the noisy integrator",
     .type = SCENE_NUMBER, .value = offsetof(whole, steps)};
-  const whole of = {level, w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA]};
+  const whole of = {level, more_steps(w)};
   const scene_table scalars = {.n = 1, .stride = sizeof of, .rows = &of};
-  pendres_status status = scene_columns_write(run, &scalars, 1, &confidence);
+  scene_columns_write(run, &scalars, 1, &confidence);
   const int states = w->way[0] == PENDRES_SWITCHING_FORTH ? STATES : 1;
-  for (int s = 0; s < states && status == PENDRES_OK; s++) {
+  for (int s = 0; s < states; s++) {
     const scene_table table = {
       .dimensions = {"temperature"}, .star = w->name[s], .words = w->state[s],
       .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].exposure[s]};
-    status = scene_columns_write(run, &table, 1, &exposure);
-    if (status == PENDRES_OK) status = write_occupation(run, w, s);
+    scene_columns_write(run, &table, 1, &exposure);
+    write_occupation(run, w, s);
   }
-  return status == PENDRES_OK ? scene_columns_write(run, &scalars, 1, &steps) : status;
+  scene_columns_write(run, &scalars, 1, &steps);
 }
 
-static pendres_status write_results(scene_run *run, const work *w)
+static void write_results(scene_run *run, const work *w)
 {
   const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE };
-  pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  for (int i = 0; i < w->ways && status == PENDRES_OK; i++) {
+  if (!scene_going(run)) return;
+  scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
+  for (int i = 0; i < w->ways; i++) {
     const pendres_switching_way k = w->way[i];
     const scene_table table = {
       .dimensions = {"temperature"}, .star = w->suffix[k], .words = w->words[k],
       .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].way[k]};
-    status = SCENE_WRITE(run, &table, of_rates);
+    SCENE_WRITE(run, &table, of_rates);
   }
-  for (int i = 0; i < w->ways && status == PENDRES_OK; i++) {
+  for (int i = 0; i < w->ways; i++) {
     const pendres_switching_way k = w->way[i];
     const scene_table table = {.star = w->suffix[k], .words = w->words[k], .n = 1,
                                .stride = sizeof *w->activation, .rows = &w->activation[k]};
-    status = SCENE_WRITE(run, &table, of_fits);
+    SCENE_WRITE(run, &table, of_fits);
   }
-  if (status == PENDRES_OK) status = write_circumstances(run, w);
-  return status == PENDRES_OK
-           ? scene_failures_write(run, &w->failed, "failed", "switching", 1, axes)
-           : status;
+  write_circumstances(run, w);
+  scene_failures_write(run, &w->failed, "failed", "switching", 1, axes);
 }
 
 /* A line of the table: one way at one temperature. */
@@ -415,7 +391,7 @@ static line line_of(const work *w, pendres_switching_way k, size_t i)
   return out;
 }
 
-static pendres_status print_table(scene_run *run, const work *w)
+static void print_table(scene_run *run, const work *w)
 {
   static const scene_cell cells[] = {
     SCENE_CELL(line, temperature, "temperature  ", "%-12.5g "),
@@ -432,7 +408,7 @@ static pendres_status print_table(scene_run *run, const work *w)
   const size_t n = (size_t)w->told * w->temperatures;
   line *rows = scene_array(run, n, sizeof *rows);
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (rows == NULL) return;
   for (size_t i = 0; i < n; i++)
     rows[i] = line_of(w, w->way[i / w->temperatures], i % w->temperatures);
   SCENE_PRINT(run->table, &table, n, cells, NULL);
@@ -443,21 +419,22 @@ static pendres_status print_table(scene_run *run, const work *w)
     if (!isnan(f->energy)) fprintf(run->table, "%.5f +- %.5f", f->energy, f->energy_error);
     fprintf(run->table, "%s\n", verdicts[f->verdict]);
   }
-  return PENDRES_OK;
 }
 
 static pendres_status run_scene(scene_run *run)
 {
-  work w = { .d = run->deck, .temperatures = run->deck->axis[DECK_AXIS_TEMPERATURE].count };
+  work w = {.d = run->deck, .temperatures = run->deck->axis[DECK_AXIS_TEMPERATURE].count,
+            .choices = {.n = STATES, .chunk = 1, .size = sizeof(int), .compute = choose,
+                        .name = name_choice, .check = check_choice, .arg = &w},
+            .counts = {.chunk = 1, .size = sizeof(pendres_switching_tally), .compute = count,
+                       .name = name_count, .check = check_count, .collect = collect_count,
+                       .arg = &w}};
   name_ways(&w);
-  pendres_status status = find_states(run, &w);
-  if (status == PENDRES_OK) status = compute(run, &w);
-  if (status == PENDRES_OK) status = write_results(run, &w);
-  if (status == PENDRES_OK && run->table != NULL) status = print_table(run, &w);
+  compute(run, &w);
+  write_results(run, &w);
+  if (scene_prints(run)) print_table(run, &w);
   pendres_attractors_free(w.set);
-  free(w.sums);
-  free(w.rates);
-  return status;
+  return run->status;
 }
 
 const scene_kind scene_switching = {
