@@ -460,7 +460,8 @@ static pendres_status run_scene(scene_run *run)
   }
   if (status == PENDRES_OK) status = compute_cut(&b);
   if (status == PENDRES_OK) status = basins_write_results(&b);
-  if (status == PENDRES_OK) status = basins_write_clouds(run, b.set);
+  if (status == PENDRES_OK) basins_write_clouds(run, b.set);
+  if (status == PENDRES_OK) status = run->status;
   run->failed_points += b.unresolved;
   if (b.unresolved > 0) tell_unresolved(&b);
   pendres_attractors_free(b.set);

@@ -62,8 +62,8 @@ pendres_status basins_write_boundary(basins *b);
  * Compute and write the clouds around all attractors of the set at the deck's temperatures, and
  * print a table of them. Nothing is done if the deck has no temperature axis. The root group has
  * the dimension `attractor` already, in the order of the set; the dimensions `temperature` and
- * `strobe` are made here. The run holds the message of a failure.
+ * `strobe` are made here.
  */
-pendres_status basins_write_clouds(scene_run *run, const pendres_attractors *set);
+void basins_write_clouds(scene_run *run, const pendres_attractors *set);
 
 #endif

@@ -7,10 +7,9 @@
  * of which a part fails is marked and has no results.
  */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "scenes/basins.h"
+#include "scenes/points.h"
 
 typedef struct cloud_work {
   const deck *d;
@@ -18,11 +17,11 @@ typedef struct cloud_work {
   size_t temperatures, attractors;
   size_t strobes;               /* written of each cloud */
   size_t parts;                 /* that each cloud is followed in */
-  pendres_cloud *clouds;        /* [temperature][attractor] */
-  pendres_langevin_cloud *part; /* [temperature][attractor][part] */
+  scene_points prepared;        /* [temperature][attractor] of cloud_record, taken apart into: */
+  pendres_cloud *clouds;        /* the same */
   double *x, *v;                /* [temperature][attractor][strobe] */
-  scene_failures failed;        /* [temperature][attractor] */
-  scene_failures parts_failed;  /* the same: the first failure of its parts */
+  scene_points followed;        /* [temperature][attractor][part] of part_record, into x, v and: */
+  pendres_langevin_cloud *part; /* the same */
 } cloud_work;
 
 /* What to make a cloud of: as many strobes of each trajectory as make those that are written. */
@@ -37,7 +36,7 @@ static pendres_cloud_request cloud_request(const cloud_work *w, size_t number)
 
 static int is_broken(const cloud_work *w, size_t number)
 {
-  return w->failed.reason[number] != SCENE_FAILURE_NONE;
+  return w->prepared.failed.reason[number] != SCENE_FAILURE_NONE;
 }
 
 /* Is there a cloud whose trajectories are followed? */
@@ -48,126 +47,101 @@ static int is_followed(const cloud_work *w, size_t number)
 
 /* ---- tasks ----------------------------------------------------------------------------------- */
 
-/* What a task has made of a cloud, before the `strobes` positions and velocities that it has. */
-typedef struct made {
-  pendres_cloud cloud;         /* of the tasks that prepare */
-  pendres_langevin_cloud part; /* of those that follow */
-  size_t strobes;
-  scene_verdict verdict;
-} made;
+/* Of a cloud, with the positions and velocities of all its strobes. */
+typedef struct cloud_record {
+  pendres_cloud cloud;
+  double x[];
+} cloud_record;
 
-/* A record with room for so many strobe points, all NULL if there is no memory. */
-static made *make_room(farm_record *out, size_t strobes, double **x, double **v)
+/* Of a part of one. */
+typedef struct part_record {
+  pendres_langevin_cloud part;
+  double x[];
+} part_record;
+
+/* Strobe points of trajectories of a cloud. */
+static size_t points_of(const pendres_cloud_request *q, size_t trajectories)
 {
-  made *m = farm_record_resize(out, sizeof *m + 2 * strobes * sizeof(double));
-  if (m == NULL) return NULL;
-  m->strobes = strobes;
-  *x = (double *)(m + 1);
-  *v = *x + strobes;
-  return m;
+  return trajectories * (size_t)q->record;
 }
 
-static pendres_status prepare(const void *arg, size_t number, pendres_context *ctx,
-                              farm_record *out)
+static pendres_status prepare(const scene_some *some)
 {
-  const cloud_work *w = arg;
-  const pendres_cloud_request q = cloud_request(w, number);
-  double *x, *v;
-  made *m = make_room(out, q.trajectories * (size_t)q.record, &x, &v);
-  if (m == NULL) return PENDRES_OUT_OF_MEMORY;
-  const pendres_status status = pendres_cloud_prepare(ctx, &q, &m->cloud, x, v);
-  if (status == PENDRES_OK && m->cloud.way == PENDRES_CLOUD_FOLLOWED) {
-    m->strobes = 0; /* they come with the parts */
-    m = farm_record_resize(out, sizeof *m);
-    if (m == NULL) return PENDRES_OUT_OF_MEMORY;
-  }
-  return scene_verdict_note(&m->verdict, status, pendres_context_message(ctx));
+  const pendres_cloud_request q = cloud_request(some->of->arg, some->first);
+  cloud_record *r = some->rows;
+  return pendres_cloud_prepare(some->ctx, &q, &r->cloud, r->x,
+                               r->x + points_of(&q, q.trajectories));
 }
 
-/* Strobe points of a cloud from number `begin` on, as many as are written. */
-static void keep_strobes(cloud_work *w, size_t number, size_t begin, const made *m)
+/* n strobe points of a cloud from number `begin` on, as many as are written. */
+static void keep_strobes(cloud_work *w, size_t number, size_t begin, size_t n, const double *x)
 {
-  const double *x = (const double *)(m + 1), *v = x + m->strobes;
-  for (size_t k = 0; k < m->strobes && begin + k < w->strobes; k++) {
+  for (size_t k = 0; k < n && begin + k < w->strobes; k++) {
     w->x[number * w->strobes + begin + k] = x[k];
-    w->v[number * w->strobes + begin + k] = v[k];
+    w->v[number * w->strobes + begin + k] = x[n + k];
   }
 }
 
-/* With as many strobes as it says, or none: the parts of what is not followed are empty. */
-static int fits(const farm_record *in)
+static int check_prepared(const scene_points *p, const void *row)
 {
-  const made *m = in->data;
-  return in->size >= sizeof *m && m->strobes == (in->size - sizeof *m) / (2 * sizeof(double)) &&
-         in->size == sizeof *m + 2 * m->strobes * sizeof(double) &&
-         scene_check_verdict(&m->verdict);
+  const pendres_cloud *c = &((const cloud_record *)row)->cloud;
+  (void)p;
+  return scene_check_code((int)c->way, PENDRES_CLOUD_WAY_COUNT) &&
+         scene_check_code((int)c->verdict, PENDRES_CLOUD_VERDICTS) &&
+         scene_check_code(c->bias.steps_per_period, 1000001);
 }
 
-static int check_prepared(const void *arg, size_t number, const farm_record *in)
+/* Strobe points of those that are followed come with the parts. */
+static pendres_status collect_prepared(const scene_points *p, size_t first, size_t n,
+                                       const void *rows)
 {
-  const made *m = in->data;
-  (void)arg;
-  (void)number;
-  return fits(in) && scene_check_code((int)m->cloud.way, PENDRES_CLOUD_WAY_COUNT) &&
-         scene_check_code((int)m->cloud.verdict, PENDRES_CLOUD_VERDICTS) &&
-         scene_check_code(m->cloud.bias.steps_per_period, 1000001);
-}
-
-static int check_part(const void *arg, size_t task, const farm_record *in)
-{
-  (void)arg;
-  (void)task;
-  return in->size == 0 || fits(in);
-}
-
-static pendres_status collect_prepared(void *arg, size_t number, const farm_record *in)
-{
-  cloud_work *w = arg;
-  const made *m = in->data;
-  w->clouds[number] = m->cloud;
-  scene_failures_take(&w->failed, number, &m->verdict);
-  keep_strobes(w, number, 0, m);
+  cloud_work *w = p->arg;
+  const cloud_record *r = rows;
+  const pendres_cloud_request q = cloud_request(w, first);
+  (void)n;
+  w->clouds[first] = r->cloud;
+  if (r->cloud.way != PENDRES_CLOUD_FOLLOWED)
+    keep_strobes(w, first, 0, points_of(&q, q.trajectories), r->x);
   return PENDRES_OK;
 }
 
-static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static pendres_status follow(const scene_some *some)
 {
-  const cloud_work *w = arg;
-  const size_t number = task / w->parts, part = task % w->parts;
+  const cloud_work *w = some->of->arg;
+  const size_t number = some->first / w->parts, part = some->first % w->parts;
+  part_record *r = some->rows;
   pendres_cloud_request q = cloud_request(w, number);
-  double *x, *v;
   if (!is_followed(w, number)) return PENDRES_OK;
   q.steps_per_period = w->clouds[number].bias.steps_per_period;
-  made *m = make_room(out, pendres_cloud_part(&q, part, NULL) * (size_t)q.record, &x, &v);
-  if (m == NULL) return PENDRES_OUT_OF_MEMORY;
-  const pendres_status status = pendres_cloud_follow(ctx, &q, part, &m->part, x, v);
-  return scene_verdict_note(&m->verdict, status, pendres_context_message(ctx));
+  return pendres_cloud_follow(some->ctx, &q, part, &r->part, r->x,
+                              r->x + points_of(&q, pendres_cloud_part(&q, part, NULL)));
 }
 
-/* A cloud of which parts fail is marked with the first failure. */
-static pendres_status collect_part(void *arg, size_t task, const farm_record *in)
+static pendres_status collect_part(const scene_points *p, size_t task, size_t n, const void *rows)
 {
-  cloud_work *w = arg;
+  cloud_work *w = p->arg;
   const size_t number = task / w->parts;
+  const part_record *r = rows;
   const pendres_cloud_request q = cloud_request(w, number);
-  const made *m = in->data;
   size_t first;
-  if (in->size == 0) return PENDRES_OK;
-  (void)pendres_cloud_part(&q, task % w->parts, &first);
-  w->part[task] = m->part;
-  keep_strobes(w, number, first * (size_t)q.record, m);
-  if (w->parts_failed.reason[number] == SCENE_FAILURE_NONE)
-    scene_failures_take(&w->parts_failed, number, &m->verdict);
+  (void)n;
+  if (!is_followed(w, number)) return PENDRES_OK;
+  const size_t trajectories = pendres_cloud_part(&q, task % w->parts, &first);
+  w->part[task] = r->part;
+  keep_strobes(w, number, points_of(&q, first), points_of(&q, trajectories), r->x);
   return PENDRES_OK;
 }
 
-/* Put all parts of a cloud together; of a cloud that failed nothing is kept but the reason. */
+/* Put all parts of a cloud together; one of which parts fail is marked with the first failure, and
+   of a cloud that failed nothing is kept but the reason. */
 static pendres_status conclude(cloud_work *w, size_t number)
 {
   const pendres_cloud_request q = cloud_request(w, number);
-  if (w->parts_failed.reason[number] != SCENE_FAILURE_NONE)
-    scene_failures_mark(&w->failed, number, (scene_failure)w->parts_failed.reason[number],
-                        w->parts_failed.words[number]);
+  const scene_failures *parts = &w->followed.failed;
+  for (size_t k = (number + 1) * w->parts; k-- > number * w->parts;)
+    if (parts->reason[k] != SCENE_FAILURE_NONE)
+      scene_failures_mark(&w->prepared.failed, number, (scene_failure)parts->reason[k],
+                          parts->words[k]);
   if (!is_broken(w, number))
     return pendres_cloud_conclude(&q, w->parts, w->part + number * w->parts, &w->clouds[number]);
   for (size_t k = 0; k < w->strobes; k++)
@@ -175,32 +149,30 @@ static pendres_status conclude(cloud_work *w, size_t number)
   return PENDRES_OK;
 }
 
-static pendres_status compute(scene_run *run, cloud_work *w)
+static void compute(scene_run *run, cloud_work *w)
 {
+  const pendres_cloud_request q = cloud_request(w, 0);
   const size_t n = w->temperatures * w->attractors;
-  w->clouds = calloc(n, sizeof *w->clouds);
-  w->part = calloc(n * w->parts, sizeof *w->part);
-  w->x = malloc(n * w->strobes * sizeof *w->x);
-  w->v = malloc(n * w->strobes * sizeof *w->v);
-  if (w->clouds == NULL || w->part == NULL || w->x == NULL || w->v == NULL ||
-      scene_failures_create(run, n, &w->failed) != PENDRES_OK ||
-      scene_failures_create(run, n, &w->parts_failed) != PENDRES_OK)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu clouds", n);
-  for (size_t i = 0; i < n * w->strobes; i++) w->x[i] = w->v[i] = NAN;
-  pendres_status status =
-    scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = n, .task = prepare,
-                                      .cheap = 1,
-                                      .record_size = sizeof(made), .check = check_prepared,
-                                      .collect = collect_prepared,
-                                      .arg = w });
-  if (status == PENDRES_OK)
-    status = scene_compute(run, &(farm_stage){ .what = "chunks of clouds", .tasks = n * w->parts,
-                                               .task = follow, .check = check_part,
-                                               .collect = collect_part,
-                                               .arg = w });
-  if (status != PENDRES_OK) return status;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) status = conclude(w, i);
-  return status == PENDRES_OK ? status : scene_fail(run, status, "clouds cannot be put together");
+  size_t most = 0;
+  w->parts = pendres_cloud_parts(&q);
+  for (size_t k = 0; k < w->parts; k++) {
+    const size_t trajectories = pendres_cloud_part(&q, k, NULL);
+    most = trajectories > most ? trajectories : most;
+  }
+  w->prepared.n = n;
+  w->prepared.size += 2 * points_of(&q, q.trajectories) * sizeof(double);
+  w->followed.n = n * w->parts;
+  w->followed.size += 2 * points_of(&q, most) * sizeof(double);
+  w->clouds = scene_array(run, n, sizeof *w->clouds);
+  w->part = scene_array(run, n * w->parts, sizeof *w->part);
+  w->x = scene_array(run, n * w->strobes, sizeof *w->x);
+  w->v = scene_array(run, n * w->strobes, sizeof *w->v);
+  for (size_t i = 0; scene_going(run) && i < n * w->strobes; i++) w->x[i] = w->v[i] = NAN;
+  SCENE_COMPUTE(run, &w->prepared, "choices of steps", .cheap = 1);
+  SCENE_COMPUTE(run, &w->followed, "chunks of clouds", .last = 0);
+  for (size_t i = 0; i < n && scene_going(run); i++)
+    if (conclude(w, i) != PENDRES_OK)
+      scene_fail(run, PENDRES_INTERNAL, "clouds cannot be put together");
 }
 
 /* ---- results --------------------------------------------------------------------------------- */
@@ -262,23 +234,20 @@ static const char *const agree[PENDRES_CLOUD_VERDICTS] = {
   [PENDRES_CLOUD_BELOW_ROUNDING] = "not followed",
 };
 
-static pendres_status write_strobes(scene_run *run, const cloud_work *w)
+static void write_strobes(scene_run *run, const cloud_work *w)
 {
   static const char *const names[2] = { "strobe_x", "strobe_v" };
   static const char *const words[2] = { "position at drive phase 0, around well 0",
                                         "velocity at drive phase 0" };
   static const char *const units[2] = { "rad", "1" };
-  pendres_status status =
-    scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
-  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+  scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
+  for (int k = 0; k < 2; k++) {
     const pendres_store_spec spec = {
       .name = names[k], .dimensions = { "temperature", "attractor", "strobe" },
       .long_name = words[k], .units = units[k],
       .comment = "trajectory after trajectory; NaN after an escape" };
-    status = pendres_store_put(run->store, &spec, k == 0 ? w->x : w->v, NULL,
-                               w->temperatures * w->attractors * w->strobes);
+    scene_put(run, &spec, k == 0 ? w->x : w->v, w->temperatures * w->attractors * w->strobes);
   }
-  return status;
 }
 
 static pendres_cloud_verdict verdict_of(const cloud_work *w, size_t number)
@@ -286,46 +255,38 @@ static pendres_cloud_verdict verdict_of(const cloud_work *w, size_t number)
   return is_broken(w, number) ? PENDRES_CLOUD_NOT_COMPARED : w->clouds[number].verdict;
 }
 
-static pendres_status write_clouds(scene_run *run, const cloud_work *w)
+static void write_clouds(scene_run *run, const cloud_work *w)
 {
   const size_t n = w->temperatures * w->attractors;
   row *rows = scene_array(run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"temperature", "attractor"}, .n = n,
-                             .stride = sizeof *rows, .rows = rows, .missing = w->failed.reason};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+                             .stride = sizeof *rows, .rows = rows};
   const double time = deck_pendulum_units(run->deck).time;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = 0; rows != NULL && i < n; i++) {
     const double error = w->clouds[i].linear_error;
-    rows[i] = (row){w->clouds[i], (double)w->clouds[i].measured.left, error, error / time,
-                    error / (time * time)};
+    if (is_broken(w, i)) SCENE_BLANK(columns, &rows[i]);
+    else
+      rows[i] = (row){w->clouds[i], (double)w->clouds[i].measured.left, error, error / time,
+                      error / (time * time)};
     rows[i].of.verdict = verdict_of(w, i);
   }
-  const pendres_status status = SCENE_WRITE(run, &table, columns);
-  return status;
+  SCENE_WRITE(run, &table, columns);
 }
 
-static pendres_status write_failed(scene_run *run, const cloud_work *w)
+static void write_failed(scene_run *run, const cloud_work *w)
 {
+  const scene_failures *failed = &w->prepared.failed;
   pendres_store_spec spec = { .name = "noise_failed", .dimensions = { "temperature", "attractor" },
                               .long_name = "why there is no whole result for the noisy cloud" };
   scene_failure_flags(&spec);
-  for (size_t i = 0; i < w->failed.n; i++) {
+  scene_put(run, &spec, failed->reason, failed->n);
+  for (size_t i = 0; scene_going(run) && i < failed->n; i++) {
     if (!is_broken(w, i)) continue;
     run->failed_points++;
-    scene_failure_tell(run, (scene_failure)w->failed.reason[i], w->failed.words[i],
+    scene_failure_tell(run, (scene_failure)failed->reason[i], failed->words[i],
                        "noisy cloud at temperature %.10g, attractor %zu",
                        cloud_request(w, i).temperature, i % w->attractors);
   }
-  return pendres_store_put(run->store, &spec, w->failed.reason, NULL, w->failed.n);
-}
-
-static pendres_status write_results(scene_run *run, const cloud_work *w)
-{
-  pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  if (status == PENDRES_OK) status = write_strobes(run, w);
-  if (status == PENDRES_OK) status = write_clouds(run, w);
-  if (status == PENDRES_OK) status = write_failed(run, w);
-  return scene_stored(run, status);
 }
 
 static void print_table(FILE *out, const cloud_work *w)
@@ -347,24 +308,21 @@ static void print_table(FILE *out, const cloud_work *w)
   }
 }
 
-/* ---- all of it ------------------------------------------------------------------------------- */
-
-pendres_status basins_write_clouds(scene_run *run, const pendres_attractors *set)
+void basins_write_clouds(scene_run *run, const pendres_attractors *set)
 {
   const deck *d = run->deck;
-  cloud_work w = { .d = d, .set = set, .temperatures = d->axis[DECK_AXIS_TEMPERATURE].count,
-                   .attractors = pendres_attractors_count(set),
-                   .strobes = (size_t)d->basins.strobes };
-  pendres_status status = PENDRES_OK;
-  if (w.temperatures == 0 || w.attractors == 0) return PENDRES_OK;
-  const pendres_cloud_request q = cloud_request(&w, 0);
-  w.parts = pendres_cloud_parts(&q);
-  status = compute(run, &w);
-  if (status == PENDRES_OK) status = write_results(run, &w);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
-  free(w.clouds);
-  free(w.part);
-  free(w.x);
-  free(w.v);
-  return status;
+  cloud_work w = {.d = d, .set = set, .temperatures = d->axis[DECK_AXIS_TEMPERATURE].count,
+                  .attractors = pendres_attractors_count(set),
+                  .strobes = (size_t)d->basins.strobes,
+                  .prepared = {.chunk = 1, .size = sizeof(cloud_record), .compute = prepare,
+                               .check = check_prepared, .collect = collect_prepared, .arg = &w},
+                  .followed = {.chunk = 1, .size = sizeof(part_record), .compute = follow,
+                               .collect = collect_part, .arg = &w}};
+  if (!scene_going(run) || w.temperatures == 0 || w.attractors == 0) return;
+  compute(run, &w);
+  scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
+  write_strobes(run, &w);
+  write_clouds(run, &w);
+  write_failed(run, &w);
+  if (scene_prints(run)) print_table(run->table, &w);
 }

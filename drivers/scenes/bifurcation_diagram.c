@@ -119,7 +119,7 @@ static void no_strobes(const scene_points *p, size_t point, void *row)
 
 static int check_strobes(const scene_points *p, const void *row)
 {
-  const int64_t attractors = ((const record *)rows)->attractors;
+  const int64_t attractors = ((const record *)row)->attractors;
   (void)p;
   return attractors >= NOT_KNOWN && attractors <= INT_MAX;
 }

@@ -92,11 +92,6 @@ static const char *field(const scene_table *t, size_t row, size_t offset)
   return (const char *)t->rows + row * t->stride + offset;
 }
 
-static int missing(const scene_table *t, size_t row)
-{
-  return t->missing != NULL && t->missing[row] != 0;
-}
-
 static int is_count(scene_column_type type)
 {
   return type == SCENE_COUNT || type == SCENE_COUNT32;
@@ -109,7 +104,6 @@ static void gather_reals(const scene_table *t, const scene_column *c, buffers *b
     double *value = b->value + each * i, *error = b->error + each * i;
     memcpy(value, field(t, i, c->value), each * sizeof *value);
     if (c->type == SCENE_REAL) memcpy(error, field(t, i, c->error), each * sizeof *error);
-    for (size_t k = 0; k < each && missing(t, i); k++) value[k] = error[k] = NAN;
   }
 }
 
@@ -125,9 +119,9 @@ static void gather_others(const scene_table *t, const scene_column *c, buffers *
     switch (c->type) {
     case SCENE_TEXT: b->text[i] = from; break;
     case SCENE_FLAG: b->flag[i] = (int8_t)number; break;
-    case SCENE_COUNT: b->count[i] = missing(t, i) ? 0 : (int64_t)count; break;
-    case SCENE_COUNT32: b->number[i] = missing(t, i) ? 0 : (int32_t)count; break;
-    default: b->number[i] = missing(t, i) ? 0 : (int32_t)number;
+    case SCENE_COUNT: b->count[i] = (int64_t)count; break;
+    case SCENE_COUNT32: b->number[i] = (int32_t)count; break;
+    default: b->number[i] = (int32_t)number;
     }
   }
 }
@@ -195,7 +189,6 @@ static pendres_status take_piece(scene_run *run, const scene_table *t, void *row
   const size_t each = t->n / (t->first > 0 ? t->first : 1), first = p->first * each;
   p->table = *t;
   p->table.n = p->values * each;
-  if (t->missing != NULL) p->table.missing = t->missing + first;
   p->table.rows = t->temporary != NULL ? rows : field(t, first, 0);
   if (t->temporary == NULL) return run->status;
   return scene_temporary_read(run, t->temporary, first, p->table.n, rows);

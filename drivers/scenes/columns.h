@@ -66,7 +66,6 @@ typedef struct scene_table {
   const void *rows;
   const struct scene_temporary *temporary; /* not NULL: in the place of `rows` */
   size_t first;              /* values of the first dimension, written some at a time; 0: at once */
-  const int8_t *missing;     /* [n], not 0: the row has no results: NaN or 0; may be NULL */
   int deflate;               /* level of compression; 0: as the file has it */
 } scene_table;
 
