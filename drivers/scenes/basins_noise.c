@@ -246,7 +246,8 @@ static void write_strobes(scene_run *run, const cloud_work *w)
       .name = names[k], .dimensions = { "temperature", "attractor", "strobe" },
       .long_name = words[k], .units = units[k],
       .comment = "trajectory after trajectory; NaN after an escape" };
-    scene_put(run, &spec, k == 0 ? w->x : w->v, w->temperatures * w->attractors * w->strobes);
+    scene_put(run, &spec, k == 0 ? w->x : w->v, NULL,
+              w->temperatures * w->attractors * w->strobes);
   }
 }
 
@@ -279,7 +280,7 @@ static void write_failed(scene_run *run, const cloud_work *w)
   pendres_store_spec spec = { .name = "noise_failed", .dimensions = { "temperature", "attractor" },
                               .long_name = "why there is no whole result for the noisy cloud" };
   scene_failure_flags(&spec);
-  scene_put(run, &spec, failed->reason, failed->n);
+  scene_put(run, &spec, failed->reason, NULL, failed->n);
   for (size_t i = 0; scene_going(run) && i < failed->n; i++) {
     if (!is_broken(w, i)) continue;
     run->failed_points++;

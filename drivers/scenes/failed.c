@@ -205,7 +205,7 @@ pendres_status scene_failures_write(scene_run *run, const scene_failures *f, con
   snprintf(words, sizeof words, "why there is no whole result for the %s", what);
   scene_failure_flags(&spec);
   for (int i = 0; i < axes; i++) spec.dimensions[i] = deck_axis_name(axis[i]);
-  (void)scene_put(run, &spec, f->reason, f->n);
+  (void)scene_put(run, &spec, f->reason, NULL, f->n);
   for (size_t i = 0; i < f->n && scene_going(run); i++) {
     if (f->reason[i] == SCENE_FAILURE_NONE) continue;
     run->failed_points++;

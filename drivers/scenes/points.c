@@ -265,7 +265,7 @@ pendres_status scene_points_write_failed(scene_run *run, const scene_points *p, 
   pendres_store_spec spec = {.name = name, .long_name = long_name};
   scene_failure_flags(&spec);
   for (int i = 0; i < p->axes; i++) spec.dimensions[i] = deck_axis_name(p->axis[i]);
-  scene_put(run, &spec, p->failed.reason, p->n);
+  scene_put(run, &spec, p->failed.reason, NULL, p->n);
   scene_points_tell(run, p);
   return run->status;
 }

@@ -256,7 +256,7 @@ static void put_scatter(scene_run *run, const work *w)
     .name = "jump_noisy_parameter", .dimensions = {"jump", "trajectory"}, .units = "1",
     .long_name = "value at which each noisy trajectory leaves the state; NaN: it does not"};
   scene_numbering(run, "trajectory", w->trajectories, "number of the noisy trajectory");
-  scene_put(run, &spec, w->noisy, w->ramp.jumps * w->trajectories);
+  scene_put(run, &spec, w->noisy, NULL, w->ramp.jumps * w->trajectories);
   SCENE_WRITE(run, &table, columns);
 }
 

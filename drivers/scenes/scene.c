@@ -109,14 +109,7 @@ pendres_status scene_compute(scene_run *run, const farm_stage *stage)
 }
 
 pendres_status scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
-                         size_t n)
-{
-  if (!scene_going(run)) return run->status;
-  return scene_stored(run, pendres_store_put(run->store, spec, values, NULL, n));
-}
-
-pendres_status scene_put_result(scene_run *run, const pendres_store_spec *spec,
-                                const double *values, const double *errors, size_t n)
+                         const double *errors, size_t n)
 {
   if (!scene_going(run)) return run->status;
   return scene_stored(run, pendres_store_put(run->store, spec, values, errors, n));

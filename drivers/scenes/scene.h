@@ -93,11 +93,10 @@ void scene_end(scene_run *run);
 /* Run a stage on the run's farm; on failure the run has the farm's words. */
 pendres_status scene_compute(scene_run *run, const farm_stage *stage);
 
-/* Write a variable, or a dimension of n values (NULL: numbers from 0 on); see pendres/store.h. */
+/* Write a variable, with its errors unless they are NULL, or a dimension of n values (NULL: numbers
+   from 0 on); see pendres/store.h. */
 pendres_status scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
-                         size_t n);
-pendres_status scene_put_result(scene_run *run, const pendres_store_spec *spec,
-                                const double *values, const double *errors, size_t n);
+                         const double *errors, size_t n);
 pendres_status scene_put_dimension(scene_run *run, const pendres_store_spec *spec,
                                    const void *values, size_t n);
 
