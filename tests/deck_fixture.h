@@ -54,9 +54,9 @@ static inline void assert_deck_equal(const deck *a, const deck *b)
   assert_int_equal(a->kind, b->kind);
   assert_string_equal(a->title, b->title);
   assert_string_equal(a->output, b->output);
-  assert_memory_equal(&a->pendulum.drive_amplitude, &b->pendulum.drive_amplitude,
-                      4 * sizeof(double));
-  assert_int_equal(a->pendulum.by_period, b->pendulum.by_period);
+  assert_memory_equal(&a->pendulum, &b->pendulum, sizeof a->pendulum);
+  assert_memory_equal(&a->drive_period, &b->drive_period, sizeof(double));
+  assert_int_equal(a->by_period, b->by_period);
   for (int i = 0; i < DECK_AXIS_COUNT; i++) assert_axis_equal(&a->axis[i], &b->axis[i]);
   assert_memory_equal(a->search, b->search, sizeof a->search);
   assert_memory_equal(&a->ensemble, &b->ensemble, sizeof a->ensemble);

@@ -78,15 +78,15 @@ static void other_values(void **state)
   assert_int_equal(d.orbit.periods, 3);
   assert_int_equal(d.orbit.samples, 512);
   assert_int_equal(d.orbit.transient, 0);
-  assert_true(d.pendulum.drive_period == 8 && d.pendulum.by_period);
+  assert_true(d.drive_period == 8 && d.by_period);
   assert_true(d.pendulum.drive_frequency == 6.28318530717958647693 / 8);
   deck_free(&d);
 
   d = read_good(good[6]);
   assert_string_equal(d.orbit.start, "");
   assert_true(d.orbit.x == 0.3 && d.orbit.v == -1 && d.orbit.transient == 1);
-  assert_true(d.pendulum.drive_frequency == 0.7 && !d.pendulum.by_period);
-  assert_true(d.pendulum.drive_period == 6.28318530717958647693 / 0.7);
+  assert_true(d.pendulum.drive_frequency == 0.7 && !d.by_period);
+  assert_true(d.drive_period == 6.28318530717958647693 / 0.7);
   deck_free(&d);
 
   d = read_good(good[4]);
@@ -121,14 +121,14 @@ static void forces(void **state)
   (void)state;
   deck d = read_good("&scene kind='orbit' / &pendulum drive_amplitude=0.2 damping=0.1 "
                      "drive_frequency=1 / &orbit start='sa' /");
-  assert_string_equal(d.pendulum.force, "pendulum");
+  assert_string_equal(d.force, "pendulum");
   assert_true(d.pendulum.torque == 0.0 && d.pendulum.parametric_amplitude == 0.0);
   deck_free(&d);
   d = read_good("&scene kind='orbit' / &pendulum drive_amplitude=0.2 damping=0.1 drive_frequency=1 "
                 "torque=-0.5 parametric_amplitude=0.3 force='polynomial' "
                 "force_coefficients = 1, , -2.5 / &orbit start='sa' /");
   const double a[] = { 1.0, 0.0, -2.5, 0.0, 0.0 };
-  assert_string_equal(d.pendulum.force, "polynomial");
+  assert_string_equal(d.force, "polynomial");
   assert_memory_equal(d.pendulum.force_coefficients, a, sizeof a);
   assert_true(d.pendulum.torque == -0.5 && d.pendulum.parametric_amplitude == 0.3);
   deck_free(&d);

@@ -10,6 +10,8 @@
 #define CURVE "&scene kind='resonance_curve' /\n&pendulum drive_amplitude=0.2 /\n"
 #define ORBIT "&scene kind='orbit' /\n" ONE
 #define BASINS "&scene kind='basins' /\n" ONE
+#define SWEPT "&scene kind='hysteresis' /\n" \
+              "&pendulum damping=0.1 drive_amplitude=0.2 drive_frequency=1 "
 
 /* Every error of a deck in order: its position, and words of the message after a blank. */
 static const struct { const char *text; const char *error[8]; } bad[] = {
@@ -169,11 +171,11 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
     "temperature=1 force='polynomial' force_coefficients=1,-1 /\n&sweep x=1,2 v=1,2 /",
     { "3:1 noise carries a pendulum to infinity" } },
   { CURVE "&sweep damping=1,2 torque=0.1,0.2 /",
-    { "3:20 results have one axis: beside 'torque' give 'damping' one value" } },
+    { "3:20 results have one axis, not 'torque', 'damping': give" } },
   { CURVE "&sweep damping=1 torque=0.1,0.2 parametric_amplitude=0.1 /",
-    { "3:33 results have one axis: give 'torque' or 'parametric_amplitude'" } },
+    { "3:18 results have one axis, not 'torque', 'parametric_amplitude': give" } },
   { "&scene kind='resonance_curve' /\n&sweep damping=1,2 drive_amplitude=0.1,0.2 /",
-    { "2:20 results have one axis: beside 'drive_amplitude' give 'damping' one value" } },
+    { "2:20 results have one axis, not 'drive_amplitude', 'damping': give" } },
   { "&scene kind='response' /\n&sweep damping=1 drive_amplitude=0.1,0.2 drive_period=7 "
     "resonance_range=0.6,0.9 /",
     { "2:57 'resonance_range' is not used: no resonance is looked for" } },
@@ -184,7 +186,24 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
     { "2:11 'drive_amplitude' is given in &sweep too" } },
   { "&scene kind='phase_diagram' /\n"
     "&sweep damping=0.1,0.2 drive_frequency=0.8,0.9 drive_amplitude=0.1,0.2 /",
-    { "2:48 results have two axes" } },
+    { "2:48 results have two axes, not 'drive_amplitude', 'damping', 'drive_frequency'" } },
+  /* coefficients as axes */
+  { SWEPT "force='polynomial' force_coefficients=1 /\n&sweep a3=1,2 torque=0.1,0.2 /\n"
+    "&hysteresis x=0 /", { "3:15 one parameter is swept, not 'torque', 'a3'" } },
+  { SWEPT "/\n&sweep a3=1,2 /\n&hysteresis x=0 /",
+    { "3:8 force 'pendulum' has no coefficient 'a3'" } },
+  { SWEPT "force='squid' /\n&sweep a2_range=1,2,3 /\n&hysteresis x=0 /",
+    { "3:8 force 'squid' has no coefficient 'a2'" } },
+  { SWEPT "force='polynomial' force_coefficients=1,0,1 /\n&sweep a3=1,2 /\n&hysteresis x=0 /",
+    { "3:8 'a3' is given in 'force_coefficients' too: give 0 there" } },
+  { SWEPT "force='polynomial' /\n&sweep a3=0,1 /\n&hysteresis x=0 /",
+    { "2:61 a polynomial needs 'force_coefficients', one of them not zero" } },
+  { "&scene kind='phase_diagram' /\n&pendulum drive_amplitude=0.2 force='polynomial' "
+    "force_coefficients=1 /\n&sweep damping=0.1,0.2 drive_frequency=0.8,0.9 a3=1,2 /",
+    { "3:48 results have two axes, not 'a3', 'damping', 'drive_frequency'" } },
+  { "&scene kind='response' /\n&pendulum drive_amplitude=0.2 temperature=1 force='polynomial' "
+    "force_coefficients=1 /\n&sweep damping=0.1 drive_frequency=1 a3=1,-1 /",
+    { "2:31 noise carries a pendulum to infinity" } },
   { CURVE "&sweep damping=1 drive_frequency=1 /",
     { "3:18 'drive_frequency' in &sweep is not used" } },
   { BASINS "&sweep x_range=0,1,100000 v_range=0,1,100000 /",

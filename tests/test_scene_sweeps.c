@@ -275,10 +275,10 @@ static void wrong_decks(void **state)
     {"&scene kind = 'lyapunov_map' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
      "&sweep drive_amplitude = 0.7, 0.8 /\n", "a map has two axes"},
     {"&scene kind = 'response' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
-     "&sweep drive_amplitude = 0.7, 0.8, torque = 0, 1 /\n", "give 'drive_amplitude' or 'torque'"},
+     "&sweep drive_amplitude = 0.7, 0.8, torque = 0, 1, a1 = 1, 2 /\n", "has no coefficient 'a1'"},
     {"&scene kind = 'response' /\n&pendulum drive_amplitude = 1 /\n"
      "&sweep damping = 0.1, 0.2, drive_period = 7, 8, torque = 0, 1, temperature = 0.01 /\n",
-     "beside 'torque' give"},
+     "with temperatures two, not 'torque', 'damping', 'drive_period'"},
     {"&scene kind = 'hysteresis' /\n&pendulum damping = 0.1 /\n"
      "&sweep drive_frequency = 0.7, 0.8 /\n&hysteresis x = 1 /\n", "needs 'drive_amplitude'"},
   };

@@ -15,7 +15,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include <pendres/pendulum.h>
+#include <pendres/parameter.h>
 #include <pendres/status.h>
 
 #include "deck/namelist.h"
@@ -74,24 +74,13 @@ typedef enum deck_kind {
   DECK_KIND_COUNT
 } deck_kind;
 
-/* Axes of &sweep; the name of each in decks is deck_axis_name(). */
-#define DECK_AXIS_LIST(ITEM)                                                                      \
-  ITEM(AMPLITUDE, "amplitude")                                                                    \
-  ITEM(DAMPING, "damping")                                                                        \
-  ITEM(DRIVE_AMPLITUDE, "drive_amplitude")                                                        \
-  ITEM(DRIVE_FREQUENCY, "drive_frequency")                                                        \
-  ITEM(DRIVE_PERIOD, "drive_period")                                                              \
-  ITEM(TORQUE, "torque")                                                                          \
-  ITEM(PARAMETRIC_AMPLITUDE, "parametric_amplitude")                                              \
-  ITEM(X, "x")                                                                                    \
-  ITEM(V, "v")                                                                                    \
-  ITEM(TEMPERATURE, "temperature")                                                                \
-  ITEM(TOLERANCE, "tolerance")
-
+/* Axes of &sweep: the parameters, in the order of their list, and two more. */
 typedef enum deck_axis_id {
-#define DECK_AXIS_CODE(code, name) DECK_AXIS_##code,
-  DECK_AXIS_LIST(DECK_AXIS_CODE)
+#define DECK_AXIS_CODE(code, ...) DECK_AXIS_##code,
+  PENDRES_PARAMETER_LIST(DECK_AXIS_CODE)
 #undef DECK_AXIS_CODE
+  DECK_AXIS_AMPLITUDE,
+  DECK_AXIS_TOLERANCE,
   DECK_AXIS_COUNT
 } deck_axis_id;
 
@@ -136,17 +125,10 @@ typedef struct deck {
   char title[DECK_TITLE];
   char output[DECK_PATH];
 
-  struct {
-    double drive_amplitude;
-    double damping;
-    double drive_frequency; /* both are set, whichever was given */
-    double drive_period;
-    int by_period;          /* nonzero: drive_period was given */
-    double torque;
-    double parametric_amplitude;
-    char force[DECK_NAME];  /* a name of pendres_model_of() */
-    double force_coefficients[PENDRES_FORCE_COEFFICIENTS];
-  } pendulum;
+  pendres_pendulum pendulum;
+  double drive_period;      /* both it and the frequency are set, whichever was given */
+  int by_period;            /* nonzero: drive_period was given */
+  char force[DECK_NAME];    /* a name of pendres_model_of() */
 
   deck_axis axis[DECK_AXIS_COUNT];
   int64_t resolution;       /* each step of the ranges is divided into so many */
@@ -260,12 +242,11 @@ pendres_status deck_dump(const deck *d, FILE *stream);
 /** The same as a text, to be freed by free(); NULL on failure. */
 pendres_status deck_resolved(const deck *d, char **text);
 
-/** The pendulum of a deck, with the parameters that the deck holds fixed; those that are axes are
- *  NaN. */
+/** The pendulum of a deck; parameters that are axes have their first values. */
 pendres_pendulum deck_pendulum(const deck *d);
 
-/** The canonical units of a deck's pendulums (pendres_units_of); of drives and torques that are
- *  swept the largest decides. */
+/** The canonical units of a deck's pendulums (pendres_units_of); of parameters that are swept the
+ *  value of the largest size decides. */
 pendres_units deck_pendulum_units(const deck *d);
 
 /** Does the deck ask for noise: a temperature above 0? */
@@ -277,14 +258,21 @@ int deck_has_ramp(const deck *d);
 /** The seed of the deck's random numbers. */
 uint64_t deck_seed(const deck *d);
 
-/** The axes with more than one value among damping, drive amplitude, frequency, period, torque and
- *  parametric amplitude. Up to `room` of them are written to axis; returns how many there are. */
-int deck_moving(const deck *d, int room, deck_axis_id *axis);
+/** The axes of the parameters over which a scene has its results, slowest first, and how many there
+ *  are, which is at most DECK_AXES in a deck that was checked: damping and the drive's frequency or
+ *  period, or what is given in &sweep instead (of a resonance curve one of these), or those that
+ *  have several values. 0 of scenes that vary none. */
+enum { DECK_AXES = 3 };
+int deck_axes(const deck *d, deck_axis_id axis[DECK_AXES]);
 
-/** Whether drive amplitude, torque or parametric amplitude is given in &sweep, which replaces the
-    damping or the drive as one of the two axes of results, or is a third axis of a response; *axis
-    is that parameter then. */
-int deck_extra_axis(const deck *d, deck_axis_id *axis);
+/** Whether it is one of these. */
+int deck_has_axis(const deck *d, deck_axis_id axis);
+
+/** What an axis varies; PENDRES_PARAMETER_COUNT if that is no parameter. */
+pendres_parameter deck_axis_parameter(deck_axis_id axis);
+
+/** Whether it is the drive's frequency or period. */
+int deck_is_clock(deck_axis_id axis);
 
 /** Does a scene of that deck search for resonances: a resonance curve, or a response over the
     drive's frequency or period? Models other than the plain pendulum may have resonances anywhere;

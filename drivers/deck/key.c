@@ -381,21 +381,6 @@ void deck_key_defaults(deck *d)
   }
 }
 
-pendres_pendulum deck_pendulum(const deck *d)
-{
-  pendres_pendulum p = { .damping = d->pendulum.damping,
-                         .drive_amplitude = d->pendulum.drive_amplitude,
-                         .drive_frequency = d->pendulum.drive_frequency,
-                         .torque = d->pendulum.torque,
-                         .parametric_amplitude = d->pendulum.parametric_amplitude };
-  for (int f = 0; f < PENDRES_FORCE_COUNT; f++)
-    if (strcmp(d->pendulum.force, pendres_model_of((pendres_force)f)->name) == 0)
-      p.force = (pendres_force)f;
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
-    p.force_coefficients[i] = d->pendulum.force_coefficients[i];
-  return p;
-}
-
 int deck_has_noise(const deck *d)
 {
   const deck_axis *t = &d->axis[DECK_AXIS_TEMPERATURE];
@@ -432,9 +417,9 @@ int deck_key_applies(const deck_key *key, const deck *d)
   case DECK_UNLESS_AXIS:
     return d->axis[key->axis].listed_count + d->axis[key->axis].range_count == 0;
   case DECK_BY_FREQUENCY:
-    return !d->pendulum.by_period;
+    return !d->by_period;
   case DECK_BY_PERIOD:
-    return d->pendulum.by_period;
+    return d->by_period;
   default:
     return 1;
   }

@@ -77,8 +77,7 @@ static int is_axis(const deck_key *key)
 /* Frequency and period of the drive are one quantity, whatever the form. */
 static int is_drive(const deck_key *key)
 {
-  if (is_axis(key))
-    return key->axis == DECK_AXIS_DRIVE_FREQUENCY || key->axis == DECK_AXIS_DRIVE_PERIOD;
+  if (is_axis(key)) return deck_is_clock(key->axis);
   return key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD;
 }
 

@@ -69,6 +69,13 @@
 /* Lengths and times may be of any size (units.c). */
 #define BIG 1e100
 
+/* The axis of a parameter that a plain pendulum has not. */
+#define SWEEP_OTHER(code, number, name, field, over, positive, length, time, unit, words, brief) \
+  { SWEEP(name, code), IN(CURVE | RESPONSE | ALONG | GRID),                                      \
+    RANGE((positive) ? 0.0 : (length) == 0 && (time) == 0 ? -1e6 : -BIG,                         \
+          (length) == 0 && (time) == 0 ? 1e6 : BIG), .open = positive,                           \
+    SAYS(unit, words "; one value may stand in &pendulum instead") },
+
 static const char *const kinds[] = {
 #define KIND_NAME(code, name, words) name,
   DECK_KIND_LIST(KIND_NAME)
@@ -136,7 +143,7 @@ const deck_key deck_table[] = {
   { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(POINT), FREQUENCY,
     .number = NAN, .when = DECK_BY_FREQUENCY,
     SAYS("omega0", "angular frequency of the drive; instead of 'drive_period'") },
-  { REAL("pendulum", "drive_period", pendulum.drive_period), IN(POINT), FREQUENCY,
+  { REAL("pendulum", "drive_period", drive_period), IN(POINT), FREQUENCY,
     .number = NAN, .when = DECK_BY_PERIOD, EXAMPLE("8.0"),
     SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
   { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID | ALONG), FREQUENCY },
@@ -150,7 +157,7 @@ const deck_key deck_table[] = {
     SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
   { VALUE("torque", TORQUE), IN(ALONG), RANGE(-BIG, BIG) },
   { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RATIO },
-  { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
+  { CHOICE("pendulum", "force", force), IN(MODELS), .choices = forces,
     .text = "pendulum",
     SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, or "
          "another one (docs/models.md)") },
@@ -190,11 +197,7 @@ const deck_key deck_table[] = {
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(CURVE | RESPONSE | GRID), POSITIVE },
-  { SWEEP("torque", TORQUE), IN(CURVE | RESPONSE | ALONG | GRID), RANGE(-BIG, BIG),
-    SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
-  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(CURVE | RESPONSE | ALONG | GRID),
-    RATIO,
-    SAYS("1", "amplitude b of the parametric drive; one value may stand in &pendulum instead") },
+  PENDRES_PARAMETERS_OTHER(SWEEP_OTHER)
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
     SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },
@@ -418,58 +421,10 @@ const deck_key *deck_table_words(const deck_key *key)
   return other;
 }
 
-int deck_moving(const deck *d, int room, deck_axis_id *axis)
-{
-  static const deck_axis_id parameters[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
-                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
-                                             DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
-  int n = 0;
-  for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
-    if (d->axis[parameters[i]].count < 2) continue;
-    if (n < room) axis[n] = parameters[i];
-    n++;
-  }
-  return n;
-}
-
-int deck_extra_axis(const deck *d, deck_axis_id *axis)
-{
-  static const deck_axis_id extra[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,
-                                        DECK_AXIS_PARAMETRIC_AMPLITUDE };
-  for (size_t i = 0; i < sizeof extra / sizeof *extra; i++) {
-    if (d->axis[extra[i]].count == 0) continue;
-    *axis = extra[i];
-    return 1;
-  }
-  return 0;
-}
-
-int deck_searches(const deck *d)
-{
-  const deck_axis *along = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0
-                             ? &d->axis[DECK_AXIS_DRIVE_PERIOD]
-                             : &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
-  deck_axis_id extra;
-  if (d->kind != DECK_RESPONSE) return d->kind == DECK_RESONANCE_CURVE;
-  /* Where another parameter is an axis, lines are along the drive if it has several values. */
-  return (deck_is_plain(d) || d->search_given) &&
-         (!deck_extra_axis(d, &extra) || along->count > 1);
-}
-
 int64_t deck_spectrum_least(const deck *d)
 {
   const int64_t samples = d->orbit.samples;
   return samples == 1 ? 4 : samples == 2 || samples % 2 != 0 ? 2 : 1;
-}
-
-int deck_is_plain(const deck *d)
-{
-  static const deck_axis_id others[] = { DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
-  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-    for (size_t k = 0; k < d->axis[others[i]].count; k++)
-      if (d->axis[others[i]].value[k] != 0.0) return 0;
-  return d->pendulum.torque == 0.0 && d->pendulum.parametric_amplitude == 0.0 &&
-         strcmp(d->pendulum.force, "pendulum") == 0;
 }
 
 const char *deck_kind_words(deck_kind kind)
@@ -485,14 +440,4 @@ const char *deck_kind_words(deck_kind kind)
 const char *deck_kind_name(deck_kind kind)
 {
   return (unsigned)kind < DECK_KIND_COUNT ? kinds[kind] : NULL;
-}
-
-const char *deck_axis_name(deck_axis_id axis)
-{
-  static const char *const names[] = {
-#define AXIS_NAME(code, name) name,
-    DECK_AXIS_LIST(AXIS_NAME)
-#undef AXIS_NAME
-  };
-  return (unsigned)axis < DECK_AXIS_COUNT ? names[axis] : NULL;
 }

@@ -130,8 +130,20 @@ int deck_key_applies(const deck_key *key, const deck *d);
 enum { DECK_DECIMAL = 40 };
 const char *deck_decimal(double x, char text[DECK_DECIMAL]);
 
-/* check.c: everything that concerns several keys; expands the axes. */
+/* check.c: everything that concerns several keys. */
 void deck_check(deck_builder *b);
+/* Complain of a key or, of a group as a whole, at its head; without one, at the kind. */
+void deck_complain(deck_builder *b, const deck_given *at, const char *name, const char *format,
+                   ...) __attribute__((format(printf, 4, 5)));
+void deck_complain_of_group(deck_builder *b, const namelist_group *g, const char *message);
+/* The state of a key in this scene; never NULL, so that callers need not ask. */
+const deck_given *deck_given_of(const deck_builder *b, const char *group, const char *name);
+/* Whether a key is in the deck under its own name, with a good value or a bad one. */
+int deck_is_there(const deck_given *at);
+
+/* check_axes.c: takes the values of all axes together, and checks what they vary. */
+void deck_expand_axes(deck_builder *b);
+void deck_check_axes(deck_builder *b);
 
 /* units.c: brings defaults into the pendulum's units, in which it checks the tolerance. */
 void deck_check_units(deck_builder *b);

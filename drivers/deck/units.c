@@ -4,43 +4,14 @@
  */
 #include "deck/table.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-/* The value of an axis that is largest in size; `fixed` where nothing varies it. */
-static double largest(const deck *d, deck_axis_id id, double fixed)
-{
-  const deck_axis *axis = &d->axis[id];
-  double most = axis->count > 0 ? 0.0 : fixed;
-  for (size_t i = 0; i < axis->count; i++)
-    if (fabs(axis->value[i]) > fabs(most)) most = axis->value[i];
-  return isnan(most) ? 0.0 : most;
-}
-
-pendres_units deck_pendulum_units(const deck *d)
-{
-  pendres_pendulum p = deck_pendulum(d);
-  p.damping = largest(d, DECK_AXIS_DAMPING, p.damping);
-  p.drive_amplitude = largest(d, DECK_AXIS_DRIVE_AMPLITUDE, p.drive_amplitude);
-  p.torque = largest(d, DECK_AXIS_TORQUE, p.torque);
-  return pendres_units_of(&p);
-}
-
-/* A key's row in this scene, and whether the deck gives it; NULL if the scene has no such key. */
-static const deck_given *given(const deck_builder *b, const char *group, const char *name)
-{
-  int range = 0;
-  const size_t row = deck_table_find(group, name, b->scene, &range);
-  return row < deck_table_size ? &b->given[row] : NULL;
-}
-
 /* Bring a default into the deck's units; what was given is. */
 static void bring(const deck_builder *b, const char *group, const char *name, double unit,
                   double *value)
 {
-  const deck_given *at = given(b, group, name);
-  if (at != NULL && !at->given && !at->broken) *value *= unit;
+  int range = 0;
+  const deck_given *at = deck_given_of(b, group, name);
+  const int taken = deck_table_find(group, name, b->scene, &range) < deck_table_size;
+  if (taken && !at->given && !at->broken) *value *= unit;
 }
 
 void deck_check_units(deck_builder *b)
@@ -55,15 +26,11 @@ void deck_check_units(deck_builder *b)
           1.0 / u.time, &d->search[i]);
   }
   bring(b, "precision", "tolerance", u.length, &d->precision.tolerance);
-  const deck_given *at = given(b, "precision", "tolerance");
+  const deck_given *at = deck_given_of(b, "precision", "tolerance");
   const double tolerance = d->precision.tolerance / u.length;
-  if (at == NULL || !at->given || (tolerance >= 1e-13 && tolerance <= 1e-2)) return;
-  char message[240];
-  snprintf(message, sizeof message,
-           "'tolerance' must lie between %.3g and %.3g%s: less is beyond double precision",
-           1e-13 * u.length, 1e-2 * u.length,
-           u.length == 1.0 ? "" : ", 1e-13 and 0.01 of the pendulum's unit of length");
-  namelist_error_at(at->nl != NULL ? at->nl : b->nl,
-                    (namelist_place){at->line, at->column, (int)strlen("tolerance")}, b->errors,
-                    "%s", message);
+  if (!at->given || (tolerance >= 1e-13 && tolerance <= 1e-2)) return;
+  deck_complain(b, at, "tolerance",
+                "'tolerance' must lie between %.3g and %.3g%s: less is beyond double precision",
+                1e-13 * u.length, 1e-2 * u.length,
+                u.length == 1.0 ? "" : ", 1e-13 and 0.01 of the pendulum's unit of length");
 }

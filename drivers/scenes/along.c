@@ -5,29 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value)
-{
-  pendres_parameter_set(scene_parameter_of(axis)->parameter,
-                        axis == DECK_AXIS_DRIVE_PERIOD ? 2.0 * PENDRES_PI / value : value, p);
-}
-
-pendres_pendulum scene_along_pendulum(const deck *d)
-{
-  pendres_pendulum p = deck_pendulum(d);
-  for (int i = 0; i < SCENE_PARAMETERS; i++) {
-    const deck_axis *a = &d->axis[scene_parameters[i].axis];
-    if (a->count > 0) scene_along_set(&p, scene_parameters[i].axis, a->value[0]);
-  }
-  return p;
-}
-
-const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis)
-{
-  *axis = DECK_AXIS_DAMPING;
-  (void)deck_moving(d, 1, axis);
-  return &d->axis[*axis];
-}
-
 /* List the attractors that there are instead, as in "sa, la". */
 static void list_labels(const pendres_attractors *set, char *text, size_t size)
 {
@@ -140,13 +117,13 @@ static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
 static pendres_status find_start(const deck *d, const scene_along_way *way, pendres_context *ctx,
                                  pendres_attractor *start, farm_record *out)
 {
-  pendres_pendulum p = scene_along_pendulum(d);
+  pendres_pendulum p = deck_pendulum(d);
   pendres_status status = PENDRES_NOT_FOUND;
   for (size_t i = 0; i < way->n; i++) {
     char why[SCENE_TOLD];
     request r = {
       .start = d->orbit.start, .why = out->message, .size = sizeof out->message};
-    scene_along_set(&p, way->axis, way->value[i]);
+    pendres_parameter_set(deck_axis_parameter(way->axis), way->value[i], &p);
     if (scene_settling_too_long(d, &p, 1.0, why, sizeof why)) {
       if (i == 0) snprintf(out->message, sizeof out->message, "%s", why);
       continue;
@@ -164,7 +141,7 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   const sweep *s = arg;
   const deck *d = s->run->deck;
   const scene_along_way *way = s->way;
-  const pendres_pendulum p = scene_along_pendulum(d);
+  const pendres_pendulum p = deck_pendulum(d);
   double x = d->orbit.x, v = d->orbit.v;
   pendres_hysteresis *h = NULL;
   pendres_status status = PENDRES_OK;
@@ -178,7 +155,7 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   }
   farm_point(out, way->n, "the path of %zu values of %s from %.10g on", way->n,
              deck_axis_name(way->axis), way->value[0]);
-  const pendres_hysteresis_path path = {scene_parameter_of(way->axis)->parameter, way->n,
+  const pendres_hysteresis_path path = {deck_axis_parameter(way->axis), way->n,
                                         way->value};
   status = pendres_hysteresis_follow(ctx, &p, &(pendres_state){x, v}, &path, &h);
   if (farm_gave_up(out, status)) status = leave_rest(h, out);

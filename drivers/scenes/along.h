@@ -11,15 +11,6 @@
 #include "scenes/columns.h"
 #include "scenes/failed.h"
 
-/* The deck's pendulum; a parameter that moves has its first value. */
-pendres_pendulum scene_along_pendulum(const deck *d);
-
-/* Set the quantity of an axis. */
-void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value);
-
-/* The axis that a deck moves, and its values. */
-const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis);
-
 /*
  * The attractor that a deck's `start` names at some parameters: "sa", "la", or its number from 1
  * on; of a chaotic one orbit.x and orbit.v are a point on it. PENDRES_NOT_FOUND if there is none;

@@ -68,7 +68,7 @@ pendres_status basins_define(basins *b)
   if (status == PENDRES_OK) status = scene_dimension(b->run, "", DECK_AXIS_V);
   memcpy(b->column, of_states, sizeof of_states);
   /* Where a force may drive pendulums to infinity, the first two columns have a value for that. */
-  if (strcmp(b->d->pendulum.force, "polynomial") == 0) {
+  if (b->d->pendulum.force == PENDRES_FORCE_POLYNOMIAL) {
     b->column[0].names = scene_fate_names;
     b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
   }
@@ -255,7 +255,7 @@ static const scene_column of_escapes[] = {
 static pendres_status write_escapes(basins *b, const pendres_basin_statistics *s)
 {
   const scene_table table = {.n = 1, .stride = sizeof *s, .rows = s};
-  if (strcmp(b->d->pendulum.force, "polynomial") != 0) return PENDRES_OK;
+  if (b->d->pendulum.force != PENDRES_FORCE_POLYNOMIAL) return PENDRES_OK;
   return SCENE_WRITE(b->run, &table, of_escapes);
 }
 

@@ -38,8 +38,8 @@ typedef struct record {
 
 static pendres_pendulum pendulum_at(const work *w, size_t i)
 {
-  pendres_pendulum p = scene_along_pendulum(w->d);
-  scene_along_set(&p, w->axis, w->path.point[i].value);
+  pendres_pendulum p = deck_pendulum(w->d);
+  pendres_parameter_set(deck_axis_parameter(w->axis), w->path.point[i].value, &p);
   return p;
 }
 
@@ -69,7 +69,7 @@ static pendres_status find_cascade(const scene_some *some)
   pendres_status status = PENDRES_NOT_FOUND;
   if (scene_along_closed(first))
     status = pendres_cascade_find(some->ctx, &first->attractor.orbit,
-                                  scene_parameter_of(w->axis)->parameter,
+                                  deck_axis_parameter(w->axis),
                                   w->path.point[values - 1].value, some->rows);
   if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
   no_cascade(some->of, 0, some->rows);
@@ -277,14 +277,16 @@ static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
   const size_t strobes = (size_t)d->diagram.strobes;
-  work w = {.d = d, .strobes = strobes,
+  deck_axis_id axis[DECK_AXES];
+  (void)deck_axes(d, axis);
+  const deck_axis *a = &d->axis[axis[0]];
+  work w = {.d = d, .axis = axis[0], .strobes = strobes,
             .values = {.size = sizeof(record) + 2 * strobes * sizeof(double), .chunk = 1,
                        .compute = find_strobes, .leave_out = no_strobes, .check = check_strobes,
                        .collect = collect_strobes, .arg = &w},
             .cascade = {.n = 1, .size = sizeof(pendres_cascade), .chunk = 1,
                         .compute = find_cascade, .leave_out = no_cascade, .check = check_cascade,
                         .name = name_cascade, .arg = &w}};
-  const deck_axis *a = scene_along_axis(d, &w.axis);
   scene_points_over(&w.values, d, 1, &w.axis);
   if (!d->diagram.bifurcations) w.cascade.n = 0;
   w.strobe = scene_array(run, a->count * strobes, sizeof *w.strobe);
@@ -299,11 +301,12 @@ static pendres_status run_scene(scene_run *run)
 
 static void describe(const deck *d, FILE *out)
 {
-  deck_axis_id axis;
-  const deck_axis *a = scene_along_axis(d, &axis);
+  deck_axis_id axis[DECK_AXES];
+  (void)deck_axes(d, axis);
+  const deck_axis *a = &d->axis[axis[0]];
   fprintf(out, "%lld strobe points at each of %zu values of %s from %g to %g, which grows "
                "slowly\n",
-          (long long)d->diagram.strobes, a->count, deck_axis_name(axis), a->value[0],
+          (long long)d->diagram.strobes, a->count, deck_axis_name(axis[0]), a->value[0],
           a->value[a->count - 1]);
   if (d->diagram.attractors) fprintf(out, "attractors at each value\n");
   if (d->diagram.bifurcations)

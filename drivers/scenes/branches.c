@@ -312,8 +312,10 @@ static pendres_status print_table(FILE *out, const scene_lines *l)
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   (void)take_parts(l, rows);
-  snprintf(line, sizeof line, "%-15s  ", scene_lines_words(l->grid.across));
-  snprintf(from, sizeof from, "attracts from %s", scene_lines_words(l->grid.options.parameter));
+  char across[DECK_NAME], along[DECK_NAME];
+  snprintf(line, sizeof line, "%-15s  ", scene_spaced(l->grid.across, across));
+  snprintf(from, sizeof from, "attracts from %s",
+           scene_spaced(l->grid.options.parameter, along));
   SCENE_PRINT(out, &table, n, cells, NULL);
   scene_lines_print(l, out);
   return PENDRES_OK;

@@ -148,14 +148,14 @@ static pendres_status write_cusp(const scene_lines *l)
   const scene_place place =
     c != NULL ? scene_lines_place(l, &c->orbit.pendulum, c->value_error) : (scene_place){0};
   pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < SCENE_PLACES && status == PENDRES_OK; k++) {
-    const scene_parameter *of = &scene_parameters[k];
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED && status == PENDRES_OK; k++) {
+    const pendres_parameter of = (pendres_parameter)k;
     const double value[2] = {c != NULL ? place.value[k] : NAN, c != NULL ? place.error[k] : NAN};
-    char name[64], words[64];
-    if (!scene_lines_changes(l, of->axis)) continue;
-    (void)snprintf(name, sizeof name, "cusp_%s", of->name);
-    (void)snprintf(words, sizeof words, "%s %s", of->one,
-                   of->axis == DECK_AXIS_DAMPING ? "at which SA and LA become one" : "there");
+    char name[2 * DECK_NAME], words[2 * DECK_NAME], spaced[DECK_NAME];
+    if (!scene_lines_changes(l, of)) continue;
+    (void)snprintf(name, sizeof name, "cusp_%s", scene_column_name(of));
+    (void)snprintf(words, sizeof words, "%s %s", scene_spaced(of, spaced),
+                   of == PENDRES_DAMPING ? "at which SA and LA become one" : "there");
     status = put_scalar(l, name, words, "1", value);
   }
   const double amplitude[2] = {c != NULL ? c->orbit.amplitude : NAN,

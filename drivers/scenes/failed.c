@@ -140,8 +140,7 @@ pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, cons
    one that may rotate on no closed orbit. */
 static const char *advice(const deck *d)
 {
-  pendres_pendulum p = deck_pendulum(d);
-  if (isnan(p.parametric_amplitude)) p.parametric_amplitude = 0.0; /* an axis */
+  const pendres_pendulum p = deck_pendulum(d);
   if (pendres_pendulum_leaves(&p) && d->kind != DECK_BASINS) /* which counts them */
     return "they may escape to infinity, as scene 'basins' tells; if not, raise "
            "precision.period_budget";

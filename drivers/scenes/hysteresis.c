@@ -101,26 +101,27 @@ static void tabulate(FILE *out, deck_axis_id axis, const scene_along_path *path)
 
 static pendres_status run_scene(scene_run *run)
 {
-  deck_axis_id axis;
+  deck_axis_id axis[DECK_AXES];
   scene_along_path path = {.points = 0};
-  (void)scene_along_axis(run->deck, &axis);
-  compute(run, axis, &path);
-  write(run, axis, &path);
-  if (scene_prints(run)) tabulate(run->table, axis, &path);
-  scene_ramp_run(run, axis, &path);
+  (void)deck_axes(run->deck, axis);
+  compute(run, axis[0], &path);
+  write(run, axis[0], &path);
+  if (scene_prints(run)) tabulate(run->table, axis[0], &path);
+  scene_ramp_run(run, axis[0], &path);
   return run->status;
 }
 
 static void describe(const deck *d, FILE *out)
 {
-  deck_axis_id axis;
-  const deck_axis *a = scene_along_axis(d, &axis);
+  deck_axis_id axis[DECK_AXES];
+  (void)deck_axes(d, axis);
+  const deck_axis *a = &d->axis[axis[0]];
   fprintf(out, "the state of a pendulum while %s goes slowly from %g to %g and back,\n"
                "at %zu values each way, and the jumps on the way; ",
-          deck_axis_name(axis), a->value[0], a->value[a->count - 1], a->count);
+          deck_axis_name(axis[0]), a->value[0], a->value[a->count - 1], a->count);
   if (d->orbit.start[0] != '\0') fprintf(out, "it starts on attractor '%s'\n", d->orbit.start);
   else fprintf(out, "it starts at x = %g, v = %g\n", d->orbit.x, d->orbit.v);
-  scene_ramp_describe(d, axis, out);
+  scene_ramp_describe(d, axis[0], out);
 }
 
 const scene_kind scene_hysteresis = {

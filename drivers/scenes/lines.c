@@ -16,55 +16,41 @@ enum { RUNS_A_POINT = 5 };
 
 static pendres_phase_grid grid_of(const deck *d, const deck_axis_id axis[2], double spacing)
 {
-  static const deck_axis_id held[] = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
-                                      DECK_AXIS_DRIVE_FREQUENCY};
   const deck_axis *across = &d->axis[axis[0]], *along = &d->axis[axis[1]];
-  pendres_pendulum p = deck_pendulum(d);
-  for (size_t i = 0; i < sizeof held / sizeof *held; i++)
-    scene_along_set(&p, held[i], scene_fixed(d, held[i]));
-  return (pendres_phase_grid){.pendulum = p,
+  return (pendres_phase_grid){.pendulum = deck_pendulum(d),
                               .options = {.ensemble = scene_ensemble(d),
-                                          .parameter = scene_parameter_of(axis[1])->parameter,
+                                          .parameter = deck_axis_parameter(axis[1]),
                                           .spacing = spacing},
                               .values = along->count,
                               .value = along->value,
-                              .across = scene_parameter_of(axis[0])->parameter,
+                              .across = deck_axis_parameter(axis[0]),
                               .lines = across->count,
                               .line_value = across->value};
 }
 
-/* So many of them are in all tables. */
-enum { ALWAYS = 2 };
-
-const char *scene_lines_words(pendres_parameter parameter)
-{
-  const scene_parameter *of = scene_parameters;
-  for (int i = 0; i < SCENE_PLACES; i++)
-    if (of[i].parameter == parameter) return of[i].one;
-  return pendres_name_get(PENDRES_NAMES_PARAMETER, parameter);
-}
-
 void scene_lines_describe(const deck *d, FILE *out)
 {
-  const scene_parameter *of = scene_parameters;
-  deck_axis_id axis[2];
-  scene_plane(d, axis);
+  deck_axis_id axis[DECK_AXES];
+  char text[DECK_NAME];
+  (void)deck_axes(d, axis);
   fprintf(out, "%lld members at ", (long long)d->ensemble.members);
   for (int i = 0; i < 2; i++) {
     const deck_axis *a = &d->axis[axis[i]];
-    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count,
-            scene_parameter_of(axis[i])->many, a->value[0], a->value[a->count - 1],
+    fprintf(out, "%s%zu values of %s, %g to %g,%s", i == 0 ? "" : " and ", a->count,
+            scene_spaced(deck_axis_parameter(axis[i]), text), a->value[0], a->value[a->count - 1],
             i == 0 ? "" : "\n");
   }
-  for (int i = 0, held = 0; i < SCENE_PLACES; i++) {
-    const double value = scene_fixed(d, of[i].axis);
-    if (!isnan(value)) fprintf(out, "%s%s %g", held++ > 0 ? ", " : "", of[i].one, value);
+  for (int i = 0, held = 0; i < DECK_AXIS_TEMPERATURE; i++) {
+    const double value = scene_fixed(d, (deck_axis_id)i);
+    if (isnan(value)) continue;
+    fprintf(out, "%s%s %g", held++ > 0 ? ", " : "",
+            scene_spaced(deck_axis_parameter((deck_axis_id)i), text), value);
   }
 }
 
-int scene_lines_changes(const scene_lines *l, deck_axis_id axis)
+int scene_lines_changes(const scene_lines *l, pendres_parameter parameter)
 {
-  return l->axis[0] == axis || l->axis[1] == axis;
+  return l->grid.across == parameter || l->grid.options.parameter == parameter;
 }
 
 /* ---- tasks --------------------------------------------------------------------------------- */
@@ -272,7 +258,7 @@ static void judge_curves(scene_lines *l)
 pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
 {
   *l = (scene_lines){.run = run};
-  scene_plane(run->deck, l->axis);
+  (void)deck_axes(run->deck, l->axis);
   l->grid = grid_of(run->deck, l->axis, spacing);
   l->n = l->grid.lines * l->grid.values;
   l->points = malloc((l->n + 1) * sizeof *l->points);
@@ -328,34 +314,40 @@ scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
                               const double error[2])
 {
   scene_place place;
-  for (int i = 0; i < SCENE_PLACES; i++) {
-    const pendres_parameter parameter = scene_parameters[i].parameter;
+  for (int i = 0; i < PENDRES_PARAMETER_FOLLOWED; i++) {
+    const pendres_parameter parameter = (pendres_parameter)i;
     place.value[i] = pendres_parameter_get(parameter, p);
     place.error[i] = error_of(l, parameter, error);
   }
   return place;
 }
 
-static scene_column column_of(int i)
+static pendres_status write_place(const scene_lines *l, const scene_table *table,
+                                  pendres_parameter parameter)
 {
-  return (scene_column){.name = scene_parameters[i].name,
-                        .long_name = scene_parameters[i].long_name, .units = "1",
-                        .value = offsetof(scene_place, value) + (size_t)i * sizeof(double),
-                        .error = offsetof(scene_place, error) + (size_t)i * sizeof(double)};
+  const size_t at = (size_t)parameter * sizeof(double);
+  const scene_column column = {.name = scene_column_name(parameter),
+                               .long_name = pendres_parameter_of(parameter)->brief, .units = "1",
+                               .value = offsetof(scene_place, value) + at,
+                               .error = offsetof(scene_place, error) + at};
+  return scene_columns_write(l->run, table, 1, &column);
 }
 
 pendres_status scene_lines_write_places(const scene_lines *l, const scene_table *table,
                                         const char *words, size_t count,
                                         const scene_column *columns)
 {
+  static const pendres_parameter always[] = {PENDRES_DAMPING, PENDRES_DRIVE_FREQUENCY};
   scene_table places = *table;
   pendres_status status = PENDRES_OK;
   places.words = words;
-  for (int i = 0; i < SCENE_PLACES && status == PENDRES_OK; i++) {
-    const scene_column column = column_of(i);
-    if (i == ALWAYS) status = scene_columns_write(l->run, table, count, columns);
-    if (status == PENDRES_OK && (i < ALWAYS || scene_lines_changes(l, scene_parameters[i].axis)))
-      status = scene_columns_write(l->run, &places, 1, &column);
+  for (size_t i = 0; i < 2 && status == PENDRES_OK; i++)
+    status = write_place(l, &places, always[i]);
+  if (status == PENDRES_OK) status = scene_columns_write(l->run, table, count, columns);
+  for (int i = 0; i < PENDRES_PARAMETER_FOLLOWED && status == PENDRES_OK; i++) {
+    const pendres_parameter parameter = (pendres_parameter)i;
+    if (parameter != always[0] && parameter != always[1] && scene_lines_changes(l, parameter))
+      status = write_place(l, &places, parameter);
   }
   return status;
 }
@@ -405,15 +397,15 @@ void scene_lines_print(const scene_lines *l, FILE *out)
   const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
   const pendres_branch_point *p = NULL;
   const int32_t doubts = count_doubts(l, &p);
+  char across[DECK_NAME], along[DECK_NAME];
+  scene_spaced(l->grid.across, across);
+  scene_spaced(l->grid.options.parameter, along);
   if (c != NULL)
-    fprintf(out, "cusp: %s %#.13g +- %.0e, %s %#.13g +- %.0e\n", scene_lines_words(l->grid.across),
-            c->value[1], c->value_error[1], scene_lines_words(l->grid.options.parameter),
-            c->value[0], c->value_error[0]);
+    fprintf(out, "cusp: %s %#.13g +- %.0e, %s %#.13g +- %.0e\n", across, c->value[1],
+            c->value_error[1], along, c->value[0], c->value_error[0]);
   if (doubts > 0)
-    fprintf(out, "branches disagree with their bifurcations at %ld points, one of them at damping "
-            "%.9g, drive amplitude %.9g, torque %.9g, parametric amplitude %.9g, drive frequency "
-            "%.9g (period %d): a bifurcation is missed or misnamed there\n", (long)doubts,
-            p->orbit.pendulum.damping, p->orbit.pendulum.drive_amplitude,
-            p->orbit.pendulum.torque, p->orbit.pendulum.parametric_amplitude,
-            p->orbit.pendulum.drive_frequency, p->orbit.period);
+    fprintf(out, "branches disagree with their bifurcations at %ld points, one of them at %s %.9g, "
+            "%s %.9g (period %d): a bifurcation is missed or misnamed there\n", (long)doubts,
+            across, pendres_parameter_get(l->grid.across, &p->orbit.pendulum), along,
+            pendres_parameter_get(l->grid.options.parameter, &p->orbit.pendulum), p->orbit.period);
 }

@@ -15,7 +15,7 @@
 
 typedef struct scene_lines {
   scene_run *run;
-  deck_axis_id axis[2];  /* across the lines and along them: the dimensions of results */
+  deck_axis_id axis[DECK_AXES]; /* two: across the lines and along them, as results have them */
   pendres_phase_grid grid;
   pendres_phase_diagram *diagram;
   pendres_phase_point *points; /* [lines][values] */
@@ -42,10 +42,10 @@ void scene_lines_print(const scene_lines *l, FILE *out);
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
 pendres_status scene_lines_write_doubts(const scene_lines *l);
 
-/* The parameters of an orbit with their errors, in the order of scene_parameters: how rows of such
+/* The parameters of an orbit with their errors, by number: how rows of such
    tables begin. */
 typedef struct scene_place {
-  double value[SCENE_PLACES], error[SCENE_PLACES];
+  double value[PENDRES_PARAMETER_FOLLOWED], error[PENDRES_PARAMETER_FOLLOWED];
 } scene_place;
 
 /* error: of the parameter along the lines [0], and of the one across them [1]. */
@@ -62,11 +62,8 @@ pendres_status scene_lines_write_places(const scene_lines *l, const scene_table 
 /* The parameters of a point. */
 pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point);
 
-/* Whether an axis of decks is one of the diagram's two. */
-int scene_lines_changes(const scene_lines *l, deck_axis_id axis);
-
-/* "damping", "drive amplitude", "drive frequency", "torque", "parametric amplitude". */
-const char *scene_lines_words(pendres_parameter parameter);
+/* Whether a parameter is one of the diagram's two. */
+int scene_lines_changes(const scene_lines *l, pendres_parameter parameter);
 
 /* One line on what is computed, for --dry-run: axes and what is fixed. */
 void scene_lines_describe(const deck *d, FILE *out);

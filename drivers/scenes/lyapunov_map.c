@@ -151,13 +151,13 @@ static void tabulate(FILE *out, const work *w)
 
 static pendres_status run_scene(scene_run *run)
 {
-  deck_axis_id axis[AXES];
+  deck_axis_id axis[DECK_AXES];
   work w = {.d = run->deck, .sweep = scene_sweep(run->deck),
             .points = {.size = sizeof(row), .compute = compute, .too_long = too_long,
                        .leave_out = leave_out, SCENE_COLUMNS(columns), .words = words_for,
                        .arg = &w}};
   scene_points *p = &w.points;
-  (void)deck_moving(run->deck, AXES, axis);
+  (void)deck_axes(run->deck, axis);
   scene_points_over(p, run->deck, AXES, axis);
   p->chunk = chunk_of(p->n);
   SCENE_COMPUTE(run, p, "parts of the map", .last = 1);
@@ -170,8 +170,8 @@ static pendres_status run_scene(scene_run *run)
 
 static void describe(const deck *d, FILE *out)
 {
-  deck_axis_id axis[AXES] = {DECK_AXIS_DAMPING, DECK_AXIS_DAMPING};
-  (void)deck_moving(d, AXES, axis);
+  deck_axis_id axis[DECK_AXES];
+  (void)deck_axes(d, axis);
   const deck_axis *a = &d->axis[axis[0]], *b = &d->axis[axis[1]];
   fprintf(out, "largest Lyapunov exponent, period and winding at %zu x %zu points,\n"
                "%s from %g to %g and %s from %g to %g; each from x = %g, v = %g\n",

@@ -262,7 +262,7 @@ static pendres_status run_scene(scene_run *run)
 static void describe(const deck *d, FILE *out)
 {
   fprintf(out, "orbit at damping %g, drive amplitude %g, drive period %g\n", d->pendulum.damping,
-          d->pendulum.drive_amplitude, d->pendulum.drive_period);
+          d->pendulum.drive_amplitude, d->drive_period);
   if (d->orbit.start[0] != '\0') fprintf(out, "of the attractor '%s'", d->orbit.start);
   else
     fprintf(out, "%s x = %g, v = %g", d->orbit.transient ? "recorded from" : "that is reached from",

@@ -58,7 +58,7 @@ struct scene_points {
      then. */
   const char *what;
   int axes;
-  deck_axis_id axis[SCENE_AXES + 1]; /* slowest first */
+  deck_axis_id axis[DECK_AXES + 1]; /* slowest first */
   void (*name)(const scene_points *p, size_t point, char *text, size_t size);
   /* What is said of a reason, in the place of the library's words; NULL: those of the list. The
      function may be NULL. */

@@ -83,8 +83,8 @@ static void prepare(scene_run *run, work *w, deck_axis_id axis, const scene_alon
   const deck *d = w->d;
   const size_t n = path->points, half = n / DIRECTIONS;
   w->name = deck_axis_name(axis);
-  w->ramp = (pendres_ramp){.pendulum = scene_along_pendulum(d),
-                           .parameter = scene_parameter_of(axis)->parameter, .points = n,
+  w->ramp = (pendres_ramp){.pendulum = deck_pendulum(d),
+                           .parameter = deck_axis_parameter(axis), .points = n,
                            .jumps = path->jumps, .jump = path->jump};
   w->trajectories = deck_has_noise(d) ? (size_t)d->noise.trajectories : 0;
   if (w->trajectories > 0) w->ramp.pendulum.temperature = d->axis[DECK_AXIS_TEMPERATURE].value[0];

@@ -19,24 +19,19 @@ typedef struct curve {
   scene_points points;  /* of scene_peak, one a value of the axis */
 } curve;
 
-static deck_axis_id axis_of(const deck *d)
-{
-  deck_axis_id axis = DECK_AXIS_DAMPING;
-  (void)deck_extra_axis(d, &axis);
-  return axis;
-}
-
 static void describe(const deck *d, FILE *out)
 {
-  const deck_axis *a = &d->axis[axis_of(d)];
-  const int dampings = axis_of(d) == DECK_AXIS_DAMPING;
+  deck_axis_id axis[DECK_AXES];
+  (void)deck_axes(d, axis);
+  const deck_axis *a = &d->axis[axis[0]];
+  const deck_axis_id held =
+    axis[0] == DECK_AXIS_DAMPING ? DECK_AXIS_DRIVE_AMPLITUDE : DECK_AXIS_DAMPING;
   fprintf(out,
-          "resonances at %zu %s %g to %g, %s %g: the largest mean loop area of\n"
+          "resonances at %zu values of %s, %g to %g, %s %g: the largest mean loop area of\n"
           "%lld members over drive frequencies %g to %g\n",
-          a->count, scene_parameter_of(axis_of(d))->many, a->value[0], a->value[a->count - 1],
-          dampings ? "drive amplitude" : "damping",
-          dampings ? d->pendulum.drive_amplitude : d->axis[DECK_AXIS_DAMPING].value[0],
-          (long long)d->ensemble.members, d->search[0], d->search[1]);
+          a->count, deck_axis_name(axis[0]), a->value[0], a->value[a->count - 1],
+          deck_axis_name(held), scene_fixed(d, held), (long long)d->ensemble.members, d->search[0],
+          d->search[1]);
 }
 
 /*
@@ -111,9 +106,9 @@ static const scene_column columns[] = {
 
 static void print_table(FILE *out, const curve *c)
 {
+  const scene_heading at = scene_heading_of(c->axis);
   const scene_cell cells[] = {
-    {.heading = scene_parameter_of(c->axis)->heading, .format = "%-9.4g ",
-     .value = offsetof(scene_peak, at)},
+    {.heading = at.words, .format = at.format, .value = offsetof(scene_peak, at)},
     SCENE_CELL(scene_peak, resonance_frequency, "frequency     ", "%.10f  "),
     SCENE_CELL(scene_peak, resonance_frequency_error, "+-       ", "%.0e  "),
     SCENE_CELL(scene_peak, resonance_period, "period       ", "%.9f  "),
@@ -198,17 +193,18 @@ static pendres_status write_paper(scene_run *run, const curve *c)
 
 static pendres_status run_scene(scene_run *run)
 {
+  deck_axis_id axis[DECK_AXES];
+  (void)deck_axes(run->deck, axis);
   curve c = {.d = run->deck,
              .sweep = scene_sweep(run->deck),
              .ensemble = scene_ensemble(run->deck),
-             .axis = axis_of(run->deck),
+             .axis = axis[0],
              .points = {.size = sizeof(scene_peak), .compute = compute, .leave_out = leave_out,
                         SCENE_COLUMNS(columns), .what = "resonance", .arg = &c}};
-  const scene_parameter *of = scene_parameter_of(c.axis);
   scene_points *p = &c.points;
   scene_points_over(p, run->deck, 1, &c.axis);
   p->chunk = group_of(p->n);
-  SCENE_COMPUTE(run, p, p->chunk > 1 ? of->groups : of->many, .last = 1);
+  SCENE_COMPUTE(run, p, p->chunk > 1 ? "groups of resonances" : "resonances", .last = 1);
   scene_dimension_short(run, c.axis);
   scene_points_write(run, p);
   scene_points_write_failed(run, p, "failed", "why there is no whole result for the resonance");

@@ -22,7 +22,7 @@ typedef struct grid {
   const deck *d;
   pendres_sweep sweep;
   pendres_ensemble ensemble;
-  deck_axis_id axis[SCENE_AXES]; /* from line to line, and along them */
+  deck_axis_id axis[DECK_AXES]; /* from line to line, and along them */
   int axes;
   size_t values;           /* points of a line */
   scene_temporary kept;    /* [line][value] of pendres_response, until its line has names */
@@ -33,8 +33,8 @@ typedef struct grid {
 
 static void describe(const deck *d, FILE *out)
 {
-  deck_axis_id axis[SCENE_AXES];
-  const int axes = scene_axes(d, axis);
+  deck_axis_id axis[DECK_AXES];
+  const int axes = deck_axes(d, axis);
   const deck_axis *along = &d->axis[axis[axes - 1]];
   fprintf(out, "mean response of %lld members at ", (long long)d->ensemble.members);
   for (int i = 0; i + 1 < axes; i++)
@@ -46,18 +46,6 @@ static void describe(const deck *d, FILE *out)
     fprintf(out, ";\nand the resonance of each %s, looked for at frequencies %g to %g",
             axes == 3 ? "line" : deck_axis_name(axis[0]), d->search[0], d->search[1]);
   fprintf(out, "\n");
-}
-
-/* The axes of a sweep in the order of the results'; others, of one value each, after them. */
-static void order_sweep(const deck *d, int axes, const deck_axis_id *axis, pendres_sweep *s)
-{
-  for (int k = axes - 1; k >= 0; k--)
-    for (size_t i = 1; i < s->axes; i++) {
-      const pendres_axis one = s->axis[i];
-      if (one.value != d->axis[axis[k]].value) continue;
-      memmove(&s->axis[1], &s->axis[0], i * sizeof one);
-      s->axis[0] = one;
-    }
 }
 
 /* ---- points -------------------------------------------------------------------------------- */
@@ -236,8 +224,8 @@ static void write_points(const grid *g, size_t count, const scene_column *some)
 /* Where the deck has frequencies, the resonance frequency is written, too. */
 static int by_frequency(const deck *d)
 {
-  deck_axis_id axis[SCENE_AXES];
-  return axis[scene_axes(d, axis) - 1] == DECK_AXIS_DRIVE_FREQUENCY;
+  deck_axis_id axis[DECK_AXES];
+  return axis[deck_axes(d, axis) - 1] == DECK_AXIS_DRIVE_FREQUENCY;
 }
 
 #define AT_RESONANCE(label, field, words, unit)                                               \
@@ -279,11 +267,11 @@ static void print_table(FILE *out, const grid *g)
 {
   enum { MOST_LINES = 40 };
   const int frequencies = by_frequency(g->d), both = g->axes == 3;
+  const scene_heading beside = scene_heading_of(g->axis[0]);
+  const scene_heading at = scene_heading_of(g->axis[g->axes - 2]);
   const scene_cell cells[] = {
-    {.heading = scene_parameter_of(g->axis[0])->heading, .format = "%-9.4g ",
-     .value = offsetof(scene_peak, beside)},
-    {.heading = scene_parameter_of(g->axis[g->axes - 2])->heading, .format = "%-9.4g ",
-     .value = offsetof(scene_peak, at)},
+    {.heading = beside.words, .format = beside.format, .value = offsetof(scene_peak, beside)},
+    {.heading = at.words, .format = at.format, .value = offsetof(scene_peak, at)},
     {.heading = frequencies ? "resonant freq.   " : "resonant period  ", .format = "%.9f      ",
      .value = frequencies ? offsetof(scene_peak, resonance_frequency)
                           : offsetof(scene_peak, resonance_period)},
@@ -318,15 +306,13 @@ static pendres_status run_scene(scene_run *run)
   grid g = {.run = run, .d = d,
             .sweep = scene_sweep(d),
             .ensemble = scene_ensemble(d),
-            .axis = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY},
             .points = {.size = sizeof(pendres_response), .chunk = CHUNK, .compute = compute,
                        .too_long = point_too_long, .leave_out = no_response, .check = check,
                        .large = &g.kept, .what = "response", .arg = &g},
             .peaks = {.size = sizeof(scene_peak), .chunk = 1, .compute = find_peak,
                       .too_long = peak_too_long, .leave_out = no_peak, SCENE_COLUMNS(of_peaks),
                       .what = "resonance", .arg = &g}};
-  g.axes = scene_axes(d, g.axis);
-  order_sweep(d, g.axes, g.axis, &g.sweep);
+  g.axes = deck_axes(d, g.axis);
   scene_points_over(&g.points, d, g.axes, g.axis);
   if (deck_searches(d)) scene_points_over(&g.peaks, d, g.axes - 1, g.axis);
   g.values = d->axis[g.axis[g.axes - 1]].count;

@@ -117,7 +117,7 @@ void scene_response_write_noise(scene_run *run, const scene_response_grid *grid)
   work w = {.d = run->deck, .grid = grid, .plane = grid->points->n,
             .points = {.size = sizeof(pendres_response_noise), .chunk = 1, .compute = compute,
                        SCENE_COLUMNS(results), .what = "response with noise", .arg = &w}};
-  deck_axis_id axis[SCENE_AXES + 1] = {DECK_AXIS_TEMPERATURE};
+  deck_axis_id axis[DECK_AXES + 1] = {DECK_AXIS_TEMPERATURE};
   for (int i = 0; i < grid->points->axes; i++) axis[1 + i] = grid->points->axis[i];
   scene_points_over(&w.points, run->deck, 1 + grid->points->axes, axis);
   SCENE_COMPUTE(run, &w.points, "points with noise", .last = 1);

@@ -21,9 +21,9 @@ int scene_rotations_are(const scene_lines *l)
 {
   const pendres_pendulum *p = &l->grid.pendulum;
   return p->force == PENDRES_FORCE_PENDULUM && p->drive_amplitude == 0.0 &&
-         p->parametric_amplitude == 0.0 && !scene_lines_changes(l, DECK_AXIS_DRIVE_AMPLITUDE) &&
-         !scene_lines_changes(l, DECK_AXIS_PARAMETRIC_AMPLITUDE) &&
-         (p->torque != 0.0 || scene_lines_changes(l, DECK_AXIS_TORQUE));
+         p->parametric_amplitude == 0.0 && !scene_lines_changes(l, PENDRES_DRIVE_AMPLITUDE) &&
+         !scene_lines_changes(l, PENDRES_PARAMETRIC_AMPLITUDE) &&
+         (p->torque != 0.0 || scene_lines_changes(l, PENDRES_TORQUE));
 }
 
 /* Dampings below 1e-9 and above 100 have no rotation that is told. */

@@ -156,43 +156,42 @@ void scene_end(scene_run *run)
 
 /* ---- axes, fixed parameters and ensembles -------------------------------------------------- */
 
-static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
-  [DECK_AXIS_AMPLITUDE] = { "amplitude of the angle", "rad" },
-  [DECK_AXIS_DAMPING] = { "friction coefficient gamma", "1" },
-  [DECK_AXIS_DRIVE_AMPLITUDE] = { "drive amplitude F0", "1" },
-  [DECK_AXIS_DRIVE_FREQUENCY] = { "angular frequency of the drive", "1" },
-  [DECK_AXIS_DRIVE_PERIOD] = { "period of the drive", "1" },
-  [DECK_AXIS_TORQUE] = { "constant torque I", "1" },
-  [DECK_AXIS_PARAMETRIC_AMPLITUDE] = { "amplitude b of the parametric drive", "1" },
-  [DECK_AXIS_X] = { "initial position", "rad" },
-  [DECK_AXIS_V] = { "initial velocity", "1" },
-  [DECK_AXIS_TEMPERATURE] = { "temperature k T / (m g l)", "1" },
-  [DECK_AXIS_TOLERANCE] = { "tolerance asked for", "1" },
-};
-
-#define PARAMETER(axis, singular, plural, above, in_tables, words, kind) \
-  {DECK_AXIS_##axis, singular, plural, "groups of " plural, above, in_tables, words, \
-   PENDRES_##axis, kind}
-const scene_parameter scene_parameters[SCENE_PARAMETERS] = {
-  PARAMETER(DAMPING, "damping", "dampings", "damping   ", "damping", "friction coefficient",
-            PENDRES_DAMPING),
-  PARAMETER(DRIVE_FREQUENCY, "drive frequency", "drive frequencies", "drive     ", "frequency",
-            "drive frequency", PENDRES_DRIVE_FREQUENCY),
-  PARAMETER(DRIVE_AMPLITUDE, "drive amplitude", "drive amplitudes", "drive     ",
-            "drive_amplitude", "drive amplitude", PENDRES_DRIVE_AMPLITUDE),
-  PARAMETER(TORQUE, "torque", "torques", "torque    ", "torque", "torque", PENDRES_TORQUE),
-  PARAMETER(PARAMETRIC_AMPLITUDE, "parametric amplitude", "parametric amplitudes", "parametric",
-            "parametric_amplitude", "amplitude of the parametric drive",
-            PENDRES_PARAMETRIC_AMPLITUDE),
-  PARAMETER(DRIVE_PERIOD, "drive period", "drive periods", "drive     ", "period", "drive period",
-            PENDRES_DRIVE_FREQUENCY),
-};
-
-const scene_parameter *scene_parameter_of(deck_axis_id axis)
+const char *scene_spaced(pendres_parameter parameter, char text[DECK_NAME])
 {
-  int i = 0;
-  while (i + 1 < SCENE_PARAMETERS && scene_parameters[i].axis != axis) i++;
-  return &scene_parameters[i];
+  (void)snprintf(text, DECK_NAME, "%s", pendres_parameter_of(parameter)->name);
+  for (char *c = text; *c != '\0'; c++)
+    if (*c == '_') *c = ' ';
+  return text;
+}
+
+const char *scene_column_name(pendres_parameter parameter)
+{
+  return parameter == PENDRES_DRIVE_FREQUENCY ? "frequency" : pendres_parameter_of(parameter)->name;
+}
+
+scene_heading scene_heading_of(deck_axis_id axis)
+{
+  enum { WIDTH = 9 };
+  scene_heading h = { .words = "" };
+  const char *name = deck_axis_name(axis);
+  const size_t n = strlen(name), width = n > WIDTH ? n : WIDTH;
+  memset(h.words, ' ', width + 1);
+  memcpy(h.words, name, n);
+  (void)snprintf(h.format, sizeof h.format, "%%-%d.4g ", (int)width);
+  return h;
+}
+
+/* The unit of an axis in files: but for positions and amplitudes of angles all are numbers. */
+static const char *units_of(deck_axis_id axis)
+{
+  return axis == DECK_AXIS_X || axis == DECK_AXIS_AMPLITUDE ? "rad" : "1";
+}
+
+static const char *words_of(deck_axis_id axis)
+{
+  const pendres_parameter_info *info = pendres_parameter_of(deck_axis_parameter(axis));
+  if (info != NULL) return info->words;
+  return axis == DECK_AXIS_AMPLITUDE ? "amplitude of the angle" : "tolerance asked for";
 }
 
 static pendres_status write_dimension(scene_run *run, const char *group, deck_axis_id axis,
@@ -201,20 +200,22 @@ static pendres_status write_dimension(scene_run *run, const char *group, deck_ax
   const deck_axis *a = &run->deck->axis[axis];
   return scene_put_dimension(
     run, &(pendres_store_spec){.group = group, .name = deck_axis_name(axis), .long_name = words,
-                               .units = about[axis].units}, a->value, a->count);
+                               .units = units_of(axis)}, a->value, a->count);
 }
 
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
 {
-  return write_dimension(run, group, axis, about[axis].words);
+  return write_dimension(run, group, axis, words_of(axis));
 }
 
 pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis)
 {
-  /* Short ones would say too little of these. */
-  const int in_full = axis == DECK_AXIS_TORQUE || axis == DECK_AXIS_PARAMETRIC_AMPLITUDE;
-  return write_dimension(run, "", axis,
-                         in_full ? about[axis].words : scene_parameter_of(axis)->one);
+  /* Short ones would say too little of what a plain pendulum has not. */
+  const pendres_parameter parameter = deck_axis_parameter(axis);
+  char text[DECK_NAME];
+  return write_dimension(run, "", axis, pendres_parameter_of(parameter)->plain
+                                          ? scene_spaced(parameter, text)
+                                          : words_of(axis));
 }
 
 pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words)
@@ -222,116 +223,53 @@ pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const
   return scene_put_dimension(run, &(pendres_store_spec){.name = name, .long_name = words}, NULL, n);
 }
 
-void scene_plane(const deck *d, deck_axis_id axis[2])
-{
-  const deck_axis_id drive = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
-                                                                       : DECK_AXIS_DRIVE_FREQUENCY;
-  deck_axis_id extra = DECK_AXIS_DAMPING;
-  const int has_extra = deck_extra_axis(d, &extra);
-  const int tongue = has_extra && d->axis[DECK_AXIS_DAMPING].count == 1 && d->axis[drive].count > 1;
-  axis[0] = tongue ? extra : DECK_AXIS_DAMPING;
-  axis[1] = has_extra && !tongue ? extra : drive;
-}
-
-int scene_axes(const deck *d, deck_axis_id axis[SCENE_AXES])
-{
-  deck_axis_id plane[2], extra;
-  scene_plane(d, plane);
-  const size_t drives =
-    d->axis[DECK_AXIS_DRIVE_PERIOD].count + d->axis[DECK_AXIS_DRIVE_FREQUENCY].count;
-  if (d->kind != DECK_RESPONSE || !deck_extra_axis(d, &extra) ||
-      d->axis[DECK_AXIS_DAMPING].count < 2 || drives < 2) {
-    axis[0] = plane[0];
-    axis[1] = plane[1];
-    return 2;
-  }
-  axis[0] = extra;
-  axis[1] = DECK_AXIS_DAMPING;
-  axis[2] = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
-                                                      : DECK_AXIS_DRIVE_FREQUENCY;
-  return 3;
-}
-
-/* Whether it is one of the scene's axes. */
-static int is_axis(const deck *d, deck_axis_id axis)
-{
-  deck_axis_id axes[SCENE_AXES];
-  const int n = scene_axes(d, axes);
-  for (int i = 0; i < n; i++)
-    if (axes[i] == axis) return 1;
-  return 0;
-}
-
 double scene_fixed(const deck *d, deck_axis_id axis)
 {
-  deck_axis_id extra;
-  if (d->axis[axis].count > 0) {
-    /* In a scene in which some parameters move, the others are axes of one value. */
-    const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
-                      d->kind == DECK_LYAPUNOV_MAP;
-    const int curve = d->kind == DECK_RESONANCE_CURVE; /* has one axis */
-    const int left_out =
-      deck_extra_axis(d, &extra) && (curve ? axis != extra : !is_axis(d, axis));
-    return d->axis[axis].count == 1 && (moves || left_out) ? d->axis[axis].value[0] : NAN;
-  }
-  switch (axis) {
-  case DECK_AXIS_DRIVE_AMPLITUDE: return d->pendulum.drive_amplitude;
-  case DECK_AXIS_DAMPING: return d->pendulum.damping;
-  case DECK_AXIS_DRIVE_FREQUENCY: return d->pendulum.drive_frequency;
-  case DECK_AXIS_DRIVE_PERIOD: return d->pendulum.drive_period;
-  case DECK_AXIS_TORQUE: return d->pendulum.torque != 0.0 ? d->pendulum.torque : NAN;
-  case DECK_AXIS_PARAMETRIC_AMPLITUDE:
-    return d->pendulum.parametric_amplitude != 0.0 ? d->pendulum.parametric_amplitude : NAN;
-  default: return NAN;
-  }
+  const deck_axis *a = &d->axis[axis];
+  const pendres_parameter parameter = deck_axis_parameter(axis);
+  const pendres_parameter_info *info = pendres_parameter_of(parameter);
+  const int coefficients = pendres_model_of(d->pendulum.force)->coefficients;
+  if (a->count > 0) return a->count == 1 && !deck_has_axis(d, axis) ? a->value[0] : NAN;
+  if (axis == DECK_AXIS_DRIVE_PERIOD) return d->drive_period;
+  const double value = pendres_parameter_get(parameter, &d->pendulum);
+  if (info->coefficient > 0) return info->coefficient <= coefficients ? value : NAN;
+  return value != 0.0 || info->plain ? value : NAN;
 }
 
-/* The coefficients of a force; their names are added to those of coordinates. */
-static pendres_status write_coefficients(scene_run *run, char *coordinates)
+/* A parameter that the deck holds fixed; its name is added to those of coordinates. */
+static pendres_status write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
 {
-  const pendres_pendulum p = deck_pendulum(run->deck);
-  const pendres_model *model = pendres_model_of(p.force);
-  pendres_status status = PENDRES_OK;
-  for (int i = 0; i < model->coefficients && status == PENDRES_OK; i++) {
-    const pendres_store_spec spec = { .name = model->coefficient_names[i],
-                                      .long_name = p.force == PENDRES_FORCE_POLYNOMIAL
-                                                     ? "coefficient of the polynomial force"
-                                                     : "coefficient of the force" };
-    status = pendres_store_put(run->store, &spec, &p.force_coefficients[i], NULL, 1);
-    if (coordinates[0] != '\0') strcat(coordinates, " ");
-    strcat(coordinates, spec.name);
+  const deck *d = run->deck;
+  const double value = scene_fixed(d, axis);
+  const int coefficient = pendres_parameter_of(deck_axis_parameter(axis))->coefficient;
+  pendres_store_spec spec = { .name = deck_axis_name(axis), .long_name = words_of(axis),
+                              .units = units_of(axis) };
+  if (isnan(value)) return PENDRES_OK;
+  /* In other scenes the temperature is a dimension, even with one value. */
+  if (axis == DECK_AXIS_TEMPERATURE && d->kind != DECK_HYSTERESIS) return PENDRES_OK;
+  if (coefficient > 0) {
+    spec.units = NULL; /* a power of the pendulum's own */
+    spec.long_name = d->pendulum.force == PENDRES_FORCE_POLYNOMIAL
+                       ? "coefficient of the polynomial force"
+                       : "coefficient of the force";
   }
-  return status;
+  if (coordinates[0] != '\0') strcat(coordinates, " ");
+  strcat(coordinates, spec.name);
+  return pendres_store_put(run->store, &spec, &value, NULL, 1);
 }
 
 pendres_status scene_write_identity(scene_run *run)
 {
   const deck *d = run->deck;
-  static const deck_axis_id parameters[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_DAMPING,
-                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
-                                             DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE,
-                                             DECK_AXIS_TEMPERATURE };
-  char coordinates[(7 + PENDRES_FORCE_COEFFICIENTS) * DECK_NAME] = "";
+  char coordinates[DECK_AXIS_COUNT * DECK_NAME] = "";
   const char *slash = strrchr(d->name, '/');
   pendres_status status =
     pendres_store_attribute(run->store, "", NULL, "scene", deck_kind_name(d->kind));
   if (status == PENDRES_OK)
     status = pendres_store_attribute(run->store, "", NULL, "deck",
                                           slash != NULL ? slash + 1 : d->name);
-  for (size_t i = 0; i < sizeof parameters / sizeof *parameters && status == PENDRES_OK; i++) {
-    const deck_axis_id axis = parameters[i];
-    const double value = scene_fixed(d, axis);
-    if (isnan(value)) continue;
-    /* In other scenes the temperature is a dimension, even with one value. */
-    if (axis == DECK_AXIS_TEMPERATURE && d->kind != DECK_HYSTERESIS) continue;
-    const pendres_store_spec spec = { .name = deck_axis_name(axis),
-                                      .long_name = about[axis].words,
-                                      .units = about[axis].units };
-    status = pendres_store_put(run->store, &spec, &value, NULL, 1);
-    if (coordinates[0] != '\0') strcat(coordinates, " ");
-    strcat(coordinates, spec.name);
-  }
-  if (status == PENDRES_OK) status = write_coefficients(run, coordinates);
+  for (int i = 0; i <= DECK_AXIS_TEMPERATURE && status == PENDRES_OK; i++)
+    status = write_fixed(run, (deck_axis_id)i, coordinates);
   if (status == PENDRES_OK && coordinates[0] != '\0')
     status = pendres_store_attribute(run->store, "", NULL, "coordinates", coordinates);
   return status == PENDRES_OK ? scene_define(run) : scene_stored(run, status);
@@ -353,13 +291,12 @@ pendres_ensemble scene_ensemble(const deck *d)
 
 pendres_sweep scene_sweep(const deck *d)
 {
-  pendres_sweep s = { .pendulum = deck_pendulum(d) };
-  for (int axis = 0; axis < DECK_AXIS_COUNT; axis++) {
-    const scene_parameter *of = scene_parameter_of((deck_axis_id)axis);
-    const deck_axis *a = &d->axis[axis];
-    if (a->count > 0 && (int)of->axis == axis)
-      s.axis[s.axes++] = (pendres_axis){ of->quantity, a->count, a->value };
-  }
+  deck_axis_id axis[DECK_AXES];
+  const int n = deck_axes(d, axis);
+  pendres_sweep s = { .pendulum = deck_pendulum(d), .axes = (size_t)n };
+  for (int i = 0; i < n; i++)
+    s.axis[i] = (pendres_axis){ deck_axis_parameter(axis[i]), d->axis[axis[i]].count,
+                                d->axis[axis[i]].value };
   return s;
 }
 

@@ -119,35 +119,19 @@ pendres_status scene_write_units(scene_run *run);
 /* Define the measures in the file, in their attributes `comment`; called by the above. */
 pendres_status scene_define(scene_run *run);
 
-/* What is said of an axis that is a parameter of the pendulum, and what it is to the library. */
-typedef struct scene_parameter {
-  deck_axis_id axis;
-  const char *one, *many, *groups; /* "damping", "dampings", "groups of dampings" */
-  const char *heading;             /* above its values in a table */
-  const char *name, *long_name;    /* in tables of orbits */
-  pendres_parameter quantity;
-  pendres_parameter parameter;
-} scene_parameter;
+/* A parameter's name in words, "drive amplitude", in `text`, which is returned; and in columns of
+   tables, where the frequency is the drive's. */
+const char *scene_spaced(pendres_parameter parameter, char text[DECK_NAME]);
+const char *scene_column_name(pendres_parameter parameter);
 
-/* All of them; the first SCENE_PLACES are parameters of orbits. */
-enum { SCENE_PARAMETERS = 6, SCENE_PLACES = 5 };
-extern const scene_parameter scene_parameters[SCENE_PARAMETERS];
+/* What stands above the values of an axis in a short table, and their format. */
+typedef struct scene_heading {
+  char words[DECK_NAME], format[16];
+} scene_heading;
+scene_heading scene_heading_of(deck_axis_id axis);
 
-/* That of an axis, which is one. */
-const scene_parameter *scene_parameter_of(deck_axis_id axis);
-
-/* The dimension of such an axis in scenes that call it by its short name. */
+/* The dimension of a parameter in scenes that call it by its short name. */
 pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis);
-
-/* The two axes of a scene's points, the slower first: damping and the drive's frequency or period;
-   where the drive amplitude is an axis it takes the place of the one that has one value. */
-void scene_plane(const deck *d, deck_axis_id axis[2]);
-
-/* The axes of a scene's points, slowest first, and how many: those of the plane; of a response
-   whose damping and drive have several values each beside another parameter's, that parameter is a
-   third one, before them. */
-enum { SCENE_AXES = 3 };
-int scene_axes(const deck *d, deck_axis_id axis[SCENE_AXES]);
 
 /* The value of a parameter that the scene holds fixed; NaN if it is an axis, or unknown. */
 double scene_fixed(const deck *d, deck_axis_id axis);
@@ -155,8 +139,7 @@ double scene_fixed(const deck *d, deck_axis_id axis);
 /* The deck's ensemble. */
 pendres_ensemble scene_ensemble(const deck *d);
 
-/* The deck's dampings by its drive amplitudes by its drive frequencies or periods, as far as it has
-   them as axes. */
+/* The deck's pendulums over its axes, slowest first. */
 pendres_sweep scene_sweep(const deck *d);
 
 /* The group `paper`: printed values beside computed ones. */

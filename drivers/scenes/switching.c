@@ -84,7 +84,7 @@ static void describe(const deck *d, FILE *out)
   fprintf(out,
           "switching at damping %g, drive period %g, drive amplitude %g, at %zu temperatures\n"
           "%g to %g: %lld trajectories of %lld periods each, %.3g pendulum-periods in all\n",
-          d->pendulum.damping, d->pendulum.drive_period, d->pendulum.drive_amplitude, t->count,
+          d->pendulum.damping, d->drive_period, d->pendulum.drive_amplitude, t->count,
           t->value[0], t->value[t->count - 1], (long long)d->noise.trajectories,
           (long long)d->noise.periods,
           (double)t->count * (double)d->noise.trajectories * (double)d->noise.periods);

@@ -30,17 +30,17 @@ static int ends(const char *name, const char *with)
 static int convert(const deck *d, const char *name, conversion *out)
 {
   const double natural = d->units.natural_frequency;
-  deck_axis_id moving = DECK_AXIS_COUNT;
+  deck_axis_id moving[DECK_AXES] = {DECK_AXIS_COUNT};
   const int along = ends(name, "_parameter") || strcmp(name, "cascade_limit") == 0;
-  if (along) (void)deck_moving(d, 1, &moving);
+  if (along) (void)deck_axes(d, moving);
   *out = (conversion){"_hz", "Hz", natural};
   if (ends(name, "_error")) return 0; /* it goes with its result */
   if (ends(name, "_hz")) return 0;    /* it is a copy */
   if (ends(name, "_frequency") || strncmp(name, "frequency_", 10) == 0) return 1;
-  if (along && moving == DECK_AXIS_DRIVE_FREQUENCY) return 1;
+  if (along && moving[0] == DECK_AXIS_DRIVE_FREQUENCY) return 1;
   *out = (conversion){"_s", "s", 1.0 / (2.0 * PENDRES_PI * natural)};
   return strcmp(name, "drive_period") == 0 || strcmp(name, "resonance_period") == 0 ||
-         (along && moving == DECK_AXIS_DRIVE_PERIOD);
+         (along && moving[0] == DECK_AXIS_DRIVE_PERIOD);
 }
 
 /* A result of at most one dimension. */

@@ -1,0 +1,139 @@
+/*
+ * axes.c -- which parameters a deck varies, and what it holds fixed: all from the list of
+ * <pendres/parameter.h>.
+ */
+#include "deck/deck.h"
+
+#include <math.h>
+#include <string.h>
+
+static const pendres_parameter parameters[] = {
+#define AXIS_PARAMETER(code, ...) PENDRES_##code,
+  PENDRES_PARAMETER_LIST(AXIS_PARAMETER)
+#undef AXIS_PARAMETER
+};
+
+pendres_parameter deck_axis_parameter(deck_axis_id axis)
+{
+  return (unsigned)axis < DECK_AXIS_AMPLITUDE ? parameters[axis] : PENDRES_PARAMETER_COUNT;
+}
+
+const char *deck_axis_name(deck_axis_id axis)
+{
+  if (axis == DECK_AXIS_AMPLITUDE) return "amplitude";
+  if (axis == DECK_AXIS_TOLERANCE) return "tolerance";
+  const pendres_parameter_info *info = pendres_parameter_of(deck_axis_parameter(axis));
+  return info != NULL ? info->name : NULL;
+}
+
+int deck_is_clock(deck_axis_id axis)
+{
+  return axis == DECK_AXIS_DRIVE_FREQUENCY || axis == DECK_AXIS_DRIVE_PERIOD;
+}
+
+/* ---- the axes of results ------------------------------------------------------------------- */
+
+static deck_axis_id clock_of(const deck *d)
+{
+  return d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
+                                                   : DECK_AXIS_DRIVE_FREQUENCY;
+}
+
+/* The parameters that have several values; damping is the slowest. */
+static int find_moving(const deck *d, deck_axis_id *axis)
+{
+  int n = 0;
+  if (d->axis[DECK_AXIS_DAMPING].count > 1) axis[n++] = DECK_AXIS_DAMPING;
+  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++)
+    if (i != DECK_AXIS_DAMPING && d->axis[i].count > 1) axis[n++] = (deck_axis_id)i;
+  return n;
+}
+
+/*
+ * The parameters in &sweep other than damping and the drive's clock, then damping, then the clock;
+ * but if the clock does not move, the last of the others runs fastest. There are two axes at least,
+ * damping and clock among them where nothing else is; of a resonance, which has no clock, one.
+ */
+static int find_plane(const deck *d, deck_axis_id *axis)
+{
+  const deck_axis_id clock = clock_of(d);
+  const int curve = d->kind == DECK_RESONANCE_CURVE;
+  int n = 0;
+  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++)
+    if (i != DECK_AXIS_DAMPING && !deck_is_clock((deck_axis_id)i) && d->axis[i].count > 0)
+      axis[n++] = (deck_axis_id)i;
+  const deck_axis_id last = n == 0 || d->axis[clock].count > 1 ? clock : axis[n - 1];
+  if (!curve && n > 0 && last != clock) n--;
+  if (n == 0 || d->axis[DECK_AXIS_DAMPING].count > 1) axis[n++] = DECK_AXIS_DAMPING;
+  if (!curve) axis[n++] = last;
+  return n;
+}
+
+int deck_axes(const deck *d, deck_axis_id axis[DECK_AXES])
+{
+  deck_axis_id all[DECK_AXIS_COUNT];
+  int n = 0;
+  switch (d->kind) {
+  case DECK_HYSTERESIS:
+  case DECK_BIFURCATION_DIAGRAM:
+  case DECK_LYAPUNOV_MAP: n = find_moving(d, all); break;
+  case DECK_RESONANCE_CURVE:
+  case DECK_RESPONSE:
+  case DECK_PHASE_DIAGRAM:
+  case DECK_BRANCHES: n = find_plane(d, all); break;
+  default: break;
+  }
+  for (int i = 0; i < n && i < DECK_AXES; i++) axis[i] = all[i];
+  return n;
+}
+
+int deck_has_axis(const deck *d, deck_axis_id axis)
+{
+  deck_axis_id axes[DECK_AXES];
+  const int n = deck_axes(d, axes);
+  for (int i = 0; i < n && i < DECK_AXES; i++)
+    if (axes[i] == axis) return 1;
+  return 0;
+}
+
+int deck_searches(const deck *d)
+{
+  deck_axis_id axis[DECK_AXES];
+  if (d->kind != DECK_RESPONSE) return d->kind == DECK_RESONANCE_CURVE;
+  const int n = deck_axes(d, axis);
+  return (deck_is_plain(d) || d->search_given) && (n > DECK_AXES || deck_is_clock(axis[n - 1]));
+}
+
+/* ---- pendulums ----------------------------------------------------------------------------- */
+
+pendres_pendulum deck_pendulum(const deck *d)
+{
+  pendres_pendulum p = d->pendulum;
+  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++)
+    if (d->axis[i].count > 0) pendres_parameter_set(parameters[i], d->axis[i].value[0], &p);
+  return p;
+}
+
+pendres_units deck_pendulum_units(const deck *d)
+{
+  pendres_pendulum p = d->pendulum;
+  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++) {
+    double most = 0.0;
+    for (size_t k = 0; k < d->axis[i].count; k++)
+      if (fabs(d->axis[i].value[k]) > fabs(most)) most = d->axis[i].value[k];
+    if (d->axis[i].count > 0) pendres_parameter_set(parameters[i], most, &p);
+  }
+  return pendres_units_of(&p);
+}
+
+int deck_is_plain(const deck *d)
+{
+  if (d->pendulum.force != PENDRES_FORCE_PENDULUM) return 0;
+  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++) {
+    if (pendres_parameter_of(parameters[i])->plain) continue;
+    if (pendres_parameter_get(parameters[i], &d->pendulum) != 0.0) return 0;
+    for (size_t k = 0; k < d->axis[i].count; k++)
+      if (d->axis[i].value[k] != 0.0) return 0;
+  }
+  return 1;
+}
