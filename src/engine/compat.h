@@ -1,10 +1,10 @@
 /*
- * compat.h -- one face for SUNDIALS 6.4 to 7.x.
+ * compat.h -- one interface to SUNDIALS 6.4 to 7.x.
  *
  * Owns: what changed between these releases and matters here. Code elsewhere in src/ is written
  * with the ERKStep names of 6.4; from 7.1 on these are deprecated in favour of ARKode names, and
- * the list below translates. SUNDIALS never prints once silenced: its return codes say all, and
- * the library turns them into a status and a message.
+ * the list below translates. SUNDIALS is made to print nothing: its return codes are sufficient,
+ * and the library turns them into a status and a message.
  */
 #ifndef PENDRES_COMPAT_H
 #define PENDRES_COMPAT_H
@@ -18,7 +18,7 @@
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_types.h>
 
-/* At least that release of SUNDIALS? */
+/* Whether it is at least that release of SUNDIALS. */
 #define PENDRES_COMPAT_SUNDIALS(major, minor)                                                     \
   (SUNDIALS_VERSION_MAJOR > (major) ||                                                            \
    (SUNDIALS_VERSION_MAJOR == (major) && SUNDIALS_VERSION_MINOR >= (minor)))
@@ -82,8 +82,8 @@ pendres_compat_silence(SUNContext sun, void *arkode_mem, void *cvode_mem)
 
 /*
  * Choose the PID step controller of SUNDIALS 6.4, all its numbers given. Later releases count the
- * order differently, hence the adjustment. Controllers as objects, which 7.x would rather see, do
- * not belong to the integrator and would need an owner. 0 on success.
+ * order differently, hence the adjustment. Controllers as objects, which 7.x prefers, are not owned
+ * by the integrator and would need an owner. 0 on success.
  */
 #if PENDRES_COMPAT_SUNDIALS(6, 7)
 #pragma GCC diagnostic push

@@ -30,7 +30,7 @@ struct pendres_context {
   pendres_options options; /* defaults resolved; the tolerance is canonical while a door is open */
   int tolerance_given; /* the tolerance is the caller's, not the default of canonical units */
   int canonical;       /* a door (door.h) is open: all is in canonical units */
-  void *sun; /* a SUNContext, for the flows */
+  void *sun;           /* a SUNContext, for the flows */
   pendres_flow *flows[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;
   pendres_cost cost;
@@ -54,7 +54,7 @@ struct pendres_context {
 /*
  * Evaluations of the slope so far, counted for each lane, without those that went into choosing
  * steps. This measure of work does not depend on what the context did before, nor on the size of
- * its blocks. An evaluation and all that goes with it take about 2.5e-9 seconds.
+ * its blocks. One evaluation with its overhead takes about 2.5e-9 seconds.
  */
 double pendres_context_slopes(const pendres_context *ctx);
 
@@ -72,9 +72,9 @@ pendres_status pendres_context_flow_adaptive(pendres_context *ctx, double tolera
                                              pendres_flow **out);
 
 /*
- * To be asked between drive periods: PENDRES_INTERRUPTED when the caller asked to stop, and beyond
- * ctx->most_slopes. Whoever sets those looks at the slopes at the end as well: when it is asked
- * depends on the size of blocks, but not what all of them take.
+ * To be called between drive periods: PENDRES_INTERRUPTED when the caller asked to stop, and beyond
+ * ctx->most_slopes. A function that sets most_slopes compares the slopes at the end as well: when
+ * this function is called depends on the size of blocks, but the total number of slopes does not.
  */
 pendres_status pendres_context_poll(pendres_context *ctx);
 /* Whether the caller asked to stop, as a function that can be handed to others; ctx is a context.

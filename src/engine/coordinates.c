@@ -154,7 +154,7 @@ void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, d
   pendres_flow_get_tangent(b->flow, lane, which, tangent);
 }
 
-/* After a run of so many periods: count its cost, or say how it failed. */
+/* After a run of `periods` periods: count its cost, or report how it failed. */
 static pendres_status ran(pendres_block *b, double periods, pendres_status status)
 {
   if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);

@@ -1,12 +1,12 @@
 /*
- * door.h -- the way of public functions into canonical units, and out of them.
+ * door.h -- how public functions go into canonical units, and out of them.
  *
  * Owns: the conversion of arguments and results, and the tolerance in canonical units. A public
- * function opens a door with the pendulum that it is about; what it was given comes in by
- * pendres_door_in(), what it writes is announced by pendres_door_out(), and closing the door
- * converts that back, whatever became of the call. Units are chosen at the outermost door: within,
- * one public function may call another, whose door then changes nothing. Where they are 1 and 1
- * nothing is copied or changed either.
+ * function opens a door with the pendulum that it computes; its arguments are converted by
+ * pendres_door_in(), its results are announced by pendres_door_out(), and closing the door converts
+ * them back, whether the call succeeded or failed. Units are chosen at the outermost door: behind
+ * it, one public function may call another, whose door then changes nothing. Where both units are
+ * 1, nothing is copied or changed either.
  */
 #ifndef PENDRES_DOOR_H
 #define PENDRES_DOOR_H
@@ -23,9 +23,9 @@ struct pendres_door_memory;
 typedef struct pendres_door {
   pendres_context *ctx;
   pendres_status status; /* of the call so far */
-  pendres_scales scales; /* of the present stretch */
-  size_t first, count;   /* pendulums of the present stretch */
-  /* the rest is the door's own */
+  pendres_scales scales; /* of the present run of pendulums */
+  size_t first, count;   /* pendulums of the present run */
+  /* the rest is private to the door */
   int entered, outermost, begun;
   double tolerance; /* the caller's */
   int ranges;       /* whether a parameter of the pendulums is moved: this one, ... */
@@ -42,10 +42,10 @@ typedef struct pendres_door {
   } out[PENDRES_DOOR_RESULTS];
 } pendres_door;
 
-/* For one pendulum; NULL: what has no units. */
+/* For one pendulum; NULL: for what has no units. */
 void pendres_door_open(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p);
 
-/* For what has these units, as a handle that was made behind another door. */
+/* For what has these units, such as a handle that was made behind another door. */
 void pendres_door_open_in(pendres_door *d, pendres_context *ctx, pendres_units u);
 
 /* For a pendulum one of whose parameters takes n values: the one of the largest size decides, the
@@ -54,22 +54,22 @@ void pendres_door_open_along(pendres_door *d, pendres_context *ctx, const pendre
                              pendres_parameter moved, size_t n, const double *value);
 
 /*
- * For n pendulums that are the first fields of records so many bytes apart, or NULL. Then
- * pendres_door_next() is to be called until it returns 0: it opens the door to one stretch after
- * another of pendulums with the same units, d->count from d->first on.
+ * For n pendulums, each the first field of a record, with records `stride` bytes apart; or NULL.
+ * Then pendres_door_next() is to be called until it returns 0: it opens the door for one run of
+ * consecutive pendulums with the same units after another, d->count from d->first on.
  */
 void pendres_door_open_many(pendres_door *d, pendres_context *ctx, size_t n,
                             const void *pendulums, size_t stride);
 int pendres_door_next(pendres_door *d);
 
-/* One of the parameters of all of them is moved in a range: as pendres_door_open_along(). To be
+/* One of the parameters of all of them is varied in a range: as pendres_door_open_along(). To be
    called before pendres_door_next(). */
 void pendres_door_range(pendres_door *d, pendres_parameter moved, double low, double high);
 
-/* The unit of a parameter that is moved, for records that hold values of it. */
+/* The parameters that are varied, for records that hold values in their units. */
 void pendres_door_move(pendres_door *d, pendres_parameter first, pendres_parameter second);
 
-/* n records in canonical units: a copy that lasts until the stretch ends, or the records
+/* n records in canonical units: a copy that lasts until the run of pendulums ends, or the records
    themselves. NULL for NULL. */
 const void *pendres_door_in(pendres_door *d, const pendres_dimensions *kind, size_t n,
                             const void *records);
@@ -77,13 +77,13 @@ const void *pendres_door_in(pendres_door *d, const pendres_dimensions *kind, siz
 /* n records of the caller that the call reads or writes; returns them. */
 void *pendres_door_out(pendres_door *d, const pendres_dimensions *kind, size_t n, void *records);
 
-/* Whether the call takes place in other units than the caller's. */
+/* Whether the call computes in units other than the caller's. */
 int pendres_door_changes(const pendres_door *d);
 
-/* Memory until the stretch ends; NULL, and a failure, if there is none. */
+/* Memory until the run of pendulums ends; NULL, and a failure, if there is none. */
 void *pendres_door_memory(pendres_door *d, size_t size);
 
-/* A copy of bytes in such memory; NULL of nothing, and after a failure. */
+/* A copy of bytes in such memory; NULL if there is nothing to copy, and after a failure. */
 void *pendres_door_copy(pendres_door *d, const void *bytes, size_t size);
 
 /* End of the call: its status. */

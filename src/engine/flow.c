@@ -14,8 +14,8 @@
 #include "engine/lanes_tape.h"
 #include "engine/tables.h"
 
-/* So many steps, of all lanes together, lie between two questions whether to go on: they take some
-   hundredths of a second. */
+/* Steps, of all lanes together, between two checks whether to go on: they take some hundredths of a
+   second. */
 static const double steps_between = 300000.0;
 
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)

@@ -31,8 +31,8 @@ typedef struct pendres_flow_options {
   pendres_table table;
   double tolerance; /* 0: fixed steps; else adaptive steps with this relative and absolute tolerance
                        */
-  int (*stop)(void *arg); /* asked now and then within long periods: nonzero ends the period; may be
-                             NULL */
+  int (*stop)(void *arg); /* called now and then within long periods: nonzero ends the period; may
+                             be NULL */
   void *stop_arg;
 } pendres_flow_options;
 
@@ -53,8 +53,8 @@ pendres_status pendres_flow_set_longest_step(pendres_flow *flow, double longest)
 void pendres_flow_resize(pendres_flow *flow, size_t lanes);
 size_t pendres_flow_capacity(const pendres_flow *flow);
 
-/* Take all lanes out. Those that come next decide anew by which model's kernels the block is
-   computed. */
+/* Remove all lanes. The next ones to be set decide again which model's kernels compute the block.
+   */
 void pendres_flow_clear(pendres_flow *flow);
 
 /* Put a pendulum into a lane. Pendulums with a polynomial force and others do not share a block.
@@ -63,20 +63,21 @@ void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendul
                            double w);
 
 /*
- * From now on carry errors of the lanes along, or a tangent vector of each, or nothing; blocks of
- * states with fixed steps only. Both grow and shrink as the equation linearised along the
- * trajectory has it. Each step adds the lane's `added` to the variance of y, and to that of v =
- * omega w. What is carried is set after the lane's pendulum and the steps of the period.
+ * From now on propagate the errors of the lanes, or tangent vectors, or nothing; for blocks of
+ * states with fixed steps only. Both obey the equation linearised along the trajectory. Each step
+ * adds the lane's `added` to the variance of y, and to that of v = omega w. Errors and tangents are
+ * set after the lane's pendulum and the steps of the period.
  *
- * Each lane has two tangents, one by the block's steps and one by steps twice as long, of which
- * there must be an even number a period. What they grow by is right to fourth order in the step in
- * the mean over time, but not over a single period: they are half a step ahead of their lanes.
+ * Each lane has two tangents, one with the block's steps and one with steps twice as long, so that
+ * the number of steps per period must be even. Their mean growth over long times is correct to
+ * fourth order in the step, but not that over a single period: they are half a step ahead of their
+ * lanes.
  */
 pendres_status pendres_flow_carry(pendres_flow *flow, pendres_flow_load load);
 void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
                             double added);
 pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane);
-/* which: 0 for the tangent by the block's steps, 1 for that by steps twice as long. */
+/* which: 0 for the tangent with the block's steps, 1 for that with steps twice as long. */
 void pendres_flow_set_tangent(pendres_flow *flow, size_t lane, int which, const double tangent[2]);
 void pendres_flow_get_tangent(const pendres_flow *flow, size_t lane, int which, double tangent[2]);
 
@@ -85,15 +86,15 @@ void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);
 
 /* The rows of the block, valid until the next call that advances or resizes it. */
 pendres_rows pendres_flow_rows(const pendres_flow *flow);
-/* Set the state of a lane, and nothing else of it. */
+/* Set the state of a lane and leave everything else as it is. */
 void pendres_flow_put_state(pendres_flow *flow, size_t lane, double y, double w);
 
-/* Advance all lanes by one drive period. PENDRES_INTERRUPTED if stop() said so. */
+/* Advance all lanes by one drive period. PENDRES_INTERRUPTED if stop() returned nonzero. */
 pendres_status pendres_flow_period(pendres_flow *flow);
 
 /*
- * Advance all lanes from drive phase 0 to pi: fixed steps, an even number a period. Orbits that are
- * their own mirror image close after half a period and a reflection.
+ * Advance all lanes from drive phase 0 to pi: for an even number of fixed steps per period. Orbits
+ * that are their own mirror image close after half a period and a reflection.
  */
 pendres_status pendres_flow_half_period(pendres_flow *flow);
 

@@ -1,7 +1,7 @@
 /*
  * flow_drive.h -- the drive at the right-hand sides of a flow.
  *
- * Owns: the phase that ARKODE means, and the drive's cosine there, remembered from period to
+ * Owns: the exact phase of each stage, and the drive's cosine there, remembered from period to
  * period.
  */
 #ifndef PENDRES_FLOW_DRIVE_H
@@ -20,7 +20,7 @@ typedef struct pendres_flow_drive {
   size_t size, next;
 } pendres_flow_drive;
 
-/* The phase that ARKODE means when its clock shows theta. */
+/* The exact phase of the stage at which ARKODE's clock shows theta. */
 double pendres_flow_drive_phase(const pendres_flow_drive *drive, double theta);
 
 /* cos(theta) at the next right-hand side of a period. */
@@ -29,7 +29,7 @@ double pendres_flow_drive_cosine(pendres_flow_drive *drive, double theta);
 /* Begin a period. */
 void pendres_flow_drive_rewind(pendres_flow_drive *drive);
 
-/* Make room for so many steps a period. */
+/* Make room for `steps` steps per period. */
 int pendres_flow_drive_resize(pendres_flow_drive *drive, int steps);
 
 void pendres_flow_drive_free(pendres_flow_drive *drive);

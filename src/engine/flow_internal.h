@@ -2,7 +2,7 @@
  * flow_internal.h -- what a block is made of.
  *
  * Owns: the struct that flow.c, which advances a block, and flow_lanes.c, which fills its lanes,
- * share. Nobody else includes it.
+ * share. No other file includes it.
  */
 #ifndef PENDRES_FLOW_INTERNAL_H
 #define PENDRES_FLOW_INTERNAL_H
@@ -44,7 +44,7 @@ struct pendres_flow {
   double tolerance;
   double end, half;       /* ARKODE's clock after a period and half of one */
   N_Vector state;
-  double *rows;           /* the state as all others see it, row after row */
+  double *rows;           /* the state as seen by the rest of the engine, row after row */
   double *coefficient[COEFFICIENTS];
   pendres_flow_load load; /* what is carried, */
   double *off[CARRIED];   /* in these; NULL until anything is */
@@ -52,9 +52,9 @@ struct pendres_flow {
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
-  int (*stop)(void *arg); /* asked now and then within a period; may be NULL */
+  int (*stop)(void *arg); /* called now and then within a period; may be NULL */
   void *stop_arg;
-  double next_asked;      /* when so many steps have been taken */
+  double next_asked;      /* the number of steps at which it is called next */
   int stopped;
   size_t lanes; /* in use */
   int failure;

@@ -32,9 +32,9 @@ PENDRES_VECTOR_INLINE void copy_vectors(int count, const double *from, double *t
 }
 
 /*
- * Sums that are in registers at once: the rows of 8 lanes with derivatives are so many vectors with
- * AVX2, two and four times as many with 2 lanes to a vector, half as many with AVX-512. Fewer at a
- * time wait for each other.
+ * Sums that are in registers at the same time: with AVX2 the rows of 8 lanes with derivatives are
+ * this many vectors; with 2 lanes to a vector they are two and four times as many, with AVX-512
+ * half as many. With fewer sums at a time, each operation would wait for the one before.
  */
 enum { SUMMED = 12 };
 
@@ -334,8 +334,8 @@ static void set(const pendres_operation *o, size_t at, size_t n)
 }
 
 /*
- * All operations on a strip of a state, `count` vectors at once; a strip of just so many is one
- * group. Comparisons and not a switch: its indirect jump costs a tenth of the time where
+ * All operations on a strip of a state, `count` vectors at once; a strip of exactly that many is
+ * one group. Comparisons and not a switch: its indirect jump costs a tenth of the time where
  * processors may not speculate over one.
  */
 PENDRES_VECTOR_INLINE void run_state(pendres_model_terms model, int count, const pendres_strip *s,

@@ -18,8 +18,9 @@
  *     dw/dtheta = -stiffness f(y) (1 + modulation cos theta) + drive cos theta + torque - friction
  *     w
  *
- * Each model (model.h) has kernels of its own, so that none pays for terms that it has not. Those
- * for a pendulum with torque or parametric drive do for a plain one what its own do, bit by bit.
+ * Each model (model.h) has kernels of its own, so that none spends time on terms that it does not
+ * have. Those for a pendulum with torque or parametric drive give the same bits for a plain one as
+ * its own do.
  */
 #ifndef PENDRES_KERNELS_H
 #define PENDRES_KERNELS_H
@@ -137,9 +138,9 @@ typedef struct pendres_operation {
 /*
  * The covariance of the error of each lane: of y, of y and w, of w; and the variance that a step
  * adds to that of y, while that of w gets 1/omega^2 times as much. It is advanced by steps of
- * second order, which cost little compared with those of the state and need be right only to a few
- * per cent. Two factors of a step are constants: `keep`, by which the drag reduces w's error, and
- * `kick`, which, times cos y, adds the spring's share of y's.
+ * second order, which cost little compared with those of the state and need be correct only to a
+ * few per cent. Two factors of a step are constants: `keep`, by which the drag reduces the error
+ * of w, and `kick`, which, times cos y, is the spring's contribution from the error of y.
  */
 typedef struct pendres_carried {
   double *yy, *yw, *ww;

@@ -2,7 +2,7 @@
  * lanes.h -- the N_Vector that holds a block of pendulums side by side.
  *
  * Owns: memory and vector operations of a block. All clones of a vector share one shape
- * (lanes_shape.h); what ARKODE asks for is put off (lanes_tape.h).
+ * (lanes_shape.h); what ARKODE requests is deferred (lanes_tape.h).
  *
  * The norm is the largest over the lanes of each lane's own root mean square,
  * so that every lane meets the tolerance of an adaptive step on its own.
@@ -19,20 +19,20 @@
 /* Memory for n doubles on a 64-byte boundary, all zero; NULL if there is none. Free with free(). */
 double *pendres_lanes_allocate(size_t n);
 
-/* Make a shape of so many rows and lanes, all of them in use; nonzero without memory. */
+/* Make a shape of `rows` rows and `lanes` lanes, all of them in use; nonzero without memory. */
 int pendres_lanes_open(pendres_lanes_shape *shape, size_t rows, size_t lanes,
                        const pendres_kernels *kernels);
 /* To be called when the shape's last vector has been freed. */
 void pendres_lanes_close(pendres_lanes_shape *shape);
 
-/* Use so many lanes from now on, at most the capacity. Vectors lose their values. */
+/* Use `lanes` lanes from now on, at most the capacity. Vectors lose their values. */
 void pendres_lanes_resize(pendres_lanes_shape *shape, size_t lanes);
 
 /*
  * A vector of the shape, all zero; NULL if out of memory. N_VDestroy frees it. SUNDIALS (6.4)
- * follows a null pointer where it gets no clone of a vector. So it always gets one: a vector of the
- * shape is kept to be handed out then, and the shape is starved: ask for that when SUNDIALS
- * returns.
+ * dereferences a null pointer where a vector cannot be cloned. So it always gets a clone: when
+ * memory is exhausted it is given a spare vector of the shape, and the shape is marked as starved,
+ * which the caller must check when SUNDIALS returns.
  */
 N_Vector pendres_lanes_create(pendres_lanes_shape *shape, SUNContext sun);
 

@@ -11,7 +11,7 @@ enum {
                               of a period is unlike the others */
   MOST_KINDS = 64,
   MOST_KEPT = 65536,       /* operations of all records together, 4 MB */
-  MOST_TRIES = 4           /* a kind is given up after so many records that differ */
+  MOST_TRIES = 4           /* a kind is given up after this many recordings that differ */
 };
 
 typedef struct entry {
@@ -36,7 +36,7 @@ static void clear(pendres_lanes_replay *p)
   *p = (pendres_lanes_replay){0};
 }
 
-/* Room for so many; 0 if out of memory. */
+/* Make room; 0 if out of memory. */
 static int reserve(pendres_lanes_replay *p, size_t operations, size_t sums, size_t parts)
 {
   *p = (pendres_lanes_replay){.operation = malloc((operations + 1) * sizeof *p->operation),

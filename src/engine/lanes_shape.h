@@ -20,14 +20,14 @@ enum { PENDRES_LANES_ALIGN = 64, PENDRES_LANES_MULTIPLE = 8 };
 
 struct pendres_lanes_tape;
 
-/* Shared by all clones; owned by whoever made the first vector. */
+/* Shared by all clones; owned by the creator of the first vector. */
 typedef struct pendres_lanes_shape {
   size_t rows;
   size_t capacity; /* lanes that memory was taken for, a multiple of 8 */
   size_t stride;   /* lanes in use, rounded up to a multiple of 8 */
   size_t strip;    /* lanes of a strip, a multiple of 8, ... */
   size_t wider;    /* ... and of those below this lane 8 more */
-  int norm_unused; /* fixed steps: nobody reads the norm, so do not compute it */
+  int norm_unused; /* fixed steps: the norm is not used, so it is not computed */
   const pendres_kernels *kernels;
   pendres_model_terms model; /* of all lanes */
   pendres_coefficients coefficients; /* of the slope, an entry a lane; not owned */

@@ -10,8 +10,7 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 
-/* So many evaluations lie between two questions whether to go on: they take some hundredths of a
-   second. */
+/* Evaluations between two checks whether to go on: they take some hundredths of a second. */
 enum { EVALUATIONS_BETWEEN = 300000 };
 
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one)

@@ -1,8 +1,8 @@
 /*
  * method_one.h -- the methods to compare with: one ARKODE or CVODE problem a pendulum.
  *
- * Independent of the blocks on purpose: the plain serial vector, libm's sine, adaptive steps, a
- * clock that runs on. Slow, and a second opinion.
+ * Deliberately independent of the blocks: the plain serial vector, libm's sine, adaptive steps, a
+ * clock that is not reset. Slow, but an independent check.
  */
 #ifndef PENDRES_METHOD_ONE_H
 #define PENDRES_METHOD_ONE_H
@@ -19,7 +19,7 @@ typedef struct pendres_one {
   pendres_context *ctx;
   const pendres_pendulum *p;
   double tolerance;
-  double longest; /* step over drive phase; 0: any. Heeded by `single` alone */
+  double longest; /* step over drive phase; 0: any. Only `single` obeys it */
   N_Vector state; /* y and w over drive phase, unless the solver says otherwise */
   void *memory;   /* the solver's */
   int stopped;
@@ -39,7 +39,7 @@ typedef struct pendres_one_solver {
 pendres_status pendres_one_run(pendres_context *ctx, const pendres_strobe_job *job,
                                const pendres_one_solver *solver);
 
-/* For solvers over drive phase: the right-hand side, which asks now and then whether to go on
+/* For solvers over drive phase: the right-hand side, which checks now and then whether to go on
    ... */
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one);
 /* ... error weights by the tolerance ... */

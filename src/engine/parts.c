@@ -3,7 +3,7 @@
  *
  * The calling thread works, too: where the system gives no threads, all is done by it. Parts begin
  * in ascending order, so that all before a failed one have begun and end, and the first failed part
- * is the same whoever was quicker.
+ * does not depend on which thread was faster.
  */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <pendres/parts.h>
@@ -22,7 +22,7 @@ typedef struct pool {
   void *arg;
   size_t each, parts;
   pthread_mutex_t lock; /* of all below */
-  size_t next;          /* part that nobody has begun */
+  size_t next;          /* the next part to be begun */
   size_t failed;        /* part of the status and the message */
   pendres_status status;
   char *message;
@@ -109,7 +109,7 @@ static void run(pool *c)
   const pendres_status own = labour(c);
   for (size_t i = 0; i < hired; i++) (void)pthread_join(threads[i], NULL);
   if (own != PENDRES_OK && c->status == PENDRES_OK && c->next < c->parts)
-    fail(c, c->parts, own, NULL); /* nobody had a context */
+    fail(c, c->parts, own, NULL); /* no thread had a context */
   free(threads);
 }
 

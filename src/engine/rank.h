@@ -15,8 +15,7 @@ typedef struct pendres_rank {
   size_t index;
 } pendres_rank;
 
-/* Lanes in the order of their models, then their steps, and those that may share a block in their
-   own order. */
+/* Sort lanes by model, then by steps; those that may share a block keep their order. */
 void pendres_rank_order(size_t n, pendres_rank *rank);
 
 static inline int pendres_rank_equal(const pendres_rank *a, const pendres_rank *b)

@@ -17,20 +17,20 @@
 int pendres_steps_rung(int n);
 
 /*
- * How fast a pendulum in a state is or may soon be, the measure of states that steps are chosen by:
- * |v|; with a polynomial force the speed whose energy would be that of the state if all terms of
- * the potential added up.
+ * How fast a pendulum in a state is or may soon become, by which steps are chosen: |v|; with a
+ * polynomial force the speed whose kinetic energy would be the energy of the state if all terms of
+ * the potential had the same sign.
  */
 double pendres_steps_speed(const pendres_pendulum *p, double x, double v);
 
-/* A speed to choose steps by for a pendulum that may turn on and on: enough for what the drive can
-   do, for the way over a barrier, and for a torque that friction balances. */
+/* A speed from which to choose steps for a pendulum that may rotate: enough for what the drive can
+   do, for the passage over a barrier, and for a torque that friction balances. */
 double pendres_steps_turning_speed(const pendres_pendulum *p);
 
 /*
  * Steps a period so that one period's error of a pendulum with such a speed up to `speed` stays
- * below `tolerance` (absolute, of y and w); probed by step doubling. A failure says which remedy
- * helps.
+ * below `tolerance` (absolute, of y and w); probed by step doubling. The message of a failure says
+ * what helps.
  */
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                     double tolerance, int *steps);

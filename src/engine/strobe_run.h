@@ -1,8 +1,8 @@
 /*
  * strobe_run.h -- the engine under every analysis: lanes run from strobe to strobe.
  *
- * A caller hands over a list of lanes and a function that looks at each of them after every drive
- * period and says whether it is done.
+ * A caller passes a list of lanes and a function that is called for each of them after every drive
+ * period and returns whether the lane is done.
  */
 #ifndef PENDRES_STROBE_RUN_H
 #define PENDRES_STROBE_RUN_H
@@ -13,18 +13,18 @@
 #include "engine/method.h"
 
 /*
- * Run n lanes by the context's method, at the context's tolerance, until visit() has declared each
- * of them done. Lanes keep their final state.
+ * Run n lanes with the context's method, at the context's tolerance, until visit() has returned for
+ * each of them that it is done. Lanes keep their final state.
  */
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);
 
-/* Run of these lanes those n with the numbers `which` alone. */
+/* Run only those n of these lanes whose numbers are in `which`. */
 pendres_status pendres_strobe_run_some(pendres_context *ctx, size_t n, const size_t *which,
                                        pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                        void *arg);
 
-/* All of them at another tolerance, which counts for methods that choose their own steps. */
+/* Run all of them at another tolerance, which matters for methods that choose their own steps. */
 pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance, size_t n,
                                          pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                          void *arg);
@@ -35,11 +35,11 @@ pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, 
 void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v);
 
 /*
- * The error estimate of a run at this distance from a better one. The better one has an error of
- * its own, less than half of the run's: with twice the steps a hundredth or less at order eight, a
+ * The error estimate of a run at this distance from a more exact one. The error of the more exact
+ * run is less than half of the other's: with twice the steps a hundredth or less at order eight, a
  * thirtieth at order five; with a tenth of the tolerance somewhat more than a tenth. The distance
- * is therefore at least half the error. Where the runs are a tenth of a radian apart they have
- * separated, and the estimate is infinite.
+ * is therefore at least half the error. Runs that are a tenth of a radian apart have separated, and
+ * the estimate is infinite.
  */
 double pendres_strobe_error(double distance);
 

@@ -21,9 +21,10 @@
 static const double least_damping = 1e-9, most_damping = 100.0;
 /* Series of a velocity below this reach so little that they do not serve to begin with. */
 static const double slow = 0.1;
-/* Next to a torque of 1 rotations may be as slow as wished from about this damping on, and series
-   take ever shorter steps: more than collocation from so many times 1/damping on in a time of
-   1/sqrt(torque^2 - 1), that of the slow passage but for a factor of the damping. */
+/* From about the damping `strong` on, rotations at a torque close to 1 may be arbitrarily slow, and
+   series take ever shorter steps. They need more of them than collocation does when
+   1/sqrt(torque^2 - 1), which is the time of the slow passage up to a factor of the damping, is
+   longer than `much`/damping. */
 static const double strong = 1.0, much = 100.0;
 /* A motion that is to come to rest before the next place makes ever shorter steps. */
 static const double least_step = 1e-14;

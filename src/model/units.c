@@ -6,9 +6,9 @@
 enum {
   FARTHEST = 120,  /* exponents of units beyond this are cut: products of a few of them stay far
                       from overflow */
-  NEGLIGIBLE = 40  /* a power that is smaller than another by so many bits is lost beside it at the
-                      tolerances that are asked for, as rounding leaves it of a coefficient that
-                      moves through 0 */
+  NEGLIGIBLE = 40  /* a power that is smaller than another by this number of bits does not matter at
+                      the tolerances that are requested: it may be what rounding leaves of a
+                      coefficient that passes through 0 */
 };
 
 /* A positive number as m 2^e with 1 <= m < 2. */
