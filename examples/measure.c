@@ -27,7 +27,7 @@ int main(void)
 
   failed = pendres_context_create(NULL, &ctx) ||
            pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome) || outcome ||
-           pendres_orbit_sample_with_error(ctx, &orbit, SAMPLES, x, v, error);
+           pendres_orbit_sample(ctx, &orbit, SAMPLES, x, v, error);
   if (failed) {
     fprintf(stderr, "%s\n", pendres_context_message(ctx));
   } else {

@@ -245,7 +245,9 @@ static void print_resonances(void)
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
     settle(&peaks[i], &c);
-    need(pendres_reference_resonance(&p, c.drive_frequency, c.y, c.v, &c), f->comment);
+    need(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
+                                &(pendres_reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
+                                &c), f->comment);
     print_cycle(f->comment, &c);
   }
   printf("};\n\n");
@@ -301,7 +303,9 @@ static void print_folds(void)
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
     follow(&ends[i].from, ends[i].step, &c);
-    need(pendres_reference_fold(&p, c.drive_frequency, c.y, c.v, &c), ends[i].comment);
+    need(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
+                                &(pendres_reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
+                                &c), ends[i].comment);
     print_cycle(ends[i].comment, &c);
   }
   printf("};\n\n");
@@ -323,7 +327,9 @@ static void print_symmetry_breakings(void)
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
     follow(&symmetric[i], -0.01, &c);
-    need(pendres_reference_symmetry_breaking(&p, c.drive_frequency, c.y, c.v, &c), f->comment);
+    need(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
+                                &(pendres_reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
+                                &c), f->comment);
     print_cycle(f->comment, &c);
   }
   printf("};\n\n");
@@ -341,7 +347,10 @@ static void print_cusps(void)
     const start *f = &near[i];
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
-    need(pendres_reference_cusp(&p, f->drive_frequency, f->damping, f->y, f->v, &c), f->comment);
+    need(pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
+                                &(pendres_reference_guess){f->drive_frequency, f->y, f->v,
+                                                           f->damping},
+                                &c), f->comment);
     print_cycle(f->comment, &c);
   }
   printf("};\n\n");

@@ -116,13 +116,13 @@ static void orbits(void **state)
     const pendres_orbit *o = &f->bad_orbits[i];
     const pendres_orbit_guess g = { o->pendulum, o->x, o->v, o->period, o->winding };
     REFUSED(pendres_orbit_refine(f->ctx, 1, &g, PENDRES_ORBIT_PLAIN, &out, &how));
-    REFUSED(pendres_orbit_sample(f->ctx, o, 8, x, v));
-    REFUSED(pendres_orbit_sample_with_error(f->ctx, o, 8, x, v, x));
+    REFUSED(pendres_orbit_sample(f->ctx, o, 8, x, v, NULL));
+    REFUSED(pendres_orbit_sample(f->ctx, o, 8, x, v, x));
   }
-  REFUSED(pendres_orbit_sample(f->ctx, NULL, 8, x, v));
-  REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, 0, x, v));
-  REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, -8, x, v));
-  REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, INT_MAX, x, v));
+  REFUSED(pendres_orbit_sample(f->ctx, NULL, 8, x, v, NULL));
+  REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, 0, x, v, NULL));
+  REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, -8, x, v, NULL));
+  REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, INT_MAX, x, v, NULL));
   const pendres_orbit_stretch whole = {0, 0, 1, 8};
   const pendres_orbit_stretch bad_stretches[] = {{0, -1, 1, 8}, {0, 0, -1, 8}, {0, 0, 1, 0},
                                                  {0, 0, 1, INT_MAX}, {0, LONG_MAX, 1, 8},

@@ -27,12 +27,12 @@ static void branches(void **state)
   bad[4].low = 0.79, bad[4].high = 0.78;
   bad[5].spacing = NAN;
   bad[6].wildest = NAN;
-  REFUSED(pendres_fold_find(f->ctx, NULL, &fold));
-  REFUSED(pendres_fold_find(f->ctx, &f->orbit, NULL));
-  REFUSED(pendres_fold_find_along(f->ctx, NULL, PENDRES_DAMPING, &fold));
-  REFUSED(pendres_fold_find_along(f->ctx, &f->orbit, PENDRES_DAMPING, NULL));
-  REFUSED(pendres_fold_find_along(f->ctx, &f->orbit, PENDRES_PARAMETER_COUNT, &fold));
-  REFUSED(pendres_fold_find_along(f->ctx, &f->orbit, (pendres_parameter)-1, &fold));
+  REFUSED(pendres_fold_find(f->ctx, NULL, PENDRES_DRIVE_FREQUENCY, &fold));
+  REFUSED(pendres_fold_find(f->ctx, &f->orbit, PENDRES_DRIVE_FREQUENCY, NULL));
+  REFUSED(pendres_fold_find(f->ctx, NULL, PENDRES_DAMPING, &fold));
+  REFUSED(pendres_fold_find(f->ctx, &f->orbit, PENDRES_DAMPING, NULL));
+  REFUSED(pendres_fold_find(f->ctx, &f->orbit, PENDRES_PARAMETER_COUNT, &fold));
+  REFUSED(pendres_fold_find(f->ctx, &f->orbit, (pendres_parameter)-1, &fold));
   REFUSED(pendres_branch_follow(f->ctx, 1, NULL, &options, &branch));
   REFUSED(pendres_branch_follow(f->ctx, 1, &f->orbit, NULL, &branch));
   REFUSED(pendres_branch_follow(f->ctx, 1, &f->orbit, &options, NULL));
@@ -47,7 +47,7 @@ static void branches(void **state)
     REFUSED(pendres_branches_find(f->ctx, 1, &f->orbit, &bad[i], &all));
   }
   for (size_t i = 0; i < f->bad; i++) {
-    REFUSED(pendres_fold_find(f->ctx, &f->bad_orbits[i], &fold));
+    REFUSED(pendres_fold_find(f->ctx, &f->bad_orbits[i], PENDRES_DRIVE_FREQUENCY, &fold));
     REFUSED(pendres_branch_follow(f->ctx, 1, &f->bad_orbits[i], &options, &branch));
     REFUSED(pendres_branches_find(f->ctx, 1, &f->bad_orbits[i], &options, &all));
   }

@@ -32,13 +32,6 @@ static void nothing(void **state)
   assert_true(isnan(pendres_response_weakest_multiplier(NULL)));
   assert_null(pendres_orbit_quantity_get((size_t)-1));
   pendres_boundary_free(NULL);
-  assert_int_equal(pendres_boundary_count(NULL), 0);
-  assert_null(pendres_boundary_x(NULL));
-  assert_null(pendres_boundary_v(NULL));
-  assert_null(pendres_boundary_piece(NULL));
-  assert_null(pendres_boundary_error(NULL));
-  (void)pendres_boundary_bound(NULL);
-  (void)pendres_boundary_complete(NULL);
   pendres_branch_free(NULL);
   assert_int_equal(pendres_branch_count(NULL), 0);
   assert_null(pendres_branch_get(NULL, 0));
@@ -153,14 +146,22 @@ static void models(void **state)
   INVALID(pendres_reference_orbit(&good, y, w, 0, 0, &cycle));
   assert_int_not_equal(pendres_reference_orbit(&good, y, w, 1, LONG_MIN, &cycle), PENDRES_OK);
   INVALID(pendres_reference_orbit(&good, y, w, 1, 0, NULL));
-  INVALID(pendres_reference_resonance(NULL, 0.8L, y, w, &cycle));
-  INVALID(pendres_reference_resonance(&good, 0.8L, y, w, NULL));
-  INVALID(pendres_reference_fold(NULL, 0.8L, y, w, &cycle));
-  INVALID(pendres_reference_fold(&good, 0.8L, y, w, NULL));
-  INVALID(pendres_reference_symmetry_breaking(NULL, 0.8L, y, w, &cycle));
-  INVALID(pendres_reference_symmetry_breaking(&good, 0.8L, y, w, NULL));
-  INVALID(pendres_reference_cusp(NULL, 0.8L, 0.1L, y, w, &cycle));
-  INVALID(pendres_reference_cusp(&good, 0.8L, 0.1L, y, w, NULL));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, NULL,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, &cycle));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &good,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, NULL));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_FOLD, NULL,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, &cycle));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_FOLD, &good,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, NULL));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, NULL,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, &cycle));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &good,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, NULL));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_CUSP, NULL,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.1L}, &cycle));
+  INVALID(pendres_reference_find(PENDRES_REFERENCE_CUSP, &good,
+                                 &(pendres_reference_guess){0.8L, y, w, 0.1L}, NULL));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     INVALID(pendres_pendulum_check(&bad_pendulums[i], NULL));
     INVALID(pendres_harmonic_response(&bad_pendulums[i], &harmonic));
@@ -183,10 +184,14 @@ static void models(void **state)
     INVALID(pendres_reference_map(&good, b, w, 1, &image));
     INVALID(pendres_reference_orbit(&good, b, w, 1, 0, &cycle));
     if (b > 0.0 && isfinite(b)) continue; /* such a frequency is found out on the way */
-    INVALID(pendres_reference_resonance(&good, b, y, w, &cycle));
-    INVALID(pendres_reference_fold(&good, b, y, w, &cycle));
-    INVALID(pendres_reference_symmetry_breaking(&good, b, y, w, &cycle));
-    INVALID(pendres_reference_cusp(&good, b, 0.1L, y, w, &cycle));
+    INVALID(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &good,
+                                   &(pendres_reference_guess){b, y, w, 0.0L}, &cycle));
+    INVALID(pendres_reference_find(PENDRES_REFERENCE_FOLD, &good,
+                                   &(pendres_reference_guess){b, y, w, 0.0L}, &cycle));
+    INVALID(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &good,
+                                   &(pendres_reference_guess){b, y, w, 0.0L}, &cycle));
+    INVALID(pendres_reference_find(PENDRES_REFERENCE_CUSP, &good,
+                                   &(pendres_reference_guess){b, y, w, 0.1L}, &cycle));
   }
   assert_int_equal(wrong, 0);
 }

@@ -126,7 +126,7 @@ static void pairs(void **state)
     if (o->symmetric) continue;
     asymmetric++;
     assert_true(o->period <= 32);
-    check_ok(pendres_orbit_sample(*state, o, 2, x, v));
+    check_ok(pendres_orbit_sample(*state, o, 2, x, v, NULL));
     for (int j = 1; j < 2 * o->period; j += 2)
       for (size_t k = 0; k < pendres_attractors_count(e.set); k++) {
         const pendres_orbit *m = &pendres_attractors_get(e.set, k)->orbit;

@@ -68,9 +68,9 @@ static void curve_is_a_curve(void **state)
                                            .v_high = 1.5, .spacing = 0.1, .deviation = 1e-4};
   pendres_boundary *b = NULL;
   check_ok(pendres_boundary_find(f->ctx, &f->saddle, &window, &b));
-  const size_t n = pendres_boundary_count(b);
-  const double *x = pendres_boundary_x(b), *v = pendres_boundary_v(b);
-  const int *piece = pendres_boundary_piece(b);
+  const size_t n = b->count;
+  const double *x = b->x, *v = b->v;
+  const int *piece = b->piece;
   double nearest = INFINITY;
   assert_true(n > 50);
   assert_int_equal(piece[0], 0);
@@ -93,13 +93,13 @@ static void check_sides(const fixture *f, const pendres_boundary_options *window
 {
   pendres_boundary *b = NULL;
   check_ok(pendres_boundary_find(f->ctx, &f->saddle, window, &b));
-  const size_t n = pendres_boundary_count(b);
-  const double *x = pendres_boundary_x(b), *v = pendres_boundary_v(b);
-  const double *error = pendres_boundary_error(b);
-  const int *piece = pendres_boundary_piece(b);
+  const size_t n = b->count;
+  const double *x = b->x, *v = b->v;
+  const double *error = b->error;
+  const int *piece = b->piece;
   /* Twice the deviation asked for: the estimate of the bend carries a margin of 1.5. */
-  assert_true(pendres_boundary_bound(b) <= 2.0 * window->deviation);
-  assert_true(pendres_boundary_bound(b) > 0.0);
+  assert_true(b->bound <= 2.0 * window->deviation);
+  assert_true(b->bound > 0.0);
 
   double *px = malloc(2 * n * sizeof *px), *pv = malloc(2 * n * sizeof *pv);
   pendres_outcome *outcome = malloc(2 * n * sizeof *outcome);
@@ -193,16 +193,16 @@ static void check_linear_saddle(double tolerance, double bound)
   check_near(saddle.x, of_cosine, saddle.x_error);
   check_ok(pendres_boundary_find(ctx, &saddle, &window, &b));
   double low = 0.0, high = 0.0;
-  for (size_t i = 0; i < pendres_boundary_count(b); i++) {
-    const double x = pendres_boundary_x(b)[i], v = pendres_boundary_v(b)[i];
+  for (size_t i = 0; i < b->count; i++) {
+    const double x = b->x[i], v = b->v[i];
     const double off = v - omega * of_sine + lambda * (x - of_cosine);
-    check_near(off / hypot(1.0, lambda), 0.0, pendres_boundary_error(b)[i]);
+    check_near(off / hypot(1.0, lambda), 0.0, b->error[i]);
     low = fmin(low, v);
     high = fmax(high, v);
   }
-  assert_true(low < -2.9 && high > 2.9 && pendres_boundary_bound(b) < bound);
+  assert_true(low < -2.9 && high > 2.9 && b->bound < bound);
   /* With a polynomial force what is outside may come back, for all that is known. */
-  assert_int_equal(pendres_boundary_complete(b), 0);
+  assert_int_equal(b->complete, 0);
   pendres_boundary_free(b);
   pendres_context_free(ctx);
 }
@@ -225,13 +225,13 @@ static void coarse_and_fine_agree(void **state)
   smooth.deviation = 1e-6;
   check_ok(pendres_boundary_find(f->ctx, &f->saddle, &rough, &coarse));
   check_ok(pendres_boundary_find(f->ctx, &f->saddle, &smooth, &fine));
-  const double *cx = pendres_boundary_x(coarse), *cv = pendres_boundary_v(coarse);
-  const double *fx = pendres_boundary_x(fine), *fv = pendres_boundary_v(fine);
-  const int *piece = pendres_boundary_piece(fine);
-  assert_true(pendres_boundary_count(fine) > 2 * pendres_boundary_count(coarse));
-  for (size_t i = 0; i < pendres_boundary_count(coarse); i++) {
+  const double *cx = coarse->x, *cv = coarse->v;
+  const double *fx = fine->x, *fv = fine->v;
+  const int *piece = fine->piece;
+  assert_true(fine->count > 2 * coarse->count);
+  for (size_t i = 0; i < coarse->count; i++) {
     double nearest = INFINITY;
-    for (size_t k = 0; k + 1 < pendres_boundary_count(fine); k++) {
+    for (size_t k = 0; k + 1 < fine->count; k++) {
       if (piece[k] != piece[k + 1]) continue;
       const double dx = fx[k + 1] - fx[k], dv = fv[k + 1] - fv[k];
       const double t = ((cx[i] - fx[k]) * dx + (cv[i] - fv[k]) * dv) / (dx * dx + dv * dv);
@@ -261,8 +261,8 @@ static void mistakes_are_told(void **state)
   /* Too few points allowed: what there is, and it says so. */
   const pendres_boundary_options few = {.most_points = 300};
   check_ok(pendres_boundary_find(f->ctx, &f->saddle, &few, &b));
-  assert_int_equal(pendres_boundary_complete(b), 0);
-  assert_true(pendres_boundary_count(b) <= 600);
+  assert_int_equal(b->complete, 0);
+  assert_true(b->count <= 600);
   pendres_boundary_free(b);
   /* LA's branch does not come back here: it joins SA's at higher damping only. */
   pendres_orbit none;

@@ -272,10 +272,10 @@ static void the_other_branch(void **state)
 
   /* Folds are looked for beyond the branch point, and it is not taken for one. */
   pendres_fold found;
-  check_ok(pendres_fold_find_along(ctx, &other, PENDRES_PARAMETRIC_AMPLITUDE, &found));
+  check_ok(pendres_fold_find(ctx, &other, PENDRES_PARAMETRIC_AMPLITUDE, &found));
   check_near(found.value, 0.66667101973548, found.value_error + 1e-13); /* the nearer, downwards */
   pendres_branch_free(crossing);
-  assert_int_equal(pendres_fold_find_along(ctx, &rest, PENDRES_PARAMETRIC_AMPLITUDE, &found),
+  assert_int_equal(pendres_fold_find(ctx, &rest, PENDRES_PARAMETRIC_AMPLITUDE, &found),
                    PENDRES_NOT_FOUND);
   /* Its curve is that of the tongue's edge; a torque would part the branches: there is none. */
   pendres_curve *curve = NULL;

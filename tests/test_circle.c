@@ -119,7 +119,7 @@ static void ends_of_locks(void **state)
     check_near(remainder(orbit.x - v.x, two_pi), 0.0, 1e-5);
     check_near(orbit.v, v.v, 1e-5);
     pendres_fold fold;
-    check_ok(pendres_fold_find_along(*state, &orbit, PENDRES_TORQUE, &fold));
+    check_ok(pendres_fold_find(*state, &orbit, PENDRES_TORQUE, &fold));
     const double outside = lock[i].outside[fold.value > lock[i].inside];
     pendres_circles_end end;
     double distance = 0.0;

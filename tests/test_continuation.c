@@ -24,7 +24,7 @@ static void tolerances_and_methods_agree(void **state)
     const pendres_orbit near = orbit_of(ctx, 0.13, 0.2, 0.8, 1);
     pendres_fold fold;
     pendres_cusp cusp;
-    check_ok(pendres_fold_find(ctx, &near, &fold));
+    check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
     check_near(fold.value, fold_want, fold.value_error);
     assert_true(fold.value_error <= ways[i].tolerance);
     check_ok(pendres_cusp_find(ctx, &fold, PENDRES_DAMPING, &cusp));
@@ -201,8 +201,10 @@ static void symmetry_breaks_and_period_doubles(void **state)
   const pendres_bifurcation *at = pendres_branch_bifurcation(b, 0);
   assert_int_equal(at->kind, PENDRES_SYMMETRY_BREAKING);
   pendres_reference_cycle want;
-  check_ok(pendres_reference_symmetry_breaking(&la.pendulum, at->value, at->orbit.x - half_pi,
-                                               at->orbit.v, &want));
+  check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &la.pendulum,
+                                  &(pendres_reference_guess){at->value, at->orbit.x - half_pi,
+                                                             at->orbit.v, 0.0L},
+                                  &want));
   check_near(at->value, (double)want.drive_frequency, fair * at->value_error);
 
   pendres_orbit lopsided;
@@ -345,7 +347,9 @@ static void ensemble_finds_the_branch_born_away(void **state)
   const pendres_bifurcation *f = pendres_branch_bifurcation(away, 1);
   assert_int_equal(f->kind, PENDRES_FOLD);
   pendres_reference_cycle want;
-  check_ok(pendres_reference_fold(&f->orbit.pendulum, f->value, f->orbit.x - half_pi, f->orbit.v,
+  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &f->orbit.pendulum,
+                                  &(pendres_reference_guess){f->value, f->orbit.x - half_pi,
+                                                             f->orbit.v, 0.0L},
                                   &want));
   check_near(f->value, (double)want.drive_frequency, fair * f->value_error);
   pendres_branches_free(set);
@@ -369,7 +373,7 @@ static void branches_start_at_folds(void **state)
   pendres_bifurcation at[4];
   pendres_reference_cycle want;
   size_t found = 0;
-  check_ok(pendres_fold_find(ctx, &near, &fold));
+  check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
   check_ok(pendres_curve_follow(ctx, 1, &fold, &wide, &c));
   check_ok(pendres_curve_cross(ctx, c, 0.13, 4, at, &found));
   assert_int_equal(found, 3);
@@ -378,8 +382,10 @@ static void branches_start_at_folds(void **state)
   const pendres_bifurcation *end = pendres_branch_bifurcation(b, 0);
   const pendres_bifurcation *again = pendres_branch_bifurcation(b, 1);
   assert_int_equal(end->kind, PENDRES_SYMMETRY_BREAKING);
-  check_ok(pendres_reference_symmetry_breaking(&end->orbit.pendulum, end->value,
-                                               end->orbit.x - half_pi, end->orbit.v, &want));
+  check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &end->orbit.pendulum,
+                                  &(pendres_reference_guess){end->value, end->orbit.x - half_pi,
+                                                             end->orbit.v, 0.0L},
+                                  &want));
   check_near(end->value, (double)want.drive_frequency, fair * end->value_error);
   assert_int_equal(again->kind, PENDRES_FOLD);
   check_near(again->value, at[0].value, again->value_error + at[0].value_error);
@@ -429,9 +435,11 @@ static void mistakes_are_told(void **state)
   pendres_curve *c = NULL;
   pendres_orbit o;
   /* Above the cusp there is no fold. */
-  assert_int_equal(pendres_fold_find(ctx, &single, &fold), PENDRES_NOT_FOUND);
+  assert_int_equal(pendres_fold_find(ctx, &single, PENDRES_DRIVE_FREQUENCY, &fold),
+                   PENDRES_NOT_FOUND);
   assert_true(strlen(pendres_context_message(ctx)) > 0);
-  assert_int_equal(pendres_fold_find(NULL, &single, &fold), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_fold_find(NULL, &single, PENDRES_DRIVE_FREQUENCY, &fold),
+                   PENDRES_INVALID_ARGUMENT);
   const pendres_branch_options empty = {.low = 0.9, .high = 0.8};
   assert_int_equal(pendres_branch_follow(ctx, 1, &single, &empty, &b), PENDRES_INVALID_ARGUMENT);
   assert_null(b);

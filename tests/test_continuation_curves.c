@@ -18,9 +18,11 @@ static void a_fold_is_not_known_better_than_its_point(void **state)
   pendres_reference_cycle want;
   check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &near, &outcome));
   check_ok(outcome);
-  check_ok(pendres_fold_find(ctx, &near, &fold));
-  check_ok(pendres_reference_fold(&near.pendulum, fold.value, fold.orbit.x - half_pi,
-                                  fold.orbit.v, &want));
+  check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
+  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &near.pendulum,
+                                  &(pendres_reference_guess){fold.value, fold.orbit.x - half_pi,
+                                                             fold.orbit.v, 0.0L},
+                                  &want));
   check_near(fold.value, (double)want.drive_frequency, fair * fold.value_error);
   pendres_context_free(ctx);
 }
@@ -40,10 +42,12 @@ static void folds_match_reference(void **state)
       orbit_of(ctx, cases[i].damping, cases[i].drive, cases[i].frequency, cases[i].which);
     pendres_fold fold;
     pendres_reference_cycle want;
-    check_ok(pendres_fold_find(ctx, &near, &fold));
+    check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
     assert_int_equal(fold.kind, PENDRES_FOLD);
-    check_ok(pendres_reference_fold(&near.pendulum, fold.value, fold.orbit.x - half_pi,
-                                    fold.orbit.v, &want));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &near.pendulum,
+                                    &(pendres_reference_guess){fold.value, fold.orbit.x - half_pi,
+                                                               fold.orbit.v, 0.0L},
+                                    &want));
     const pendres_orbit *o = &fold.orbit;
     check_near(fold.value, (double)want.drive_frequency, fair * fold.value_error);
     check_near(o->x - half_pi, (double)want.y, fair * o->x_error);
@@ -73,7 +77,7 @@ static void curvature_predicts_orbits(void **state)
   pendres_context *ctx = context_of(1e-11, PENDRES_TABLE_DEFAULT);
   const pendres_orbit near = orbit_of(ctx, 0.13, 0.2, 0.8, 0);
   pendres_fold fold;
-  check_ok(pendres_fold_find(ctx, &near, &fold));
+  check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
   double last = 0.0;
   for (int i = 0; i < 2; i++) {
     const double away = i == 0 ? 1e-5 : 1e-7;
@@ -102,10 +106,13 @@ static void cusps_match_reference(void **state)
     pendres_fold fold;
     pendres_cusp cusp;
     pendres_reference_cycle want;
-    check_ok(pendres_fold_find(ctx, &near, &fold));
+    check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
     check_ok(pendres_cusp_find(ctx, &fold, PENDRES_DAMPING, &cusp));
-    check_ok(pendres_reference_cusp(&near.pendulum, cusp.value[0], cusp.value[1],
-                                    cusp.orbit.x - half_pi, cusp.orbit.v, &want));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_CUSP, &near.pendulum,
+                                    &(pendres_reference_guess){cusp.value[0],
+                                                               cusp.orbit.x - half_pi, cusp.orbit.v,
+                                                               cusp.value[1]},
+                                    &want));
     assert_true(cusp.value_error[0] <= 1e-10 && cusp.value_error[1] <= 1e-10);
     check_near(cusp.value[0], (double)want.drive_frequency, fair * cusp.value_error[0]);
     check_near(cusp.value[1], (double)want.damping, fair * cusp.value_error[1]);
@@ -128,9 +135,9 @@ static void folds_approach_the_cusp(void **state)
     /* From the one orbit of a higher damping's frequency both folds are near. */
     pendres_orbit o = orbit_of(ctx, damping[i], 0.2, 0.80, 0);
     pendres_fold sa, la;
-    check_ok(pendres_fold_find(ctx, &o, &sa));
+    check_ok(pendres_fold_find(ctx, &o, PENDRES_DRIVE_FREQUENCY, &sa));
     o = orbit_of(ctx, damping[i], 0.2, 0.92, 0);
-    check_ok(pendres_fold_find(ctx, &o, &la));
+    check_ok(pendres_fold_find(ctx, &o, PENDRES_DRIVE_FREQUENCY, &la));
     value[0] = la.value;
     value[1] = sa.value;
     assert_true(value[1] > value[0]);
@@ -157,7 +164,7 @@ static void fold_curve_passes_the_cusp(void **state)
     .second = PENDRES_DAMPING, .low = {0.5, 0.06}, .high = {1.2, 1.0}};
   pendres_fold fold;
   pendres_curve *c = NULL;
-  check_ok(pendres_fold_find(ctx, &near, &fold));
+  check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
   check_ok(pendres_curve_follow(ctx, 1, &fold, &options, &c));
   assert_int_equal(pendres_curve_kind(c), PENDRES_FOLD);
   assert_int_equal(pendres_curve_cusps(c), 1);
@@ -178,8 +185,11 @@ static void fold_curve_passes_the_cusp(void **state)
     assert_int_equal(found, expected[i]);
     for (size_t k = 0; k < found; k++) {
       pendres_reference_cycle want;
-      check_ok(pendres_reference_fold(&at[k].orbit.pendulum, at[k].value,
-                                      at[k].orbit.x - half_pi, at[k].orbit.v, &want));
+      check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &at[k].orbit.pendulum,
+                                      &(pendres_reference_guess){at[k].value,
+                                                                 at[k].orbit.x - half_pi,
+                                                                 at[k].orbit.v, 0.0L},
+                                      &want));
       check_near(at[k].value, (double)want.drive_frequency, fair * at[k].value_error);
     }
   }
@@ -204,7 +214,7 @@ static void a_turn_of_a_curve_has_both_sides(void **state)
   pendres_curve *c = NULL;
   pendres_bifurcation at[4];
   size_t found = 0;
-  check_ok(pendres_fold_find(ctx, &near, &fold));
+  check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
   check_ok(pendres_curve_follow(ctx, 1, &fold, &options, &c));
   for (size_t i = 0; i < sizeof above / sizeof *above; i++) {
     check_ok(pendres_curve_cross(ctx, c, above[i], 4, at, &found));
@@ -214,8 +224,11 @@ static void a_turn_of_a_curve_has_both_sides(void **state)
     check_relative(apart * apart, 13.68 * (above[i] - 0.12228751823), 0.02);
     for (int k = 0; k < 2; k++) {
       pendres_reference_cycle want;
-      check_ok(pendres_reference_fold(&at[k].orbit.pendulum, at[k].value, at[k].orbit.x - half_pi,
-                                      at[k].orbit.v, &want));
+      check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &at[k].orbit.pendulum,
+                                      &(pendres_reference_guess){at[k].value,
+                                                                 at[k].orbit.x - half_pi,
+                                                                 at[k].orbit.v, 0.0L},
+                                      &want));
       check_near(at[k].value, (double)want.drive_frequency, fair * at[k].value_error);
     }
   }
@@ -246,8 +259,10 @@ static void symmetry_breakings_follow_parameters(void **state)
   for (size_t i = 0; i < n; i += n - 1) {
     const pendres_curve_point *p = pendres_curve_get(c, i);
     pendres_reference_cycle want;
-    check_ok(pendres_reference_symmetry_breaking(&p->orbit.pendulum, p->value[0],
-                                                 p->orbit.x - half_pi, p->orbit.v, &want));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p->orbit.pendulum,
+                                    &(pendres_reference_guess){p->value[0], p->orbit.x - half_pi,
+                                                               p->orbit.v, 0.0L},
+                                    &want));
     check_near(p->value[0], (double)want.drive_frequency, 2e-8);
   }
   pendres_curve_free(c);

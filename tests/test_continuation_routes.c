@@ -101,7 +101,8 @@ static void folds_by_other_integrators(void **state)
     pendres_fold fold;
     check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &found));
     check_ok(
-      pendres_fold_find(ctx, &pendres_attractors_get(found, cases[i].which)->orbit, &fold));
+      pendres_fold_find(ctx, &pendres_attractors_get(found, cases[i].which)->orbit,
+                        PENDRES_DRIVE_FREQUENCY, &fold));
     pendres_attractors_free(found);
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
       pendres_context *other = context_of(1e-12, methods[m]);

@@ -255,8 +255,10 @@ static void what_cancels_by_right(void **state)
     const pendres_bifurcation *at = the(b, PENDRES_SYMMETRY_BREAKING);
     if (k == 0) {
       pendres_reference_cycle want;
-      check_ok(pendres_reference_symmetry_breaking(&p, at->value, at->orbit.x - half_pi,
-                                                   at->orbit.v, &want));
+      check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
+                                      &(pendres_reference_guess){at->value, at->orbit.x - half_pi,
+                                                                 at->orbit.v, 0.0L},
+                                      &want));
       check_near(at->value, (double)want.drive_frequency, at->value_error);
       assert_true(at->value_error < 30.0 * fabs(at->value - (double)want.drive_frequency));
     }

@@ -374,7 +374,7 @@ static void refusals(void **state)
   assert_non_null(strstr(pendres_context_message(ctx), "no such coefficient"));
   o.pendulum.drive_amplitude = 0.0;
   o.winding = 1;
-  assert_int_equal(pendres_fold_find_along(ctx, &o, PENDRES_TORQUE, &fold),
+  assert_int_equal(pendres_fold_find(ctx, &o, PENDRES_TORQUE, &fold),
                    PENDRES_INVALID_ARGUMENT);
   assert_non_null(strstr(pendres_context_message(ctx), "period of its own"));
   pendres_context_free(ctx);

@@ -69,7 +69,7 @@ static void loop_of_the_drive_frequency(void **state)
     assert_true(j->certain && !j->gradual && j->share == 1.0 && j->share_error == 0.0);
     assert_true((before->value - j->value) * (behind->value - j->value) < 0.0);
     /* Sought from the orbit before it, with another predictor and another way. */
-    check_ok(pendres_fold_find(ctx, &before->attractor.orbit, &fold));
+    check_ok(pendres_fold_find(ctx, &before->attractor.orbit, PENDRES_DRIVE_FREQUENCY, &fold));
     check_near(j->value, fold.value, j->value_error + fold.value_error);
     assert_true(j->value_error < 1e-10);
     /* A pendulum that starts from the orbit that ends stays there before the fold, and goes to the

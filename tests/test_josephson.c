@@ -59,7 +59,7 @@ static void step_and_rotation(void **state)
   assert_int_equal(j->to, PENDRES_LABEL_QUASI_PERIODIC);
   assert_int_equal(j->to_period, 0);
   /* Sought from the step's orbit at the first value, with another predictor and another way. */
-  check_ok(pendres_fold_find_along(*state, &pendres_hysteresis_get(h, 0)->attractor.orbit,
+  check_ok(pendres_fold_find(*state, &pendres_hysteresis_get(h, 0)->attractor.orbit,
                                    PENDRES_TORQUE, &fold));
   check_near(j->value, fold.value, j->value_error + fold.value_error);
   assert_true(j->value_error < 1e-8);
@@ -91,7 +91,7 @@ static void lock_is_born(void **state)
                                      &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
   const pendres_orbit *lock = &pendres_hysteresis_get(h, 5)->attractor.orbit;
   assert_int_equal(lock->period, 3);
-  check_ok(pendres_fold_find_along(*state, lock, PENDRES_TORQUE, &fold));
+  check_ok(pendres_fold_find(*state, lock, PENDRES_TORQUE, &fold));
   assert_int_equal(pendres_hysteresis_jumps(h), 2);
   for (size_t i = 0; i < 2; i++) {
     const pendres_jump *j = pendres_hysteresis_jump(h, i);
@@ -143,7 +143,7 @@ static void slips(void **state)
   assert_int_equal(j->kind, PENDRES_JUMP_FOLD);
   const pendres_orbit *o = &pendres_hysteresis_get(h, 0)->attractor.orbit;
   pendres_fold fold;
-  check_ok(pendres_fold_find_along(*state, o, PENDRES_TORQUE, &fold));
+  check_ok(pendres_fold_find(*state, o, PENDRES_TORQUE, &fold));
   enum { N = 12 };
   pendres_pendulum p[N];
   double x[N], v[N], distance[N];

@@ -376,7 +376,7 @@ static void samples_know_their_error(void **state)
     double x[4], v[4], error[2] = {NAN, NAN};
     check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
     check_ok(pendres_reference_orbit(&g.pendulum, o.x - half_pi, o.v, 4, 0, &e));
-    check_ok(pendres_orbit_sample_with_error(ctx, &o, 1, x, v, error));
+    check_ok(pendres_orbit_sample(ctx, &o, 1, x, v, error));
     assert_true(error[0] <= tolerances[t] && error[1] <= tolerances[t]);
     for (int k = 0; k < 4; k++) {
       long double y = e.y, w = e.v;
@@ -386,10 +386,10 @@ static void samples_know_their_error(void **state)
     }
     /* Without errors, and with a count of its own: as exact as the orbit. */
     double all[8];
-    check_ok(pendres_orbit_sample(ctx, &o, 2, all, NULL));
+    check_ok(pendres_orbit_sample(ctx, &o, 2, all, NULL, NULL));
     for (int k = 0; k < 4; k++) check_near(all[2 * k], x[k], 10.0 * o.x_error + error[0]);
     o.period = 0;
-    assert_int_equal(pendres_orbit_sample(ctx, &o, 2, all, NULL), PENDRES_INVALID_ARGUMENT);
+    assert_int_equal(pendres_orbit_sample(ctx, &o, 2, all, NULL, NULL), PENDRES_INVALID_ARGUMENT);
     pendres_context_free(ctx);
   }
 }
@@ -419,7 +419,7 @@ static void samples_of_other_models(void **state)
     assert_int_equal(pendres_attractors_count(set), m == 1 ? 2 : 1);
     const pendres_orbit *o = &pendres_attractors_get(set, 0)->orbit;
     assert_int_equal(o->period, 1);
-    check_ok(pendres_orbit_sample(ctx, o, COUNT, x, v));
+    check_ok(pendres_orbit_sample(ctx, o, COUNT, x, v, NULL));
     check_ok(pendres_strobe_record(ctx, &p[m], &(pendres_state){o->x, o->v}, 1, COUNT,
                                    &(pendres_record){x_is, v_is, dx, dv}));
     /* Within a period an error may grow tenfold, and no more: friction wins. */

@@ -319,16 +319,28 @@ static void test_arguments(void **state)
   assert_int_equal(pendres_reference_orbit(&p, 1.0L, 0.0L, 0, 0, &c), invalid);
   assert_int_equal(pendres_reference_orbit(&bad, 1.0L, 0.0L, 1, 0, &c), invalid);
   assert_int_equal(pendres_reference_orbit(&p, 1.0L, nan, 1, 0, &c), invalid);
-  assert_int_equal(pendres_reference_resonance(&p, -1.0L, 1.0L, 0.0L, &c), invalid);
-  assert_int_equal(pendres_reference_resonance(NULL, 1.0L, 1.0L, 0.0L, &c), invalid);
-  assert_int_equal(pendres_reference_fold(&p, nan, 1.0L, 0.0L, &c), invalid);
-  assert_int_equal(pendres_reference_symmetry_breaking(&p, 0.0L, 1.0L, 0.0L, &c), invalid);
-  assert_int_equal(pendres_reference_cusp(&p, 1.0L, -0.1L, 1.0L, 0.0L, &c), invalid);
+  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
+                                          &(pendres_reference_guess){-1.0L, 1.0L, 0.0L, 0.0L},
+                                          &c), invalid);
+  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, NULL,
+                                          &(pendres_reference_guess){1.0L, 1.0L, 0.0L, 0.0L},
+                                          &c), invalid);
+  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
+                                          &(pendres_reference_guess){nan, 1.0L, 0.0L, 0.0L},
+                                          &c), invalid);
+  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
+                                          &(pendres_reference_guess){0.0L, 1.0L, 0.0L, 0.0L},
+                                          &c), invalid);
+  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
+                                          &(pendres_reference_guess){1.0L, 1.0L, 0.0L, -0.1L},
+                                          &c), invalid);
   /* Nothing closes with a turn a period at so weak a drive; no branch, no fold. */
   assert_int_equal(pendres_reference_orbit(&p, 0.5L, 0.1L, 1, 1, &c), PENDRES_NOT_CONVERGED);
   /* Every state of a free undamped pendulum at rest in time: M - I is singular. */
   const pendres_pendulum still = make(0.0, 0.0, 1.0);
-  assert_int_equal(pendres_reference_fold(&still, 1.0L, 0.5L, 0.0L, &c), PENDRES_NOT_CONVERGED);
+  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_FOLD, &still,
+                                          &(pendres_reference_guess){1.0L, 0.5L, 0.0L, 0.0L},
+                                          &c), PENDRES_NOT_CONVERGED);
   check_long(image.y, 42.0L, 0.0L);
   check_long(c.y, 42.0L, 0.0L);
 }

@@ -121,8 +121,12 @@ static void folds(void **state)
   pendres_reference_cycle c;
   (void)state;
   check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
-  check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, &fold));
-  check_ok(pendres_reference_fold(&p, fold.value, fold.orbit.x, fold.orbit.v, &c));
+  check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, PENDRES_DRIVE_FREQUENCY,
+                             &fold));
+  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
+                                  &(pendres_reference_guess){fold.value, fold.orbit.x, fold.orbit.v,
+                                                             0.0L},
+                                  &c));
   check_near(fold.value, (double)c.drive_frequency, fold.value_error + 1e-15);
   oracle o = oracle_of(&p);
   double left;
@@ -131,7 +135,8 @@ static void folds(void **state)
              oracle_bifurcation(&o, &o.omega, 1, 0, 1, (double)c.y, (double)c.v, &left), 1e-14);
   /* A coordinate without a period has no winding, and no image of a tilted pendulum. */
   assert_int_equal(pendres_reference_orbit(&p, 0.1L, 0.0L, 1, 1, &c), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_reference_symmetry_breaking(&cases[0].p, 1.0L, 0.1L, 0.0L, &c),
+  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &cases[0].p,
+                                          &(pendres_reference_guess){1.0L, 0.1L, 0.0L, 0.0L}, &c),
                    PENDRES_INVALID_ARGUMENT);
   pendres_attractors_free(set);
   pendres_context_free(ctx);

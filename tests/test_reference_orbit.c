@@ -137,7 +137,10 @@ static void test_resonances(void **state)
     const pendres_reference_cycle *want = &golden_resonances[i];
     const pendres_pendulum p = make((double)want->damping, (double)want->drive_amplitude, 1.0);
     pendres_reference_cycle c;
-    check_ok(pendres_reference_resonance(&p, want->drive_frequency + 2e-4L, want->y, want->v, &c));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
+                                    &(pendres_reference_guess){want->drive_frequency + 2e-4L,
+                                                               want->y, want->v, 0.0L},
+                                    &c));
     const long double unit = golden_epsilon() * sensitivity(want);
     /* The zero of a slope is as good as the slope over its own slope, of order 1 to 100. */
     check_cycle(&c, want, 200.0L * unit * sensitivity(want));
@@ -177,8 +180,11 @@ static void test_folds(void **state)
     const pendres_reference_cycle *want = &golden_folds[i];
     const pendres_pendulum p = make((double)want->damping, (double)want->drive_amplitude, 1.0);
     pendres_reference_cycle c, near[2], far[2];
-    check_ok(pendres_reference_fold(&p, want->drive_frequency + 1e-6L, want->y + 1e-4L,
-                                    want->v - 1e-4L, &c));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
+                                    &(pendres_reference_guess){want->drive_frequency + 1e-6L,
+                                                               want->y + 1e-4L, want->v - 1e-4L,
+                                                               0.0L},
+                                    &c));
     /* The system is regular; its conditioning is that of the fold's curvature, up to 1e3. */
     const long double unit = golden_epsilon() * 1e3L;
     check_cycle(&c, want, 20.0L * unit);
@@ -216,8 +222,10 @@ static void test_symmetry_breakings(void **state)
     const pendres_reference_cycle *want = &golden_symmetry_breakings[i];
     const pendres_pendulum p = make((double)want->damping, (double)want->drive_amplitude, 1.0);
     pendres_reference_cycle c;
-    check_ok(pendres_reference_symmetry_breaking(&p, want->drive_frequency + 1e-4L, want->y,
-                                                 want->v, &c));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
+                                    &(pendres_reference_guess){want->drive_frequency + 1e-4L,
+                                                               want->y, want->v, 0.0L},
+                                    &c));
     /* Conditioning as for folds. */
     check_cycle(&c, want, 20.0L * 1e3L * golden_epsilon());
     /* The symmetric orbit exists on both sides and loses stability below. */
@@ -238,8 +246,11 @@ static void test_cusps(void **state)
     const pendres_reference_cycle *want = &golden_cusps[i];
     const pendres_pendulum p = make(1.0, (double)want->drive_amplitude, 1.0);
     pendres_reference_cycle c;
-    check_ok(pendres_reference_cusp(&p, want->drive_frequency - 1e-4L, want->damping + 1e-4L,
-                                    want->y, want->v, &c));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
+                                    &(pendres_reference_guess){want->drive_frequency - 1e-4L,
+                                                               want->y, want->v,
+                                                               want->damping + 1e-4L},
+                                    &c));
     /* Third derivatives by differences: 1e-15, or rounding over a step of 2e-3, times the
        conditioning 1e3 of a cusp. */
     check_cycle(&c, want, 1e-14L + 1e6L * golden_epsilon());
@@ -250,8 +261,10 @@ static void test_cusps(void **state)
   const pendres_reference_cycle *cusp = &golden_cusps[1];
   const pendres_pendulum below = make((double)cusp->damping - 1e-4, 0.2, 1.0);
   pendres_reference_cycle fold;
-  check_ok(pendres_reference_fold(&below, cusp->drive_frequency, cusp->y + 0.03L,
-                                  cusp->v + 0.03L, &fold));
+  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &below,
+                                  &(pendres_reference_guess){cusp->drive_frequency, cusp->y + 0.03L,
+                                                             cusp->v + 0.03L, 0.0L},
+                                  &fold));
   check_long(fold.multiplier_re[0], 1.0L, 1e-10L);
   check_long(fold.drive_frequency, cusp->drive_frequency, 1e-3L);
 }

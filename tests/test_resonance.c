@@ -57,7 +57,10 @@ static void lag_at_a_peak(void **state)
     pendres_reference_cycle top;
     assert_int_equal(r.peak, PENDRES_PEAK_SMOOTH);
     assert_int_equal(r.response.states, 1);
-    check_ok(pendres_reference_resonance(&p, r.frequency, o->x - PENDRES_PI / 2.0, o->v, &top));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
+                                    &(pendres_reference_guess){r.frequency, o->x - PENDRES_PI / 2.0,
+                                                               o->v, 0.0L},
+                                    &top));
     check_near(r.response.phase_lag, (double)top.phase_lag, r.response.phase_lag_error);
     assert_true(r.response.phase_lag_error < o->phase_lag_error);
     pendres_context_free(ctx);
@@ -156,7 +159,7 @@ static void all_change_at_once(void **state)
   assert_int_equal(r.peak, PENDRES_PEAK_EDGE);
   low.drive_frequency = 0.85;
   check_ok(pendres_response_compute(ctx, 1, &low, &e, &there));
-  check_ok(pendres_fold_find(ctx, &there.state[0].orbit, &fold));
+  check_ok(pendres_fold_find(ctx, &there.state[0].orbit, PENDRES_DRIVE_FREQUENCY, &fold));
   check_near(r.frequency, fold.value, 10.0 * (r.frequency_error + fold.value_error));
   assert_true(r.frequency_error > 0.0 && r.frequency_error < 1e-9);
   /* The areas a little below the fold and beyond what does not settle. */
@@ -260,7 +263,8 @@ static void the_last_of_many_jumps(void **state)
     pendres_pendulum p = nearby[0];
     p.drive_frequency = 0.88;
     check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &found));
-    check_ok(pendres_fold_find(ctx, &pendres_attractors_get(found, 0)->orbit, &fold));
+    check_ok(pendres_fold_find(ctx, &pendres_attractors_get(found, 0)->orbit,
+                               PENDRES_DRIVE_FREQUENCY, &fold));
     pendres_attractors_free(found);
     if (cases[k].at_fold) {
       check_near(r.frequency, fold.value, r.frequency_error + fold.value_error);

@@ -31,7 +31,8 @@ static void fold_below(pendres_context *ctx, const pendres_pendulum *p, double f
   for (int i = 0; i < STARTS; i++) x[i] = -1.0 + 0.3 * i;
   check_ok(pendres_attractors_find(ctx, &at, STARTS, x, v, &set));
   assert_true(pendres_attractors_count(set) > 1);
-  check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, fold));
+  check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, PENDRES_DRIVE_FREQUENCY,
+                             fold));
   pendres_attractors_free(set);
 }
 

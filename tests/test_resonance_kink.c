@@ -35,8 +35,10 @@ static void loss_of_symmetry(void **state)
     assert_true(r.complete);
     assert_true(isnan(r.fold_frequency) && isnan(r.fold_frequency_error));
     const pendres_orbit *o = &r.response.state[0].orbit;
-    check_ok(pendres_reference_symmetry_breaking(&p, r.frequency, o->x - 0.5 * PENDRES_PI,
-                                                 o->v / r.frequency, &exact));
+    check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
+                                    &(pendres_reference_guess){r.frequency, o->x - 0.5 * PENDRES_PI,
+                                                               o->v / r.frequency, 0.0L},
+                                    &exact));
     check_near(r.frequency, (double)exact.drive_frequency, r.frequency_error);
     check_near(r.loop_area, (double)exact.loop_area, r.loop_area_error);
     assert_true(r.frequency_error < 1e-8 && r.loop_area_error < 1e-7);

@@ -209,7 +209,7 @@ static void loops_of_many_harmonics(void **state)
     assert_int_not_equal(outcome[i], PENDRES_NOT_CONVERGED);
     r.state[i].label = PENDRES_LABEL_PERIODIC;
     r.state[i].orbit = o[i];
-    check_ok(pendres_orbit_sample(ctx, &o[i], COUNT, x, NULL));
+    check_ok(pendres_orbit_sample(ctx, &o[i], COUNT, x, NULL, NULL));
     for (int k = 0; k < COUNT; k++)
       loop[k] = i == 0 ? 0.25 * x[k] : loop[k] + 0.75 * x[k];
   }

@@ -48,7 +48,8 @@ static void hysteresis(void **state)
                                 .drive_frequency = k == 0 ? 0.7 : 0.88};
     check_ok(pendres_context_create(NULL, &ctx));
     check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
-    check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, &fold));
+    check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, PENDRES_DRIVE_FREQUENCY,
+                               &fold));
     check_near(value[k], fold.value, error[k] + fold.value_error);
     pendres_attractors_free(set);
     pendres_context_free(ctx);

@@ -64,7 +64,7 @@ static void ask_orbit(const problem *q, const pendres_orbit *o)
   check_ok(pendres_orbit_refine(q->ctx, 1, &g, PENDRES_ORBIT_FREQUENCY_SLOPE, &slope, &outcome));
   NOTE(outcome, 0, 0);
   note_orbit(to, &slope);
-  check_ok(pendres_orbit_sample_with_error(q->ctx, o, SAMPLES / o->period, x, v, error));
+  check_ok(pendres_orbit_sample(q->ctx, o, SAMPLES / o->period, x, v, error));
   note_arrays(to, (size_t)(SAMPLES / o->period * o->period), x, v);
   note_arrays(to, 1, &error[0], &error[1]);
   const pendres_record record = {.x = x, .v = v, .x_error = ex, .v_error = ev};
@@ -145,7 +145,7 @@ static void ask_branch(const problem *q, const pendres_orbit *o)
   for (size_t i = 0; i < found; i++) note_orbit(to, &crossed[i]);
   check_ok(pendres_branches_find(q->ctx, found, crossed, &options, &set));
   NOTE(pendres_branches_count(set), 0, 0);
-  const pendres_status status = pendres_fold_find(q->ctx, o, &fold);
+  const pendres_status status = pendres_fold_find(q->ctx, o, PENDRES_DRIVE_FREQUENCY, &fold);
   NOTE(status, 0, 0);
   if (status == PENDRES_OK) {
     note_bifurcation(to, &fold, 0, -1);
@@ -214,10 +214,10 @@ static void ask_boundary(const problem *q, const pendres_orbit *o)
   check_ok(pendres_saddle_find(q->ctx, o, &saddle));
   note_orbit(to, &saddle);
   check_ok(pendres_boundary_find(q->ctx, &saddle, NULL, &b));
-  NOTE(pendres_boundary_count(b), 0, 0);
-  note_arrays(to, pendres_boundary_count(b), pendres_boundary_x(b), pendres_boundary_v(b));
-  for (size_t i = 0; i < pendres_boundary_count(b); i++) NOTE(pendres_boundary_error(b)[i], 1, 0);
-  NOTE(pendres_boundary_bound(b), 1, 0);
+  NOTE(b->count, 0, 0);
+  note_arrays(to, b->count, b->x, b->v);
+  for (size_t i = 0; i < b->count; i++) NOTE(b->error[i], 1, 0);
+  NOTE(b->bound, 1, 0);
   pendres_boundary_free(b);
 }
 

@@ -59,9 +59,12 @@ static pendres_status find_folds(place folds[2])
   folds[0].exists = -1;
   folds[1].exists = 1;
   const pendres_status status =
-    pendres_reference_fold(&p, 0.8449L, 0.847L, 0.467L, &folds[0].at);
+    pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
+                           &(pendres_reference_guess){0.8449L, 0.847L, 0.467L, 0.0L}, &folds[0].at);
   return status == PENDRES_OK
-           ? pendres_reference_fold(&p, 0.7535L, 0.321L, 1.608L, &folds[1].at)
+           ? pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
+                                    &(pendres_reference_guess){0.7535L, 0.321L, 1.608L, 0.0L},
+                                    &folds[1].at)
            : status;
 }
 
@@ -69,7 +72,8 @@ static pendres_status find_cusp(place *cusp)
 {
   const pendres_pendulum p = { .drive_amplitude = 0.2, .drive_frequency = 0.86, .damping = 0.16 };
   cusp->exists = 0;
-  return pendres_reference_cusp(&p, 0.862L, 0.1637L, 0.7L, 0.7L, &cusp->at);
+  return pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
+                                &(pendres_reference_guess){0.862L, 0.7L, 0.7L, 0.1637L}, &cusp->at);
 }
 
 /* Orbits next to a fold or cusp lie on the line along which nothing contracts there. */

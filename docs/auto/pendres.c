@@ -99,7 +99,7 @@ static void fold_and_cusp(double drive, double frequency)
   const pendres_orbit start = orbit(0.06, drive, frequency, 0);
   pendres_fold fold;
   pendres_cusp cusp;
-  fail_if(pendres_fold_find(ctx, &start, &fold));
+  fail_if(pendres_fold_find(ctx, &start, PENDRES_DRIVE_FREQUENCY, &fold));
   fail_if(pendres_cusp_find(ctx, &fold, PENDRES_DAMPING, &cusp));
   print_at("fold_sa_0.06_drive_", drive, "", fold.value, fold.value_error);
   print_at("cusp_damping_drive_", drive, "", cusp.value[1], cusp.value_error[1]);

@@ -11,7 +11,7 @@ static pendres_status put_boundary(scene_run *run, const pendres_boundary *curve
   static const char *const names[] = {"boundary_x", "boundary_v"};
   static const char *const words[] = {"position on the boundary of basins",
                                       "velocity on the boundary of basins"};
-  const size_t n = pendres_boundary_count(curve);
+  const size_t n = curve->count;
   /* That of v has the errors divided by the unit of time. */
   const double time = deck_pendulum_units(run->deck).time;
   double *error = malloc((n + 1) * sizeof *error);
@@ -22,15 +22,13 @@ static pendres_status put_boundary(scene_run *run, const pendres_boundary *curve
     const pendres_store_spec spec = {.name = names[k], .dimensions = {"boundary_point"},
                                      .long_name = words[k], .units = k == 0 ? "rad" : "1"};
     for (size_t i = 0; i < n; i++)
-      error[i] = pendres_boundary_error(curve)[i] / (k == 0 ? 1.0 : time);
-    status = pendres_store_put(
-      store, &spec, k == 0 ? pendres_boundary_x(curve) : pendres_boundary_v(curve),
-      error, n);
+      error[i] = curve->error[i] / (k == 0 ? 1.0 : time);
+    status = pendres_store_put(store, &spec, k == 0 ? curve->x : curve->v, error, n);
   }
   free(error);
   int32_t *piece = malloc((n + 1) * sizeof *piece);
   if (piece == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n; i++) piece[i] = pendres_boundary_piece(curve)[i];
+  for (size_t i = 0; i < n; i++) piece[i] = curve->piece[i];
   const pendres_store_spec spec = {.name = "boundary_piece", .dimensions = {"boundary_point"},
                                    .long_name = "piece of the boundary that the point belongs to",
                                    .type = PENDRES_STORE_INT32};
@@ -39,7 +37,7 @@ static pendres_status put_boundary(scene_run *run, const pendres_boundary *curve
   const pendres_store_spec whole = {.name = "boundary_complete",
                                     .long_name = "1: all of the boundary within the window",
                                     .type = PENDRES_STORE_INT64};
-  const int64_t complete = pendres_boundary_complete(curve);
+  const int64_t complete = curve->complete;
   return status == PENDRES_OK ? pendres_store_put(store, &whole, &complete, NULL, 1) : status;
 }
 
@@ -59,7 +57,7 @@ pendres_status basins_write_boundary(basins *b)
   if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* nothing beside it on its branch */
   if (status == PENDRES_OK) status = pendres_boundary_find(ctx, &saddle, &window, &curve);
   if (scene_asked(b->run, status) == PENDRES_OK) {
-    b->curve = pendres_boundary_complete(curve) ? "all of it" : "a part, it goes on";
+    b->curve = curve->complete ? "all of it" : "a part, it goes on";
     status = scene_stored(b->run, put_boundary(b->run, curve));
   }
   pendres_boundary_free(curve);

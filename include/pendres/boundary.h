@@ -43,8 +43,17 @@ typedef struct pendres_boundary_options {
   size_t most_points;   /**< grown before giving up; default 400000 */
 } pendres_boundary_options;
 
-/** Opaque: a curve in one or more pieces. */
-typedef struct pendres_boundary pendres_boundary;
+/** A curve in one or more pieces. Made and freed by the library, which alone may change it. */
+typedef struct pendres_boundary {
+  size_t count;        /**< how many points, piece after piece, in order along each */
+  const double *x;     /**< [count] their positions, rad */
+  const double *v;     /**< [count] velocities */
+  const double *error; /**< [count] how far the true curve may be from the point and from the lines
+                            to its neighbours, in the plane of x and v times the unit of time */
+  const int *piece;    /**< [count] the piece (0, 1, ...) that each belongs to */
+  double bound;        /**< the largest error; 0 without points */
+  int complete;        /**< 1: all of the manifold that ever enters the window; 0: it goes on */
+} pendres_boundary;
 
 /**
  * The orbit that separates the basin of `attractor` (period one, stable) from its neighbour's: the
@@ -61,7 +70,7 @@ pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *at
  *
  * A manifold that accumulates on itself or on another one (in a fractal boundary or in endless
  * strands) has no end: what fits into most_points, and starts at points that doubles tell apart,
- * is given, and pendres_boundary_complete says 0.
+ * is given, and `complete` is 0.
  * Errors: PENDRES_INVALID_ARGUMENT (no saddle, or an empty window), those of the integration.
  */
 pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
@@ -69,25 +78,6 @@ pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *
                                      pendres_boundary **out);
 /** NULL is allowed. */
 void pendres_boundary_free(pendres_boundary *boundary);
-
-/** How many points a boundary has; 0 for NULL. They stand piece after piece, in order along
-    each. */
-size_t pendres_boundary_count(const pendres_boundary *boundary);
-/** x of every point, rad; owned by the boundary; NULL for NULL. */
-const double *pendres_boundary_x(const pendres_boundary *boundary);
-/** v of every point; owned by the boundary; NULL for NULL. */
-const double *pendres_boundary_v(const pendres_boundary *boundary);
-/** Number of the piece (0, 1, ...) that each point belongs to. */
-const int *pendres_boundary_piece(const pendres_boundary *boundary);
-/**
- * Error of each point: how far the true curve may be from the point and from the lines to its
- * neighbours, in the plane of x and v times the unit of time.
- */
-const double *pendres_boundary_error(const pendres_boundary *boundary);
-/** The largest of these; 0 without points. */
-double pendres_boundary_bound(const pendres_boundary *boundary);
-/** 1: all of the manifold that ever enters the window; 0: it goes on. */
-int pendres_boundary_complete(const pendres_boundary *boundary);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

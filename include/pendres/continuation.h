@@ -96,12 +96,8 @@ typedef pendres_bifurcation pendres_fold;
  *         PENDRES_TOLERANCE_UNREACHABLE if value_error exceeds the tolerance (*out is complete),
  *         PENDRES_INVALID_ARGUMENT, and failures of the integration
  */
-pendres_status pendres_fold_find_along(pendres_context *ctx, const pendres_orbit *near,
-                                       pendres_parameter parameter, pendres_fold *out);
-
-/** pendres_fold_find_along() the drive frequency. */
 pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near,
-                                 pendres_fold *out);
+                                 pendres_parameter parameter, pendres_fold *out);
 
 /* ---- Branches ---- */
 

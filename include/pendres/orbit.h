@@ -142,17 +142,12 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
  * all, at theta = 2 pi k / count. x[], v[] of that length are written; either may be NULL. They
  * come from the Fourier series of the orbit, which is integrated anew with orbit->steps steps a
  * period. At drive phase 0 they are as exact as orbit->x, elsewhere to about the tolerance at which
- * the orbit was found.
+ * the orbit was found. If error is not NULL they are made to the context's tolerance, at least
+ * twice as dear, and it receives estimates of the largest error of any x[], error[0], and of any
+ * v[], error[1].
  */
 pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
-                                    double *x, double *v);
-
-/**
- * The same, to the context's tolerance, with estimates of the largest error of any x[], error[0],
- * and of any v[], error[1]; error may be NULL. At least twice as dear.
- */
-pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,
-                                               int count, double *x, double *v, double error[2]);
+                                    double *x, double *v, double error[2]);
 
 /** Drive periods of a closed orbit that are recorded. */
 typedef struct pendres_orbit_stretch {

@@ -113,49 +113,43 @@ typedef struct pendres_reference_cycle {
 pendres_status pendres_reference_orbit(const pendres_pendulum *p, long double y, long double v,
                                        long period, long winding, pendres_reference_cycle *out);
 
-/**
- * The maximum of the loop area along the branch of period-1 orbits that goes through the guess (a
- * drive frequency and a state there); p's own drive_frequency is not read. Only smooth maxima are
- * found: the frequency is the zero of loop_area_slope. Errors are those of
- * pendres_reference_orbit(); PENDRES_NOT_CONVERGED also if the branch ends before a maximum.
- */
-pendres_status pendres_reference_resonance(const pendres_pendulum *p, long double frequency,
-                                           long double y, long double v,
-                                           pendres_reference_cycle *out);
+/** What pendres_reference_find() looks for. */
+typedef enum pendres_reference_kind {
+  PENDRES_REFERENCE_RESONANCE = 0,     /**< the maximum of the loop area along the branch: only
+                                            smooth ones, zeros of loop_area_slope */
+  PENDRES_REFERENCE_FOLD,              /**< the drive frequency at which a stable and an unstable
+                                            orbit meet, with the multiplier +1. Where a symmetric
+                                            orbit loses its mirror symmetry it has a multiplier +1
+                                            as well, but these equations are singular there and the
+                                            iteration does not converge */
+  PENDRES_REFERENCE_SYMMETRY_BREAKING, /**< the drive frequency at which an orbit that is its own
+                                            mirror image (y(t + half a period) = 2 c - y(t), with
+                                            the centre c as a double has it) has a multiplier +1
+                                            without a fold: two orbits branch off that are mirror
+                                            images of each other. Swift and Wiesenfeld, Physical
+                                            Review Letters 52 (1984) 705 */
+  PENDRES_REFERENCE_CUSP,              /**< the drive frequency and damping at which two folds meet
+                                            and vanish. Kuznetsov, Elements of Applied Bifurcation
+                                            Theory, section 9.2 */
+  PENDRES_REFERENCE_KINDS              /**< how many there are */
+} pendres_reference_kind;
+
+/** Where to look for it. */
+typedef struct pendres_reference_guess {
+  long double frequency; /**< drive frequency */
+  long double y;         /**< angle at drive phase 0 */
+  long double v;         /**< velocity there */
+  long double damping;   /**< read for a cusp alone */
+} pendres_reference_guess;
 
 /**
- * The fold near the guess: the drive frequency at which a stable and an unstable period-1 orbit
- * meet, with the Floquet multiplier +1. p's drive_frequency is not read. The slopes in *out, which
- * are infinite there, are set to NaN. Where a symmetric orbit loses its mirror symmetry it has a
- * multiplier +1 as well, but these equations are singular there and the iteration does not
- * converge; pendres_reference_symmetry_breaking() finds such points. Errors are those of
- * pendres_reference_orbit().
+ * The orbit of period one near a guess at which that happens. p's own drive frequency, and for a
+ * cusp its damping, are not read. The slopes in *out are those of a resonance, otherwise NaN: they
+ * are infinite at a fold. Errors are those of pendres_reference_orbit(); PENDRES_NOT_CONVERGED also
+ * if the branch ends before a maximum.
  */
-pendres_status pendres_reference_fold(const pendres_pendulum *p, long double frequency,
-                                      long double y, long double v,
-                                      pendres_reference_cycle *out);
-
-/**
- * The symmetry breaking near the guess: the drive frequency at which a period-1 orbit that is its
- * own mirror image (y(t + half a period) = 2 c - y(t), with the centre c as a double has it) has a
- * multiplier +1 without a fold. It continues as an unstable orbit, and two orbits branch off that
- * are mirror images of each other.
- * Large-amplitude orbits at small damping become unstable in this way. p's drive_frequency is not
- * read. Errors are those of pendres_reference_orbit(); the slopes in *out are set to NaN.
- * Source: Swift and Wiesenfeld, Physical Review Letters 52 (1984) 705.
- */
-pendres_status pendres_reference_symmetry_breaking(const pendres_pendulum *p,
-                                                   long double frequency, long double y,
-                                                   long double v, pendres_reference_cycle *out);
-
-/**
- * The cusp near the guess: the drive frequency and damping at which two folds meet and vanish. p's
- * drive_frequency and damping are not read. The slopes in *out are set to NaN. Errors are those of
- * pendres_reference_orbit().
- * Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 9.2.
- */
-pendres_status pendres_reference_cusp(const pendres_pendulum *p, long double frequency,
-                                      long double damping, long double y, long double v,
+pendres_status pendres_reference_find(pendres_reference_kind kind, const pendres_pendulum *p,
+                                      const pendres_reference_guess *guess,
                                       pendres_reference_cycle *out);
 
 #pragma GCC visibility pop

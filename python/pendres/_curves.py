@@ -101,7 +101,8 @@ def branches(orbits, low, high, *, parameter="drive_frequency", context=None, **
 def fold(orbit, *, context=None):
     """The fold in drive frequency at the end of the branch that an orbit lies on: value,
     value_error, curvature, orbit. A RuntimeWarning tells if value_error exceeds the tolerance."""
-    return _located("pendres_bifurcation", c.fold_find, context, one("pendres_orbit", orbit))
+    return _located("pendres_bifurcation", c.fold_find, context, one("pendres_orbit", orbit),
+                    lib.PENDRES_DRIVE_FREQUENCY)
 
 
 def curves(bifurcations, second, low, high, *, context=None, **more):
@@ -140,11 +141,11 @@ class Boundary(Handle):
 
     def __init__(self, pointer):
         super().__init__(pointer)
-        n = c.boundary_count(self)
-        self.x, self.v, self.error = (viewed("double", ask(self), n, self.pointer) for ask in (
-            c.boundary_x, c.boundary_v, c.boundary_error))
-        self.piece = viewed("int", c.boundary_piece(self), n, self.pointer)
-        self.bound, self.complete = c.boundary_bound(self), bool(c.boundary_complete(self))
+        b = self.pointer
+        self.x, self.v, self.error = (viewed("double", ffi.cast("double *", a), b.count, b)
+                                      for a in (b.x, b.v, b.error))
+        self.piece = viewed("int", ffi.cast("int *", b.piece), b.count, b)
+        self.bound, self.complete = b.bound, bool(b.complete)
 
 
 class Hysteresis(Handle):

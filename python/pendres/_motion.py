@@ -66,12 +66,9 @@ def orbit_sample(orbit, count, *, error=False, context=None):
     given = one("pendres_orbit", orbit)
     size = whole("count", count, 1) * max(0, int(given["period"][0]))
     x, v = (np.empty(size) for _ in range(2))
-    if not error:
-        c.orbit_sample(default_context(context), given, count, x, v)
-        return x, v
-    errors = np.empty(2)
-    c.orbit_sample_with_error(default_context(context), given, count, x, v, errors)
-    return x, v, *errors
+    errors = np.empty(2) if error else None
+    c.orbit_sample(default_context(context), given, count, x, v, errors)
+    return (x, v, *errors) if error else (x, v)
 
 
 def free_frequency(amplitude):

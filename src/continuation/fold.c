@@ -111,8 +111,8 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   return status;
 }
 
-pendres_status pendres_fold_find_along(pendres_context *ctx, const pendres_orbit *near,
-                                       pendres_parameter parameter, pendres_fold *out)
+pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near,
+                                 pendres_parameter parameter, pendres_fold *out)
 {
   pendres_door d;
   pendres_door_open(&d, ctx, near != NULL ? &near->pendulum : NULL);
@@ -121,9 +121,4 @@ pendres_status pendres_fold_find_along(pendres_context *ctx, const pendres_orbit
   pendres_fold *fold = pendres_door_out(&d, &pendres_dim_bifurcation, 1, out);
   PENDRES_DOOR_CALL(&d, fold_find(ctx, o, parameter, fold));
   return pendres_door_close(&d);
-}
-
-pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
-{
-  return pendres_fold_find_along(ctx, near, PENDRES_DRIVE_FREQUENCY, out);
 }

@@ -152,7 +152,7 @@ static pendres_status make_still(pendres_context *ctx, const pendres_cloud_reque
   const size_t period = (size_t)o->period, n = q->trajectories * (size_t)q->record;
   double *points = malloc(2 * period * sizeof *points);
   if (points == NULL) return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory");
-  const pendres_status status = pendres_orbit_sample(ctx, o, 1, points, points + period);
+  const pendres_status status = pendres_orbit_sample(ctx, o, 1, points, points + period, NULL);
   if (status == PENDRES_OK) {
     /* The Poincare point itself, to the last digit. */
     points[0] = o->x;

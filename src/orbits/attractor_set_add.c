@@ -375,7 +375,7 @@ static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendr
   if (x == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an orbit");
   double *v = x + 2 * o->period;
-  const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v);
+  const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v, NULL);
   if (status == PENDRES_OK)
     *out = (pendres_initial_guess){.set = set,
                            .y = 2.0 * pendres_model_centre(&o->pendulum, 0.0) -

@@ -219,8 +219,8 @@ pendres_status pendres_orbit_record(pendres_context *ctx, const pendres_orbit *o
   return pendres_door_close(&d);
 }
 
-pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,
-                                               int count, double *x, double *v, double error[2])
+pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
+                                    double *x, double *v, double error[2])
 {
   const size_t points = orbit != NULL && refuses_samples(orbit, count) == NULL
                           ? (size_t)orbit->period * (size_t)count : 0;
@@ -235,10 +235,4 @@ pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendr
   }
   PENDRES_DOOR_CALL(&d, sample(ctx, o, count, x_out, v_out, error));
   return pendres_door_close(&d);
-}
-
-pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
-                                    double *x, double *v)
-{
-  return pendres_orbit_sample_with_error(ctx, orbit, count, x, v, NULL);
 }

@@ -165,35 +165,23 @@ static int target_of(const pendres_pendulum *p, long double frequency, long doub
   return 1;
 }
 
-pendres_status pendres_reference_fold(const pendres_pendulum *p, long double frequency,
-                                      long double y, long double v,
+pendres_status pendres_reference_find(pendres_reference_kind kind, const pendres_pendulum *p,
+                                      const pendres_reference_guess *guess,
                                       pendres_reference_cycle *out)
 {
   pendres_reference_target target;
-  if (p == NULL || out == NULL || !target_of(p, frequency, p->damping, y, v, &target))
+  if (p == NULL || guess == NULL || out == NULL || (unsigned)kind >= PENDRES_REFERENCE_KINDS)
     return PENDRES_INVALID_ARGUMENT;
-  return solve(&target, 3, out);
-}
-
-pendres_status pendres_reference_symmetry_breaking(const pendres_pendulum *p,
-                                                   long double frequency, long double y,
-                                                   long double v, pendres_reference_cycle *out)
-{
-  pendres_reference_target target;
-  if (p == NULL || out == NULL || !target_of(p, frequency, p->damping, y, v, &target) ||
-      !pendres_pendulum_symmetric(p))
+  const int cusp = kind == PENDRES_REFERENCE_CUSP;
+  const long double damping = cusp ? guess->damping : (long double)p->damping;
+  if (!target_of(p, guess->frequency, damping, guess->y, guess->v, &target))
     return PENDRES_INVALID_ARGUMENT;
-  target.mirror = 1;
-  target.centre = pendres_model_of(p->force)->centre(p->force_coefficients, p->torque, (double)y);
-  return solve(&target, 3, out);
-}
-
-pendres_status pendres_reference_cusp(const pendres_pendulum *p, long double frequency,
-                                      long double damping, long double y, long double v,
-                                      pendres_reference_cycle *out)
-{
-  pendres_reference_target target;
-  if (out == NULL || !target_of(p, frequency, damping, y, v, &target))
-    return PENDRES_INVALID_ARGUMENT;
-  return solve(&target, 4, out);
+  if (kind == PENDRES_REFERENCE_RESONANCE) return pendres_reference_orbit_resonance(&target, out);
+  if (kind == PENDRES_REFERENCE_SYMMETRY_BREAKING) {
+    if (!pendres_pendulum_symmetric(p)) return PENDRES_INVALID_ARGUMENT;
+    target.mirror = 1;
+    target.centre =
+      pendres_model_of(p->force)->centre(p->force_coefficients, p->torque, (double)guess->y);
+  }
+  return solve(&target, cusp ? 4 : 3, out);
 }

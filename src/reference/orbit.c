@@ -264,25 +264,16 @@ static long double next_change(const pendres_reference_cycle *here, long double 
   return fminl(most, fmaxl(-most, -here->loop_area_slope / curvature));
 }
 
-pendres_status pendres_reference_resonance(const pendres_pendulum *p, long double frequency,
-                                           long double y, long double v,
-                                           pendres_reference_cycle *out)
+pendres_status pendres_reference_orbit_resonance(pendres_reference_target *target,
+                                                 pendres_reference_cycle *out)
 {
   enum { MOST = 200 };
-  pendres_pendulum checked = p != NULL ? *p : (pendres_pendulum){ .damping = 0.0 };
-  checked.drive_frequency = (double)frequency;
-  pendres_reference_target target = {.y = y, .v = v, .period = 1};
-  if (p == NULL || out == NULL ||
-      pendres_reference_model_of(&checked, &target.model) != PENDRES_OK ||
-      !(fabsl(y) <= 1e9L) || !isfinite(v))
-    return PENDRES_INVALID_ARGUMENT;
-  target.model.drive_frequency = frequency;
   pendres_reference_cycle here, next;
-  pendres_status status = close_and_measure(&target, &here);
+  pendres_status status = close_and_measure(target, &here);
   if (status != PENDRES_OK) return status;
   long double change = copysignl(1e-3L, here.loop_area_slope), last = HUGE_VALL;
   for (int i = 0; i < MOST; i++) {
-    status = move_to(&target.model, &here, here.drive_frequency + change, &next);
+    status = move_to(&target->model, &here, here.drive_frequency + change, &next);
     if (status != PENDRES_OK) {
       /* Past the end of the branch, or too far for Newton. */
       change *= 0.25L;

@@ -28,6 +28,10 @@ pendres_status pendres_reference_orbit_defect(const pendres_reference_target *ta
 pendres_status pendres_reference_orbit_measure(const pendres_reference_target *target,
                                                pendres_reference_cycle *out);
 
+/* The maximum of the loop area along the branch that the target's orbit is on. */
+pendres_status pendres_reference_orbit_resonance(pendres_reference_target *target,
+                                                 pendres_reference_cycle *out);
+
 /* Solve a x = b by elimination with pivoting, in place (x in b); n <= 4. Nonzero: singular. */
 int pendres_reference_orbit_solve(int n, long double a[][4], long double b[]);
 

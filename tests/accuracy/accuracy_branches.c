@@ -265,8 +265,9 @@ static int exact_of(place *at)
   const pendres_orbit *o = &b->orbit;
   if (b->kind != PENDRES_SYMMETRY_BREAKING) return exact_bifurcation(b, at);
   if (b->parameter != PENDRES_DRIVE_FREQUENCY || o->period != 1 || o->winding != 0 ||
-      pendres_reference_symmetry_breaking(&o->pendulum, b->value, o->x - origin_of(o), o->v,
-                                          &at->exact) != PENDRES_OK)
+      pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &o->pendulum,
+                             &(pendres_reference_guess){b->value, o->x - origin_of(o), o->v, 0.0L},
+                             &at->exact) != PENDRES_OK)
     return 0;
   at->value = at->exact.drive_frequency;
   return 1;

@@ -156,7 +156,7 @@ static void note_samples(accuracy *a, const item *t, const char *how)
   double x[MOST], v[MOST], error[2] = {INFINITY, INFINITY}, off[2] = {0.0, 0.0};
   pendres_context *ctx = context_with(t->tolerance);
   if (ctx != NULL && o->period <= MOST && o->period > 1 &&
-      pendres_orbit_sample_with_error(ctx, o, 1, x, v, error) == PENDRES_OK) {
+      pendres_orbit_sample(ctx, o, 1, x, v, error) == PENDRES_OK) {
     for (int k = 0; k < o->period; k++) {
       long double y = t->exact.y, w = t->exact.v;
       if (pendres_reference_advance(&o->pendulum, &y, &w, NULL, k) != PENDRES_OK) continue;

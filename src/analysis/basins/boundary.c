@@ -22,57 +22,24 @@
    back in time. */
 static const double rounding = 1e-12;
 
-struct pendres_boundary {
-  size_t count, capacity;
+/* A boundary that grows; what others see of it comes first. */
+typedef struct growing {
+  pendres_boundary seen;
+  size_t capacity;
   double *x, *v, *error;
   int *piece;
-  int pieces, complete;
-  double bound;
-};
+  int pieces;
+} growing;
 
 void pendres_boundary_free(pendres_boundary *b)
 {
-  if (b == NULL) return;
-  free(b->x);
-  free(b->v);
-  free(b->error);
-  free(b->piece);
-  free(b);
-}
-
-size_t pendres_boundary_count(const pendres_boundary *b)
-{
-  return b != NULL ? b->count : 0;
-}
-
-const double *pendres_boundary_x(const pendres_boundary *b)
-{
-  return b != NULL ? b->x : NULL;
-}
-
-const double *pendres_boundary_v(const pendres_boundary *b)
-{
-  return b != NULL ? b->v : NULL;
-}
-
-const int *pendres_boundary_piece(const pendres_boundary *b)
-{
-  return b != NULL ? b->piece : NULL;
-}
-
-const double *pendres_boundary_error(const pendres_boundary *b)
-{
-  return b != NULL ? b->error : NULL;
-}
-
-double pendres_boundary_bound(const pendres_boundary *b)
-{
-  return b != NULL ? b->bound : 0.0;
-}
-
-int pendres_boundary_complete(const pendres_boundary *b)
-{
-  return b != NULL && b->complete;
+  growing *g = (growing *)b;
+  if (g == NULL) return;
+  free(g->x);
+  free(g->v);
+  free(g->error);
+  free(g->piece);
+  free(g);
 }
 
 /* ---- what is wanted ---- */
@@ -100,22 +67,24 @@ static const char *resolve(const pendres_pendulum *p, pendres_boundary_options *
 
 /* ---- into the window ---- */
 
-static pendres_status append(pendres_context *ctx, pendres_boundary *b, double x, double v,
-                             double error)
+static pendres_status append(pendres_context *ctx, growing *g, double x, double v, double error)
 {
-  if (b->count == b->capacity) {
-    const size_t size = 2 * b->capacity + 256;
-    if (!pendres_regrow(&b->x, size, sizeof *b->x) ||
-        !pendres_regrow(&b->v, size, sizeof *b->v) ||
-        !pendres_regrow(&b->error, size, sizeof *b->error) ||
-        !pendres_regrow(&b->piece, size, sizeof *b->piece))
+  pendres_boundary *b = &g->seen;
+  if (b->count == g->capacity) {
+    const size_t size = 2 * g->capacity + 256;
+    const int bad = !pendres_regrow(&g->x, size, sizeof *g->x) ||
+                    !pendres_regrow(&g->v, size, sizeof *g->v) ||
+                    !pendres_regrow(&g->error, size, sizeof *g->error) ||
+                    !pendres_regrow(&g->piece, size, sizeof *g->piece);
+    if (bad)
       return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
-    b->capacity = size;
+    g->capacity = size;
+    b->x = g->x, b->v = g->v, b->error = g->error, b->piece = g->piece;
   }
-  b->x[b->count] = x;
-  b->v[b->count] = v;
-  b->error[b->count] = error;
-  b->piece[b->count++] = b->pieces;
+  g->x[b->count] = x;
+  g->v[b->count] = v;
+  g->error[b->count] = error;
+  g->piece[b->count++] = g->pieces;
   b->bound = fmax(b->bound, error);
   return PENDRES_OK;
 }
@@ -129,7 +98,7 @@ typedef struct traced {
 
 /* Add the part of the curve, moved by `shift`, that is in the window: runs of nodes inside. */
 static pendres_status show(pendres_context *ctx, const traced *t, const pendres_boundary_options *o,
-                           double shift, pendres_boundary *b)
+                           double shift, growing *b)
 {
   int open = 0;
   pendres_status status = PENDRES_OK;
@@ -142,7 +111,7 @@ static pendres_status show(pendres_context *ctx, const traced *t, const pendres_
       open = 0;
     }
     /* Nodes may coincide where the curve is stretched to the limit of rounding. */
-    const int again = open && x == b->x[b->count - 1] && v == b->v[b->count - 1];
+    const int again = open && x == b->x[b->seen.count - 1] && v == b->v[b->seen.count - 1];
     if (!inside || again) continue;
     status = append(ctx, b, x, v, t->error[i]);
     open = 1;
@@ -158,7 +127,7 @@ static pendres_status show(pendres_context *ctx, const traced *t, const pendres_
  */
 static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
                             const pendres_boundary_options *o, int steps,
-                            const pendres_boundary_curve *curve, pendres_boundary *b)
+                            const pendres_boundary_curve *curve, growing *b)
 {
   const size_t n = curve->count;
   const double omega = saddle->pendulum.drive_frequency;
@@ -195,7 +164,7 @@ done:
 
 /* Add the curve of one point of the saddle to the boundary. */
 static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddle,
-                                const pendres_boundary_options *o, pendres_boundary *b)
+                                const pendres_boundary_options *o, growing *b)
 {
   pendres_boundary_seed seed;
   pendres_boundary_curve curve = {.complete = 1};
@@ -209,7 +178,7 @@ static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddl
                                         &seed);
   if (status == PENDRES_OK) status = pendres_boundary_grow(ctx, &seed, o, &curve);
   if (status == PENDRES_OK) status = trace(ctx, saddle, o, steps, &curve, b);
-  b->complete = b->complete && curve.complete;
+  b->seen.complete = b->seen.complete && curve.complete;
   pendres_boundary_grow_free(&curve);
   return status;
 }
@@ -230,10 +199,10 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
   if (why == NULL && saddle->stable) why = "no curve of an attractor bounds its basin";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", why);
 
-  pendres_boundary *b = calloc(1, sizeof *b);
+  growing *b = calloc(1, sizeof *b);
   if (b == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
-  b->complete = 1;
+  b->seen.complete = 1;
   pendres_orbit point = *saddle;
   pendres_status status = PENDRES_OK;
   for (int j = 0; j < saddle->period && status == PENDRES_OK; j++) {
@@ -254,10 +223,10 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
     status = add_point(ctx, &point, &o, b);
   }
   if (status == PENDRES_OK) {
-    *out = b;
+    *out = &b->seen;
     b = NULL;
   }
-  pendres_boundary_free(b);
+  pendres_boundary_free((pendres_boundary *)b);
   return status;
 }
 
@@ -273,9 +242,10 @@ pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *
   PENDRES_DOOR_CALL(&d, boundary_find(ctx, from, o, out));
   if (d.status == PENDRES_OK) {
     pendres_boundary *b = *out;
-    pendres_units_out(&d.scales, &pendres_dim_length, b->count, b->x);
-    pendres_units_out(&d.scales, &pendres_dim_speed, b->count, b->v);
-    pendres_units_out(&d.scales, &pendres_dim_length, b->count, b->error);
+    growing *g = (growing *)b;
+    pendres_units_out(&d.scales, &pendres_dim_length, b->count, g->x);
+    pendres_units_out(&d.scales, &pendres_dim_speed, b->count, g->v);
+    pendres_units_out(&d.scales, &pendres_dim_length, b->count, g->error);
     pendres_units_out(&d.scales, &pendres_dim_length, 1, &b->bound);
   }
   return pendres_door_close(&d);

@@ -198,7 +198,7 @@ static pendres_status fold_of(pendres_context *ctx, const pendres_ensemble *ense
 {
   pendres_fold fold;
   int decides = 0;
-  pendres_status status = pendres_fold_find(ctx, &e->state->orbit, &fold);
+  pendres_status status = pendres_fold_find(ctx, &e->state->orbit, PENDRES_DRIVE_FREQUENCY, &fold);
   if (status == PENDRES_NOT_CONVERGED || status == PENDRES_NOT_FOUND) return PENDRES_OK;
   if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
   if (!(fold.value > range[0] && fold.value < range[1])) return PENDRES_OK;

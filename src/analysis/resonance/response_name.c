@@ -56,7 +56,7 @@ pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
     const pendres_orbit *o = highest_below(n, line, parameter, &limit);
     pendres_fold fold;
     if (o == NULL) break;
-    const pendres_status status = pendres_fold_find_along(ctx, o, parameter, &fold);
+    const pendres_status status = pendres_fold_find(ctx, o, parameter, &fold);
     if (status == PENDRES_NOT_FOUND || status == PENDRES_NOT_CONVERGED) continue;
     if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
     if (!(fold.curvature < 0.0 && fold.value >= limit && fold.orbit.amplitude >= o->amplitude))
