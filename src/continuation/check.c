@@ -13,9 +13,9 @@
  */
 
 /* A point that stands for the part of a branch next to it. */
-static int regular(const pendres_branch *b, size_t i)
+static int regular(const pendres_curve *b, size_t i)
 {
-  return b->point[i].bifurcation < 0;
+  return b->branch_point[i].bifurcation < 0;
 }
 
 /* Sign of (s - m1)(s - m2), s = 1 or -1; 0 where the sign is not known: right at a bifurcation, or
@@ -29,33 +29,34 @@ static int sign_of(const pendres_orbit *o, double s)
 }
 
 /* Whether a bifurcation is of the branch itself, not of the other that it was born from there. */
-static int own(const pendres_branch *b, const pendres_bifurcation *f)
+static int own(const pendres_curve *b, const pendres_bifurcation *f)
 {
-  if (f->kind == PENDRES_SYMMETRY_BREAKING) return b->map.mirror;
-  return f->orbit.period == b->map.period;
+  if (f->kind == PENDRES_SYMMETRY_BREAKING) return b->kind.system.map.mirror;
+  return f->orbit.period == b->kind.system.map.period;
 }
 
 /* Whether the sign changes at a bifurcation. */
-static int changes(const pendres_branch *b, const pendres_bifurcation *f, double s)
+static int changes(const pendres_curve *b, const pendres_bifurcation *f, double s)
 {
   return own(b, f) && (f->kind == PENDRES_PERIOD_DOUBLING) == (s < 0.0);
 }
 
 /* From one point that tells to the next an odd number of bifurcations changes the sign. */
-static void check_signs(pendres_branch *b, double s)
+static void check_signs(pendres_curve *b, double s)
 {
-  const size_t round = b->end[0] == PENDRES_END_CLOSED ? 2 * b->count : b->count;
+  const size_t round = pendres_curve_closed(b) ? 2 * b->count : b->count;
   size_t last = 0;
   int sign = 0, met = 0;
   for (size_t k = 0; k < round; k++) {
     const size_t i = k % b->count;
     if (!regular(b, i)) {
-      met += changes(b, &b->bifurcation[b->point[i].bifurcation], s);
+      met += changes(b, &b->bifurcation[b->branch_point[i].bifurcation], s);
       continue;
     }
-    const int here = sign_of(&b->point[i].orbit, s);
+    const int here = sign_of(&b->branch_point[i].orbit, s);
     if (here == 0) continue;
-    if (sign != 0 && (here != sign) != (met % 2 != 0)) b->point[last].doubt |= PENDRES_DOUBT_SIGN;
+    if (sign != 0 && (here != sign) != (met % 2 != 0))
+      b->branch_point[last].doubt |= PENDRES_DOUBT_SIGN;
     sign = here;
     met = 0;
     last = i;
@@ -67,41 +68,42 @@ static void check_signs(pendres_branch *b, double s)
 
 /* Which way the parameter goes from point i to the next that differs in it by more than the errors,
    forwards or backwards, but not beyond a bifurcation; 0 if that does not tell. */
-static int side_of(const pendres_branch *b, size_t i, int step)
+static int side_of(const pendres_curve *b, size_t i, int step)
 {
-  const double from = pendres_branch_value(b, i), error = b->point[i].parameter_error;
-  const int closed = b->end[0] == PENDRES_END_CLOSED;
+  const double from = pendres_branch_value(b, i), error = b->branch_point[i].parameter_error;
+  const int closed = pendres_curve_closed(b);
   size_t k = i;
   for (size_t n = 1; n < b->count; n++) {
     if (!closed && (step > 0 ? k + 1 == b->count : k == 0)) return 0;
     k = step > 0 ? (k + 1) % b->count : (k + b->count - 1) % b->count;
     const double apart = pendres_branch_value(b, k) - from;
-    if (fabs(apart) > 2.0 * (error + b->point[k].parameter_error)) return apart > 0.0 ? 1 : -1;
+    const double known = 2.0 * (error + b->branch_point[k].parameter_error);
+    if (fabs(apart) > known) return apart > 0.0 ? 1 : -1;
     if (!regular(b, k)) return 0;
   }
   return 0;
 }
 
-static void check_turns(pendres_branch *b)
+static void check_turns(pendres_curve *b)
 {
   for (size_t i = 0; i < b->count; i++) {
     const int before = side_of(b, i, -1), behind = side_of(b, i, 1);
     if (before == 0 || behind == 0) continue;
     const int turns = before == behind;
     if (regular(b, i)) {
-      if (turns) b->point[i].doubt |= PENDRES_DOUBT_TURN;
+      if (turns) b->branch_point[i].doubt |= PENDRES_DOUBT_TURN;
       continue;
     }
-    const pendres_bifurcation *f = &b->bifurcation[b->point[i].bifurcation];
+    const pendres_bifurcation *f = &b->bifurcation[b->branch_point[i].bifurcation];
     if (f->kind == PENDRES_FOLD ? !turns || (f->curvature > 0.0) != (before > 0)
                                 : own(b, f) && turns)
-      b->point[i].doubt |= PENDRES_DOUBT_BIFURCATION;
+      b->branch_point[i].doubt |= PENDRES_DOUBT_BIFURCATION;
   }
 }
 
-void pendres_branch_check(pendres_branch *b)
+void pendres_branch_check(pendres_curve *b)
 {
-  for (size_t i = 0; i < b->count; i++) b->point[i].doubt = 0;
+  for (size_t i = 0; i < b->count; i++) b->branch_point[i].doubt = 0;
   check_signs(b, 1.0);
   check_signs(b, -1.0);
   check_turns(b);
@@ -110,25 +112,25 @@ void pendres_branch_check(pendres_branch *b)
 /* ---- parts that attract ---- */
 
 /* The bifurcation at a point. */
-static pendres_special kind_at(const pendres_branch *b, size_t i)
+static pendres_special kind_at(const pendres_curve *b, size_t i)
 {
-  return b->point[i].kind;
+  return b->branch_point[i].kind;
 }
 
 /* Whether points i and k, the latter a bifurcation, are at one place within their errors. */
-static int same_place(const pendres_branch *b, size_t i, size_t k)
+static int same_place(const pendres_curve *b, size_t i, size_t k)
 {
-  const double error = b->point[i].parameter_error + b->point[k].parameter_error;
+  const double error = b->branch_point[i].parameter_error + b->branch_point[k].parameter_error;
   return fabs(pendres_branch_value(b, i) - pendres_branch_value(b, k)) <= 2.0 * error;
 }
 
 /* Whether point i is so close to a bifurcation that its stability is a matter of rounding: it may
    be on either side. A branch that starts at a bifurcation has such points. */
-static int beside(const pendres_branch *b, size_t i)
+static int beside(const pendres_curve *b, size_t i)
 {
   for (int step = -1; step <= 1; step += 2)
     for (size_t k = i; step > 0 ? k + 1 < b->count : k > 0;) {
-      const pendres_orbit *o = &b->point[k].orbit;
+      const pendres_orbit *o = &b->branch_point[k].orbit;
       const int tells = sign_of(o, 1.0) != 0 && sign_of(o, -1.0) != 0;
       k = step > 0 ? k + 1 : k - 1;
       if (!regular(b, k) && (!tells || same_place(b, i, k))) return 1;
@@ -138,13 +140,13 @@ static int beside(const pendres_branch *b, size_t i)
 }
 
 /* A stable point that is not beside a bifurcation. */
-static int attracts(const pendres_branch *b, size_t i)
+static int attracts(const pendres_curve *b, size_t i)
 {
-  return regular(b, i) && b->point[i].orbit.stable && !beside(b, i);
+  return regular(b, i) && b->branch_point[i].orbit.stable && !beside(b, i);
 }
 
 /* The part from point i on, one that attracts; *next: where to go on. */
-static pendres_branch_part part_from(const pendres_branch *b, size_t i, size_t *next)
+static pendres_branch_part part_from(const pendres_curve *b, size_t i, size_t *next)
 {
   pendres_branch_part part = {.first = i, .last = i};
   while (part.first > 0 && regular(b, part.first - 1) && beside(b, part.first - 1)) part.first--;
@@ -162,8 +164,9 @@ static pendres_branch_part part_from(const pendres_branch *b, size_t i, size_t *
   return part;
 }
 
-size_t pendres_branch_parts(const pendres_branch *b, size_t room, pendres_branch_part *out)
+size_t pendres_branch_parts(const pendres_branch *branch, size_t room, pendres_branch_part *out)
 {
+  const pendres_curve *b = branch != NULL ? &branch->curve : NULL;
   size_t n = 0;
   for (size_t i = 0; b != NULL && i < b->count;) {
     if (!attracts(b, i)) {

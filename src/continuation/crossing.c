@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "continuation/scale.h"
 /* The place in a point of column k of B. */
 static int place_of(int parameter, int k)
 {

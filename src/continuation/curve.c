@@ -1,255 +1,306 @@
-/* curve.c -- folds and flips in two parameters, and cusps; see continuation.h. */
-#include <pendres/continuation.h>
+/* curve.c -- whole curves within bounds; see curve.h. */
+#include "continuation/curve.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "engine/context_internal.h"
-#include "continuation/units.h"
-#include "continuation/course.h"
-#include "continuation/layout.h"
-#include "continuation/parameter.h"
-#include "continuation/stencil.h"
+#include "model/model.h"
 
-static const double wildest = 300.0; /* default */
+static pendres_status no_memory(pendres_context *ctx)
+{
+  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+}
 
-enum { MOST_CUSPS = 64, MOST_ADVANCES = 200 };
+/* Free what callers do not see, but for the two ways. */
+static void forget_nodes(pendres_curve *c)
+{
+  void *const arrays[] = {c->node, c->special, c->place, c->pair, c->orbit, c->error};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
+  c->node = NULL;
+  c->special = NULL;
+  c->place = NULL;
+  c->pair = NULL;
+  c->orbit = NULL;
+  c->error = NULL;
+  c->nodes = c->capacity = c->room = 0;
+}
+
+void pendres_curve_forget(pendres_curve *c)
+{
+  forget_nodes(c);
+  for (int k = 0; k < 2 && c->way != NULL; k++) free(c->way[k].node);
+  free(c->way);
+  c->way = NULL;
+}
 
 void pendres_curve_free(pendres_curve *c)
 {
   if (c == NULL) return;
+  pendres_curve_forget(c);
+  free(c->branch_point);
+  free(c->bifurcation);
   free(c->point);
-  free(c->u);
   free(c->cusp);
+  free(c->u);
   free(c);
 }
 
-pendres_special pendres_curve_kind(const pendres_curve *c)
+/* ---- one way of a start ---- */
+
+static int add(pendres_curve_way *w, const pendres_curve_node *node)
 {
-  return c != NULL ? c->kind : PENDRES_REGULAR;
+  pendres_curve_node *grown = pendres_grow(w->node, w->count, &w->capacity, sizeof *grown);
+  if (grown == NULL) return -1;
+  w->node = grown;
+  w->node[w->count++] = *node;
+  return 0;
 }
 
-size_t pendres_curve_count(const pendres_curve *c)
-{
-  return c != NULL ? c->count : 0;
-}
+/* The bound of a parameter that a curve meets, and the node on it. */
+typedef struct landing {
+  int unknown; /* number of the parameter among the unknowns */
+  double bound;
+  int landed; /* 0: there is no such node */
+  pendres_curve_node node;
+} landing;
 
-const pendres_curve_point *pendres_curve_get(const pendres_curve *c, size_t i)
+/* Find the parameter among the unknowns that is out of its bounds, and that bound; 0: none is. */
+static int out_of_bounds(const pendres_continuation_system *s, const pendres_curve_bounds *b,
+                         const double u[PENDRES_U_COUNT], landing *out)
 {
-  return c != NULL && i < c->count ? &c->point[i] : NULL;
-}
-
-size_t pendres_curve_cusps(const pendres_curve *c)
-{
-  return c != NULL ? c->cusps : 0;
-}
-
-const pendres_cusp *pendres_curve_cusp(const pendres_curve *c, size_t i)
-{
-  return c != NULL && i < c->cusps ? &c->cusp[i] : NULL;
-}
-
-pendres_parameter pendres_curve_parameter(const pendres_curve *c, int which)
-{
-  return c != NULL ? c->parameter[which != 0] : PENDRES_PARAMETER_COUNT;
-}
-
-static int place_of(pendres_parameter parameter)
-{
-  return PENDRES_U_OMEGA + (int)parameter;
-}
-
-/* The curve through a bifurcation, and the place of that on it. */
-static pendres_arc kind_of(const pendres_bifurcation *b, pendres_parameter second, double spacing,
-                           double u[PENDRES_U_COUNT])
-{
-  const pendres_parameter parameter[2] = {b->parameter, second};
-  const pendres_continuation_condition condition =
-    b->kind == PENDRES_FOLD           ? PENDRES_CONDITION_FOLD
-    : b->kind == PENDRES_BRANCH_POINT ? PENDRES_CONDITION_CROSSING
-                                      : PENDRES_CONDITION_FLIP;
-  pendres_arc w = pendres_arc_of(&b->orbit, condition, parameter, spacing, u);
-  if (b->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&w.map);
-  return w;
-}
-
-/* ---- cusps ---- */
-
-static double test_cusp(const pendres_arc_point *p)
-{
-  return p->bending;
-}
-
-static pendres_status finish_cusp(pendres_context *ctx, const int *unknown,
-                                  const pendres_located *l, pendres_cusp *out)
-{
-  for (int i = 0; i < 2; i++) {
-    out->parameter[i] = (pendres_parameter)(unknown[2 + i] - PENDRES_U_OMEGA);
-    out->value[i] = l->pair.fine[unknown[2 + i]];
-    out->value_error[i] = l->error[2 + i];
+  for (int k = 2; k < s->unknowns; k++) {
+    const double value = u[s->unknown[k]];
+    if (value < b->low[k - 2] || value > b->high[k - 2]) {
+      out->unknown = k;
+      out->bound = value < b->low[k - 2] ? b->low[k - 2] : b->high[k - 2];
+      return 1;
+    }
   }
-  const pendres_status status = pendres_continuation_orbit_measure(ctx, 1, &l->pair, &out->orbit);
-  pendres_continuation_orbit_set_critical(PENDRES_FOLD, 2, out->parameter, out->value_error,
-                                          &out->orbit);
+  return 0;
+}
+
+/* Find the node on a bound, between the last one inside and the first outside. */
+static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
+                           const pendres_curve_node *inside, const pendres_curve_node *outside,
+                           landing *out)
+{
+  pendres_continuation_system system = kind->system;
+  const int k = out->unknown, place = system.unknown[k];
+  const double bound = out->bound, way_out = outside->u[place] - inside->u[place];
+  const double part = (bound - inside->u[place]) / way_out;
+  pendres_curve_node *node = &out->node;
+  pendres_correction c = {.kind = kind};
+  out->landed = 0;
+  if (!(part > 0.0 && part < 1.0)) return PENDRES_OK;
+  *node = *inside;
+  for (int i = 0; i < PENDRES_U_COUNT; i++)
+    c.u[i] = inside->u[i] + part * (outside->u[i] - inside->u[i]);
+  c.u[place] = bound;
+  c.tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, system.map.force, c.u, kind->tolerance, &c.steps);
+  if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, &c);
+  const double chord = pendres_arc_distance(inside->u, outside->u);
+  if (status != PENDRES_OK || isnan(pendres_correction_rounding(&c)) ||
+      pendres_arc_distance(inside->u, c.u) > chord || fabs(c.u[place] - bound) > 1e-12)
+    return status;
+  memcpy(node->u, c.u, sizeof node->u);
+  node->u[place] = bound;
+  node->held = k + 1;
+  node->arclength = inside->arclength + pendres_arc_distance(inside->u, c.u);
+  node->bending = inside->bending + part * (outside->bending - inside->bending);
+  /* What belongs to the place and not to the plane is taken from the way there. */
+  for (int i = 0; i < system.unknowns; i++)
+    node->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
+  system.steps = c.steps;
+  status = pendres_continuation_map_images(ctx, &system, 1,
+                                           (const double (*)[PENDRES_U_COUNT])&c.u, &node->image);
+  out->landed = status == PENDRES_OK;
   return status;
 }
 
-static pendres_status locate_cusp(pendres_context *ctx, const pendres_trail *t,
-                                  const double u[PENDRES_U_COUNT], double reach,
-                                  pendres_course_special *out)
+/* By how many whole turns, as an angle, y of a point is larger than that of another. It is 0 for a
+   half map, whose mirror stands in one place, and where the coordinate has no period. */
+static double turns_between(const pendres_continuation_map *map, const double from[PENDRES_U_COUNT],
+                            const double to[PENDRES_U_COUNT])
 {
-  out->condition = PENDRES_CONDITION_CUSP;
-  const pendres_continuation_system cusps =
-    pendres_continuation_system_of(&t->kind.map, out->condition, t->kind.unknown);
-  return pendres_continuation_locate(ctx, &cusps, u, reach, &out->located);
+  const double turn = pendres_model_of(map->force)->period;
+  if (turn == 0.0 || map->mirror) return 0.0;
+  return turn * rint((to[PENDRES_U_Y] - from[PENDRES_U_Y]) / turn);
 }
 
-static pendres_status locate_cusps(pendres_context *ctx, pendres_course *c)
+/* Whether the chord from a to b passes the start in the start's own direction, whole turns away
+   perhaps. */
+static int passes(const pendres_continuation_system *s, const pendres_curve_node *start,
+                  const pendres_curve_node *a, const pendres_curve_node *b)
 {
-  pendres_trail_zero zeros[MOST_CUSPS];
-  if (c->trail->kind.condition != PENDRES_CONDITION_FOLD) return PENDRES_OK;
-  const size_t n = pendres_trail_zeros(c->trail, test_cusp, MOST_CUSPS, zeros);
-  return pendres_course_locate(ctx, locate_cusp, n, zeros, c);
-}
-
-/* ---- points ---- */
-
-/*
- * Second derivative of the first parameter by arclength in (x, v), see pendres_bifurcation, from
- * what the arc knows: with A = N - I and its null vectors l and v,
- * d det A (v) = trace A / (l . v) * l . D2F(v, v).
- */
-static double curvature_of(const pendres_arc *kind, const pendres_arc_point *p)
-{
-  if (kind->condition != PENDRES_CONDITION_FOLD) return NAN;
-  const double (*j)[PENDRES_U_COUNT] = (const double (*)[PENDRES_U_COUNT])p->image.j;
-  const double *v = p->null, omega = p->u[PENDRES_U_OMEGA];
-  const int left = hypot(j[0][0], j[1][0]) > hypot(j[0][1], j[1][1]);
-  const double l[2] = {left ? -j[1][0] : -j[1][1], left ? j[0][0] : j[0][1]};
-  const double second = p->bending * (l[0] * v[0] + l[1] * v[1]) / (j[0][0] + j[1][1]);
-  const int place = kind->unknown[2];
-  return -second / (l[0] * j[0][place] + l[1] * j[1][place]) /
-         (v[0] * v[0] + omega * omega * v[1] * v[1]);
-}
-
-/* Point number k. */
-static void fill_point(const pendres_course *course, size_t k, pendres_curve *c)
-{
-  const pendres_course_point *p = &course->point[k];
-  const pendres_arc *kind = &course->trail->kind;
-  const pendres_cusp *s = p->special >= 0 ? &c->cusp[p->special] : NULL;
-  const pendres_continuation_pair *pair =
-    s != NULL ? &course->special[p->special].located.pair : &course->pair[p->i];
-  memcpy(c->u[k], pair->fine, sizeof c->u[k]);
-  c->point[k] = (pendres_curve_point){
-    .cusp = p->special,
-    .arclength = p->arclength,
-    .curvature = s != NULL ? 0.0 : curvature_of(kind, &course->trail->point[p->i]),
-    .orbit = s != NULL ? s->orbit : course->orbit[p->i]};
-  for (int i = 0; i < 2; i++) {
-    c->point[k].value[i] = pair->fine[kind->unknown[2 + i]];
-    c->point[k].value_error[i] = s != NULL ? s->value_error[i] : course->error[p->i][i];
+  double before = 0.0, behind = 0.0, along = 0.0, here[PENDRES_U_COUNT];
+  memcpy(here, start->u, sizeof here);
+  here[PENDRES_U_Y] += turns_between(&s->map, start->u, a->u);
+  for (int k = 0; k < s->unknowns; k++) {
+    const int i = s->unknown[k];
+    const double t = start->tangent[k];
+    before += t * (a->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
+    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
+    along += t * b->tangent[k];
   }
-  pendres_continuation_orbit_set_critical(c->kind, 2, c->parameter, c->point[k].value_error,
-                                          &c->point[k].orbit);
+  const double chord = pendres_arc_distance(a->u, b->u);
+  return before < 0.0 && behind >= 0.0 && along > 0.9 &&
+         pendres_arc_distance(a->u, here) <= chord && pendres_arc_distance(b->u, here) <= chord;
 }
 
-static pendres_status fill(pendres_context *ctx, const pendres_course *course, pendres_curve *c)
+static void end_way(pendres_curve_way *w, pendres_branch_end end)
 {
-  c->cusp = malloc((course->specials + 1) * sizeof *c->cusp);
-  c->point = malloc((course->count + 1) * sizeof *c->point);
-  c->u = malloc((course->count + 1) * sizeof *c->u);
-  if (c->cusp == NULL || c->point == NULL || c->u == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
-  for (; c->cusps < course->specials; c->cusps++) {
-    const pendres_status status = finish_cusp(ctx, course->trail->kind.unknown,
-                                              &course->special[c->cusps].located,
-                                              &c->cusp[c->cusps]);
-    if (status != PENDRES_OK) return status;
+  w->going = 0;
+  w->end = end;
+}
+
+/* Take over what the follower has found ahead of it. */
+static pendres_status take(pendres_context *ctx, const pendres_curve_bounds *b,
+                           pendres_curve_way *w)
+{
+  const pendres_follower *f = &w->at;
+  if (f->stuck) end_way(w, PENDRES_END_STUCK);
+  while (w->taken < f->found && w->going) {
+    const pendres_curve_node *p = &f->ahead[w->taken++];
+    const pendres_curve_node *last = w->count > 0 ? &w->node[w->count - 1] : &w->start;
+    landing at;
+    if (out_of_bounds(&f->kind.system, b, p->u, &at)) {
+      end_way(w, PENDRES_END_RANGE);
+      const pendres_status status = land(ctx, &f->kind, last, p, &at);
+      if (status != PENDRES_OK) return status;
+      if (at.landed && add(w, &at.node) != 0) return no_memory(ctx);
+    } else if (p->arclength > 4.0 * pendres_arc_distance(last->u, p->u) &&
+               passes(&f->kind.system, &w->start, last, p)) {
+      end_way(w, PENDRES_END_CLOSED);
+    } else {
+      if (add(w, p) != 0) return no_memory(ctx);
+      if (p->growth > b->wildest) end_way(w, PENDRES_END_WILD);
+      else if (w->count >= b->most_points) end_way(w, PENDRES_END_POINTS);
+    }
   }
-  for (; c->count < course->count; c->count++) fill_point(course, c->count, c);
   return PENDRES_OK;
 }
 
-/* What a call of pendres_curve_follow() was given. */
-typedef struct curve_call {
-  const pendres_bifurcation *starts;
-  const pendres_curve_options *options;
-  pendres_curve **out;
-} curve_call;
+/* ---- both ways ---- */
 
-static void begin(const void *call, size_t i, pendres_trail_start *start)
+/* One curve of the way back, the start, and the way forth. */
+static pendres_status join(pendres_context *ctx, pendres_curve *c)
 {
-  const curve_call *c = call;
-  const double spacing = c->options->spacing;
-  start->kind =
-    kind_of(&c->starts[i], c->options->second, spacing > 0.0 ? spacing : 0.05, start->u);
+  const pendres_continuation_system *s = &c->kind.system;
+  const int closed = c->way[0].end == PENDRES_END_CLOSED;
+  size_t count[2] = {c->way[0].count, c->way[1].count}, n = 0;
+  if (closed) count[1] = 0; /* it is the same curve in the other direction */
+  forget_nodes(c);
+  c->nodes = c->capacity = count[0] + count[1] + 1;
+  c->node = malloc(c->nodes * sizeof *c->node);
+  if (c->node == NULL) return no_memory(ctx);
+  /* The end with the lower first parameter comes first. */
+  const int place = s->unknown[2];
+  double end[2];
+  for (int i = 0; i < 2; i++)
+    end[i] = count[i] > 0 ? c->way[i].node[count[i] - 1].u[place] : c->way[0].start.u[place];
+  const int back = !closed && end[0] < end[1] ? 0 : 1, forth = 1 - back;
+  for (size_t i = count[back]; i-- > 0;) {
+    c->node[n] = c->way[back].node[i];
+    c->node[n].arclength = -c->node[n].arclength;
+    for (int k = 0; k < s->unknowns; k++) c->node[n].tangent[k] = -c->node[n].tangent[k];
+    n++;
+  }
+  c->node[n] = c->way[0].start;
+  if (forth == 1)
+    for (int k = 0; k < s->unknowns; k++) c->node[n].tangent[k] = -c->node[n].tangent[k];
+  n++;
+  for (size_t i = 0; i < count[forth]; i++) c->node[n++] = c->way[forth].node[i];
+  c->round = closed ? turns_between(&s->map, c->node[0].u, c->node[n - 1].u) : 0.0;
+  const double shift = c->node[0].arclength;
+  for (size_t i = 0; i < n; i++) c->node[i].arclength -= shift;
+  c->end[0] = closed ? PENDRES_END_CLOSED : c->way[back].end;
+  c->end[1] = closed ? PENDRES_END_CLOSED : c->way[forth].end;
+  return PENDRES_OK;
 }
 
-static pendres_status build(pendres_context *ctx, void *call, size_t i, pendres_trail *t)
+pendres_status pendres_curve_begin(pendres_context *ctx, const pendres_curve_start *start,
+                                   pendres_curve *c)
 {
-  const curve_call *to = call;
-  pendres_course course = {0};
-  pendres_curve *c = to->out[i] = calloc(1, sizeof *c);
-  if (c == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
-  c->map = t->kind.map;
-  c->condition = t->kind.condition;
-  c->kind = pendres_continuation_kind(c->condition, &c->map);
-  for (int k = 0; k < 2; k++) {
-    c->parameter[k] = (pendres_parameter)(t->kind.unknown[2 + k] - PENDRES_U_OMEGA);
-    c->end[k] = t->end[k];
+  pendres_status status = PENDRES_OK;
+  *c = (pendres_curve){.way = calloc(2, sizeof *c->way)};
+  if (c->way == NULL) return no_memory(ctx);
+  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+    pendres_curve_way *w = &c->way[k];
+    status = pendres_follow_begin(ctx, &start->kind, start->u, k == 0 ? 1.0 : -1.0, &w->at);
+    w->start = w->at.here;
+    w->end = PENDRES_END_POINTS; /* none so far */
   }
-  pendres_status status = pendres_course_begin(ctx, t, MOST_CUSPS, &course);
-  if (status == PENDRES_OK) status = locate_cusps(ctx, &course);
-  if (status == PENDRES_OK) status = pendres_course_measure(ctx, &course);
-  if (status == PENDRES_OK) status = fill(ctx, &course, c);
-  pendres_course_free(&course);
+  c->kind = c->way[0].at.kind;
   return status;
 }
 
-/* ---- following ---- */
-
-static const char *check(size_t n, const pendres_bifurcation *starts,
-                         const pendres_curve_options *o)
+/* The ways of n curves that are still going, and their followers; returns their number. */
+static size_t going_ways(size_t n, pendres_curve *const *curves, pendres_curve_way **ways,
+                         pendres_follower **followers)
 {
-  for (int i = 0; i < 2; i++)
-    if (!(o->low[i] < o->high[i] && isfinite(o->low[i]) && isfinite(o->high[i])))
-      return "a parameter's range is empty";
-  if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
-  for (size_t i = 0; i < n; i++) {
-    if (starts[i].kind == PENDRES_REGULAR ||
-        (unsigned)starts[i].kind >= PENDRES_SPECIAL_COUNT)
-      return "a start is no bifurcation";
-    const char *why = pendres_continuation_refuses(&starts[i].orbit, starts[i].parameter);
-    if (why == NULL) why = pendres_continuation_refuses(&starts[i].orbit, o->second);
-    if (why != NULL) return why;
-    if (starts[i].parameter == o->second) return "the second parameter is the first once more";
+  size_t count = 0;
+  for (size_t i = 0; i < 2 * n; i++) {
+    pendres_curve_way *way = curves[i / 2]->way;
+    /* The other way of a closed curve is the same curve. */
+    if (way[0].end == PENDRES_END_CLOSED) way[1].going = 0;
+    if (!way[i % 2].going) continue;
+    ways[count] = &way[i % 2];
+    followers[count] = &way[i % 2].at;
+    count++;
   }
-  return NULL;
+  return count;
 }
 
-static pendres_status curve_follow(pendres_context *ctx, size_t n,
-                                   const pendres_bifurcation *starts,
-                                   const pendres_curve_options *options, pendres_curve **out)
+pendres_status pendres_curve_extend(pendres_context *ctx, size_t n, pendres_curve *const *curves,
+                                    const pendres_curve_bounds *bounds)
 {
-  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
-    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
-  for (size_t i = 0; i < n; i++) out[i] = NULL;
-  if (n == 0) return PENDRES_OK;
-  const pendres_curve_options *o = options;
-  const char *why = check(n, starts, o);
-  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "curve: %s", why);
+  pendres_status status = PENDRES_OK;
+  pendres_curve_way **ways = malloc((2 * n + 1) * sizeof *ways);
+  pendres_follower **followers = malloc((2 * n + 1) * sizeof *followers);
+  if (ways == NULL || followers == NULL) status = no_memory(ctx);
+  for (size_t i = 0; i < 2 * n && status == PENDRES_OK; i++) {
+    pendres_curve_way *w = &curves[i / 2]->way[i % 2];
+    w->going |= w->end == PENDRES_END_POINTS && w->count < bounds->most_points;
+    status = take(ctx, bounds, w);
+  }
+  while (status == PENDRES_OK) {
+    const size_t count = going_ways(n, curves, ways, followers);
+    if (count == 0) break;
+    status = pendres_follow_advance(ctx, count, followers);
+    for (size_t i = 0; i < count && status == PENDRES_OK; i++) {
+      ways[i]->taken = 0;
+      status = take(ctx, bounds, ways[i]);
+    }
+  }
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) status = join(ctx, curves[i]);
+  free(ways);
+  free(followers);
+  return status;
+}
 
-  static const pendres_course_kind kind = {
-    .name = "curves", .start = "bifurcation", .begin = begin, .build = build};
-  const pendres_trail_bounds bounds = {.low = {o->low[0], o->low[1]},
-                                       .high = {o->high[0], o->high[1]},
-                                       .wildest = o->wildest > 0.0 ? o->wildest : wildest,
-                                       .most_points = o->most_points > 0 ? o->most_points : 2000};
-  curve_call call = {.starts = starts, .options = o, .out = out};
-  const pendres_status status = pendres_course_follow(ctx, &kind, n, &bounds, &call);
+pendres_status pendres_curves_make(pendres_context *ctx, size_t n,
+                                   const pendres_curve_start *starts,
+                                   const pendres_curve_bounds *bounds,
+                                   pendres_curve_finisher *finish, pendres_curve **out)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n; i++) out[i] = NULL;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    out[i] = calloc(1, sizeof(pendres_branch));
+    status = out[i] != NULL ? pendres_curve_begin(ctx, &starts[i], out[i]) : no_memory(ctx);
+    if (status == PENDRES_NOT_CONVERGED)
+      (void)pendres_context_fail(ctx, status, "start %zu lies on no curve", i);
+  }
+  if (status == PENDRES_OK) status = pendres_curve_extend(ctx, n, out, bounds);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    status = finish(ctx, out[i]);
+    pendres_curve_forget(out[i]);
+  }
   for (size_t i = 0; i < n && status != PENDRES_OK; i++) {
     pendres_curve_free(out[i]);
     out[i] = NULL;
@@ -257,168 +308,77 @@ static pendres_status curve_follow(pendres_context *ctx, size_t n,
   return status;
 }
 
-pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
-                                    const pendres_bifurcation *starts,
-                                    const pendres_curve_options *options, pendres_curve **out)
+/* ---- special points ---- */
+
+/* A curve is back at a place only after more than so many of its longest steps. */
+static const double another_pass = 4.0;
+
+/* Whether two special points of a curve are one. A curve that passes a place twice, as the two ways
+   of a start on a closed one may, has a special point there each time. */
+static int same_place(const pendres_curve *c, const pendres_curve_special *a,
+                      const pendres_curve_special *b)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, n > 0 && starts != NULL ? &starts[0].orbit.pendulum : NULL);
-  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, starts);
-  const pendres_curve_options *o = pendres_curve_options_inside(&d, n, starts, options);
-  PENDRES_DOOR_CALL(&d, curve_follow(ctx, n, from, o, out));
-  for (size_t i = 0; d.status == PENDRES_OK && i < n; i++) pendres_curve_leave(&d, out[i]);
-  return pendres_door_close(&d);
+  const pendres_continuation_system *s = &c->kind.system;
+  const double round = c->node[c->nodes - 1].arclength;
+  double sum = 0.0, between = fabs(c->node[a->at.i].arclength - c->node[b->at.i].arclength);
+  if (pendres_curve_closed(c)) between = fmin(between, round - between);
+  if (a->condition != b->condition || between > another_pass * c->kind.spacing) return 0;
+  for (int k = 0; k < s->unknowns; k++)
+    sum = hypot(sum, a->located.pair.fine[s->unknown[k]] - b->located.pair.fine[s->unknown[k]]);
+  return sum < 1e-8;
 }
 
-/* ---- one value of the second parameter ---- */
-
-static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
-                                  size_t room, pendres_bifurcation *out, size_t *found)
+static int in_order(const void *a, const void *b)
 {
-  if (c == NULL || found == NULL || (room > 0 && out == NULL))
-    return PENDRES_CONTEXT_NULL(ctx, "curve, out and found");
-  if (!isfinite(value))
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
-  *found = 0;
-  const int closed = c->end[0] == PENDRES_END_CLOSED;
-  const size_t chords = c->count > 1 ? (closed ? c->count : c->count - 1) : 0;
-  const int unknown[] = {PENDRES_U_Y, PENDRES_U_W, place_of(c->parameter[0])};
-  const int second = place_of(c->parameter[1]);
-  const pendres_continuation_system system =
-    pendres_continuation_system_of(&c->map, c->condition, unknown);
-  const pendres_continuation_points points = {
-    .count = c->count, .u = (const double (*)[PENDRES_U_COUNT])c->u, .closed = closed,
-    .turn = c->map.mirror ? 0.0 : pendres_model_of(c->map.force)->period};
-  double guess[PENDRES_U_COUNT], last_guess[PENDRES_U_COUNT], last[PENDRES_U_COUNT];
-  for (size_t i = 0; i < chords; i++) {
-    pendres_continuation_stencil s;
-    double t[PENDRES_STENCIL_ROOTS];
-    pendres_continuation_stencil_init(&s, &points, i);
-    const size_t roots =
-      pendres_continuation_stencil_roots(&s, second, value, !closed && i + 1 == chords, t);
-    for (size_t r = 0; r < roots; r++) {
-      pendres_located located;
-      pendres_continuation_stencil_at(&s, t[r], guess);
-      /* What stays as it is along the curve does so to the last bit. */
-      for (int k = PENDRES_U_OMEGA; k < PENDRES_U_COUNT; k++)
-        if (k != unknown[2]) guess[k] = k == second ? value : c->u[i][k];
-      pendres_status status =
-        pendres_continuation_locate(ctx, &system, guess, 2.0 * s.length + 1e-3, &located);
-      if (status == PENDRES_NOT_CONVERGED) continue;
-      if (!pendres_located_found(status)) return status;
-      /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
-      const int again = *found > 0 &&
-                        pendres_arc_distance(located.pair.fine, last) <
-                          0.1 * pendres_arc_distance(guess, last_guess);
-      memcpy(last_guess, guess, sizeof last_guess);
-      memcpy(last, located.pair.fine, sizeof last);
-      if (again) continue;
-      if (*found < room) {
-        status = pendres_continuation_locate_finish(ctx, c->condition, c->parameter[0], &located,
-                                                    &out[*found]);
-        if (status != PENDRES_OK) return status;
-      }
-      ++*found;
-    }
-  }
+  const pendres_curve_special *p = a, *q = b;
+  if (p->at.i != q->at.i) return p->at.i < q->at.i ? -1 : 1;
+  return p->at.part < q->at.part ? -1 : p->at.part > q->at.part;
+}
+
+/* Locate what is at a zero, and add it to the special points unless it is one already. */
+static pendres_status add_special(pendres_context *ctx, const pendres_curve_test *test,
+                                  const pendres_curve_zero *zero, pendres_curve *c)
+{
+  double u[PENDRES_U_COUNT];
+  pendres_curve_special s = {.at = *zero};
+  const double chord = pendres_curve_between(c, zero, u);
+  const pendres_status status = test->locate(ctx, c, u, 2.0 * chord, &s);
+  if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
+  if (!pendres_located_found(status)) return status;
+  for (size_t k = 0; k < c->specials; k++)
+    if (same_place(c, &c->special[k], &s)) return PENDRES_OK;
+  pendres_curve_special *grown = pendres_grow(c->special, c->specials, &c->room, sizeof *grown);
+  if (grown == NULL) return no_memory(ctx);
+  c->special = grown;
+  c->special[c->specials++] = s;
   return PENDRES_OK;
 }
 
-pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
-                                   size_t room, pendres_bifurcation *out, size_t *found)
+pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *c, size_t n,
+                                           const pendres_curve_test *tests)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, c != NULL && c->count > 0 ? &c->point[0].orbit.pendulum : NULL);
-  if (c != NULL) pendres_door_move(&d, c->parameter[0], c->parameter[1]);
-  const pendres_curve *inside = pendres_curve_inside(&d, c);
-  pendres_bifurcation *b = pendres_door_out(&d, &pendres_dim_bifurcation, room, out);
-  PENDRES_DOOR_CALL(&d, curve_cross(ctx, inside, value / d.scales.second, room, b, found));
-  return pendres_door_close(&d);
-}
-
-/* ---- the cusp next to a fold ---- */
-
-/* Go along it until the quadratic term changes its sign. */
-static pendres_status follow_to_cusp(pendres_context *ctx, pendres_arc *w, pendres_located *out)
-{
-  const pendres_continuation_system cusps =
-    pendres_continuation_system_of(&w->map, PENDRES_CONDITION_CUSP, w->unknown);
-  pendres_arc_point last = w->here;
-  for (int i = 0; i < MOST_ADVANCES; i++) {
-    pendres_status status = pendres_arc_advance(ctx, 1, w);
-    if (status != PENDRES_OK) return status;
-    if (w->stuck || w->here.growth > wildest) return PENDRES_NOT_FOUND;
-    for (int k = 0; k < w->found; k++) {
-      const pendres_arc_point *p = &w->ahead[k];
-      if (last.bending * p->bending <= 0.0) {
-        const double part = last.bending / (last.bending - p->bending);
-        double u[PENDRES_U_COUNT];
-        for (int m = 0; m < PENDRES_U_COUNT; m++)
-          u[m] = last.u[m] + part * (p->u[m] - last.u[m]);
-        status = pendres_continuation_locate(ctx, &cusps, u,
-                                             2.0 * (p->arclength - last.arclength), out);
-        if (status != PENDRES_NOT_CONVERGED) return status;
-      }
-      last = *p;
-    }
-  }
-  return PENDRES_NOT_FOUND;
-}
-
-static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
-                                pendres_parameter second, pendres_cusp *out)
-{
-  if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
-  if (near->kind != PENDRES_FOLD)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
-  const char *why = pendres_continuation_refuses(&near->orbit, near->parameter);
-  if (why == NULL) why = pendres_continuation_refuses(&near->orbit, second);
-  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", why);
-  if (second == near->parameter)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "cusp: the second parameter must be another one than the fold's");
-  double u[PENDRES_U_COUNT], approach[2];
-  pendres_arc arc[2], ahead[2];
-  pendres_located located;
   pendres_status status = PENDRES_OK;
-  for (int i = 0; i < 2; i++) {
-    arc[i] = kind_of(near, second, 0.05, u);
-    status = pendres_arc_begin(ctx, &arc[i], u, i == 0 ? 1.0 : -1.0);
-    if (status == PENDRES_NOT_CONVERGED)
-      return pendres_context_fail(ctx, status, "no fold to start from at drive frequency %g",
-                                  near->orbit.pendulum.drive_frequency);
-    if (status != PENDRES_OK) return status;
-    ahead[i] = arc[i];
+  c->specials = 0;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    if (tests[i].refine) status = pendres_curve_refine(ctx, c, tests[i].function);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    pendres_curve_zero zeros[PENDRES_CURVE_ZEROS];
+    size_t count = 0;
+    if (tests[i].find != NULL) status = tests[i].find(ctx, c, zeros, &count);
+    else count = pendres_curve_zeros(c, tests[i].function, zeros);
+    for (size_t k = 0; k < count && status == PENDRES_OK; k++)
+      status = add_special(ctx, &tests[i], &zeros[k], c);
   }
-  status = pendres_arc_advance(ctx, 2, ahead);
-  if (status != PENDRES_OK) return status;
-  for (int i = 0; i < 2; i++)
-    approach[i] = ahead[i].found > 0
-                    ? fabs(arc[i].here.bending) - fabs(ahead[i].ahead[0].bending)
-                    : -INFINITY;
-  const int first = approach[0] >= approach[1] ? 0 : 1;
-  status = follow_to_cusp(ctx, &arc[first], &located);
-  if (status == PENDRES_NOT_FOUND) status = follow_to_cusp(ctx, &arc[1 - first], &located);
-  if (status == PENDRES_NOT_FOUND)
-    return pendres_context_fail(ctx, status, "the curve of folds through %g leads to no cusp",
-                                near->value);
-  if (!pendres_located_found(status)) return status;
-  const pendres_status measured = finish_cusp(ctx, arc[0].unknown, &located, out);
-  if (measured != PENDRES_OK) return measured;
-  if (status == PENDRES_TOLERANCE_UNREACHABLE)
-    return pendres_context_fail(ctx, status, "the cusp is known to %.1e and %.1e only",
-                                out->value_error[0], out->value_error[1]);
+  if (c->specials > 0) qsort(c->special, c->specials, sizeof *c->special, in_order);
   return status;
 }
 
-pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
-                                 pendres_parameter second, pendres_cusp *out)
+pendres_status pendres_curve_locate(pendres_context *ctx, const pendres_followed *kind,
+                                    pendres_continuation_condition condition,
+                                    const double u[PENDRES_U_COUNT], double reach,
+                                    pendres_located *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, near != NULL ? &near->orbit.pendulum : NULL);
-  const pendres_fold *inside = pendres_bifurcations_inside(&d, 1, near);
-  if (near != NULL) pendres_door_move(&d, near->parameter, second);
-  pendres_cusp *cusp = pendres_door_out(&d, &pendres_dim_cusp, 1, out);
-  PENDRES_DOOR_CALL(&d, cusp_find(ctx, inside, second, cusp));
-  return pendres_door_close(&d);
+  const pendres_continuation_system system =
+    pendres_continuation_system_of(&kind->system.map, condition, kind->system.unknown);
+  return pendres_continuation_locate(ctx, &system, u, reach, out);
 }

@@ -122,7 +122,7 @@ static pendres_status look_around(pendres_context *ctx, const pendres_continuati
     }
     stencil_points(w->u[i], v, w->around + i * STENCIL);
   }
-  return pendres_continuation_map_states(ctx, s->map, s->steps, n * each * STENCIL,
+  return pendres_continuation_map_states(ctx, &s->map, s->steps, n * each * STENCIL,
                                          (const double (*)[PENDRES_U_COUNT])w->around,
                                          w->around_image);
 }
@@ -200,8 +200,10 @@ pendres_continuation_system pendres_continuation_system_of(const pendres_continu
 {
   /* Unknowns of the conditions. */
   static const int counts[PENDRES_CONDITION_COUNT] = {2, 3, 3, 4, 3};
-  return (pendres_continuation_system){.map = map, .condition = condition,
-                                       .unknowns = counts[condition], .unknown = unknown};
+  pendres_continuation_system system = {
+    .map = *map, .condition = condition, .unknowns = counts[condition]};
+  for (int k = 0; k < system.unknowns; k++) system.unknown[k] = unknown[k];
+  return system;
 }
 
 pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
@@ -227,7 +229,7 @@ pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
     if (!(length < 1e3)) return PENDRES_NOT_CONVERGED;
     const double part = length > longest ? longest / length : 1.0;
     for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];
-    const pendres_pendulum p = pendres_continuation_map_pendulum(s->map->force, u);
+    const pendres_pendulum p = pendres_continuation_map_pendulum(s->map.force, u);
     if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
     /* Determinants' derivatives are differences, so the next step is a hundredth of this one or
        less; or it is rounding. */

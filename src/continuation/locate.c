@@ -8,7 +8,6 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/crossing.h"
-#include "continuation/scale.h"
 #include "engine/steps.h"
 
 /* The rounding of a step, taken three times as large as it usually is, since errors claim to be
@@ -188,7 +187,7 @@ static int crosses(const pendres_continuation_system *system,
   double few[4], many[4];
   pendres_crossing_rows(&pivot, coarse, few);
   pendres_crossing_rows(&pivot, fine, many);
-  return pendres_crossing_closes(fine, system->unknown[2], system->steps * system->map->period,
+  return pendres_crossing_closes(fine, system->unknown[2], system->steps * system->map.period,
                                  fabs(many[3] - few[3]));
 }
 
@@ -199,11 +198,11 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_sys
 {
   pendres_continuation_equations at;
   pendres_continuation_pair *pair = &out->pair;
-  const int n = system.unknowns, steps = system.steps, *unknown = system.unknown;
+  const int n = system.unknowns, steps = system.steps, *const unknown = system.unknown;
   double off[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
   distance away;
 
-  pair->map = *system.map;
+  pair->map = system.map;
   pair->critical = 1;
   pair->coarse_steps = steps;
   pair->fine_steps = pendres_steps_rung((int)ceil(1.4 * steps));
@@ -248,7 +247,7 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
   const double tolerance = ctx->options.tolerance;
   pendres_continuation_system system = *of;
   pendres_status status = pendres_continuation_map_steps(
-    ctx, system.map->force, u, pendres_accuracy_first(ctx), &system.steps);
+    ctx, system.map.force, u, pendres_accuracy_first(ctx), &system.steps);
   double from[PENDRES_U_COUNT];
   memcpy(from, u, sizeof from);
   out->parted = 0;
@@ -268,26 +267,6 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
 int pendres_located_found(pendres_status status)
 {
   return status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE;
-}
-
-pendres_status pendres_continuation_parts(pendres_context *ctx,
-                                          const pendres_continuation_map *map, const int *unknown,
-                                          const pendres_located_end ends[2], int *parts)
-{
-  const double *from = ends[0].u, *to = ends[1].u;
-  const double a = pendres_crossing_bordered(ends[0].image, unknown[2], ends[0].tangent);
-  const double b = pendres_crossing_bordered(ends[1].image, unknown[2], ends[1].tangent);
-  const double reach = 2.0 * pendres_arc_distance(from, to);
-  double u[PENDRES_U_COUNT];
-  pendres_located at;
-  *parts = 0;
-  if (!(a * b < 0.0)) return PENDRES_OK;
-  for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = from[i] + a / (a - b) * (to[i] - from[i]);
-  const pendres_continuation_system crossings =
-    pendres_continuation_system_of(map, PENDRES_CONDITION_CROSSING, unknown);
-  const pendres_status status = pendres_continuation_locate(ctx, &crossings, u, reach, &at);
-  *parts = status == PENDRES_NOT_CONVERGED && at.parted;
-  return pendres_located_found(status) || status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
 }
 
 pendres_special pendres_continuation_kind(pendres_continuation_condition condition,
@@ -320,7 +299,7 @@ pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
   const double h = 1e-4;
   double wide = 0.0, coarse = 0.0;
   pendres_continuation_system at = {
-    .map = &p->map, .steps = p->fine_steps, .unknowns = 1, .unknown = &place};
+    .map = p->map, .steps = p->fine_steps, .unknowns = 1, .unknown = {place}};
   status = curvature_of(ctx, &at, p->fine, h, &out->curvature);
   if (status == PENDRES_OK) status = curvature_of(ctx, &at, p->fine, 2.0 * h, &wide);
   at.steps = p->coarse_steps;
@@ -328,5 +307,19 @@ pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
   out->curvature_error = fabs(wide - out->curvature) +
                          pendres_continuation_orbit_error(coarse, out->curvature,
                                                           1e-10 * fabs(out->curvature));
+  return status;
+}
+
+pendres_status pendres_continuation_locate_finish_cusp(pendres_context *ctx, const int *unknown,
+                                                       const pendres_located *l, pendres_cusp *out)
+{
+  for (int i = 0; i < 2; i++) {
+    out->parameter[i] = (pendres_parameter)(unknown[2 + i] - PENDRES_U_OMEGA);
+    out->value[i] = l->pair.fine[unknown[2 + i]];
+    out->value_error[i] = l->error[2 + i];
+  }
+  const pendres_status status = pendres_continuation_orbit_measure(ctx, 1, &l->pair, &out->orbit);
+  pendres_continuation_orbit_set_critical(PENDRES_FOLD, 2, out->parameter, out->value_error,
+                                          &out->orbit);
   return status;
 }

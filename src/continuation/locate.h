@@ -30,21 +30,6 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
                                            const double u[PENDRES_U_COUNT], double reach,
                                            pendres_located *out);
 
-/* One end of a step along a branch. */
-typedef struct pendres_located_end {
-  const double *u, *tangent;
-  const pendres_continuation_image *image;
-} pendres_located_end;
-
-/*
- * Whether a step leads from one branch to another since these come close, and do not cross: where
- * they cross, too, the bordered determinant changes its sign. unknown[3]: y, w and the branches'
- * parameter.
- */
-pendres_status pendres_continuation_parts(pendres_context *ctx,
-                                          const pendres_continuation_map *map, const int *unknown,
-                                          const pendres_located_end ends[2], int *parts);
-
 /* Whether a status of pendres_continuation_locate() says that *out is complete. */
 int pendres_located_found(pendres_status status);
 
@@ -58,5 +43,10 @@ pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                                   pendres_parameter parameter,
                                                   const pendres_located *located,
                                                   pendres_bifurcation *out);
+
+/* Make a public cusp of a located one, whose last two unknowns are the parameters. */
+pendres_status pendres_continuation_locate_finish_cusp(pendres_context *ctx, const int *unknown,
+                                                       const pendres_located *located,
+                                                       pendres_cusp *out);
 
 #endif

@@ -147,6 +147,29 @@ void pendres_continuation_map_null(const pendres_continuation_image *image, doub
   v[1] = length > 0.0 ? row[0] / length : 0.0;
 }
 
+/* ---- distances ---- */
+
+double pendres_arc_least_scale(int i)
+{
+  if (i < PENDRES_U_OMEGA) return 1.0;
+  return i == PENDRES_U_OMEGA ? 0.3 : 0.1;
+}
+
+double pendres_arc_scale(int i, double value)
+{
+  static const double logarithmic = 20.0;
+  const double least = pendres_arc_least_scale(i);
+  return i < PENDRES_U_OMEGA ? least : fmax(least, fabs(value) / logarithmic);
+}
+
+double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
+{
+  double sum = 0.0;
+  for (int i = 0; i < PENDRES_U_COUNT; i++)
+    sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale(i, 0.5 * (a[i] + b[i])));
+  return sum;
+}
+
 /* ---- images ---- */
 
 /* Of a map. */
@@ -231,7 +254,7 @@ static pendres_status images(pendres_context *ctx, const pendres_continuation_sy
   const size_t capacity = pendres_block_capacity(&b);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     const size_t count = n - first < capacity ? n - first : capacity;
-    status = run_block(&b, s->map, count, u + first, columns, out + first);
+    status = run_block(&b, &s->map, count, u + first, columns, out + first);
   }
   return status;
 }
@@ -249,7 +272,7 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out)
 {
-  const pendres_continuation_system s = {.map = map, .steps = steps};
+  const pendres_continuation_system s = {.map = *map, .steps = steps};
   return images(ctx, &s, n, u, PENDRES_FLOW_VARIATIONAL, out);
 }
 

@@ -79,14 +79,15 @@ typedef enum pendres_continuation_condition {
   PENDRES_CONDITION_COUNT
 } pendres_continuation_condition;
 
+enum { PENDRES_UNKNOWNS = 4 /* at most */ };
+
 /* Equations on a map, and what is unknown in them: the first two of `unknown[unknowns]` are y and
    w, the others parameters. */
 typedef struct pendres_continuation_system {
-  const pendres_continuation_map *map;
+  pendres_continuation_map map;
   int steps; /* a period */
   pendres_continuation_condition condition;
-  int unknowns;
-  const int *unknown;
+  int unknowns, unknown[PENDRES_UNKNOWNS];
 } pendres_continuation_system;
 
 pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
@@ -150,6 +151,17 @@ pendres_status pendres_continuation_map_closes(pendres_context *ctx,
 /* det(N -+ I). */
 double pendres_continuation_map_fold(const pendres_continuation_image *image);
 double pendres_continuation_map_flip(const pendres_continuation_image *image);
+
+/* The length that counts as one in arclength, of entry `i` of u where it has this value. Of
+   parameters it is a constant at first, but never less than a twentieth of the value: beyond twenty
+   of the constant they count by their logarithms, and a curve over decades is not a long one. */
+double pendres_arc_scale(int i, double value);
+
+/* The constant. */
+double pendres_arc_least_scale(int i);
+
+/* Distance in the scale of arclength. What is the same in both points does not count. */
+double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);
 
 /* Norm of DG: by how much the map may enlarge an error of the state. */
 double pendres_continuation_map_growth(const pendres_continuation_image *image);

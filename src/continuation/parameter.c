@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "continuation/scale.h"
+#include "continuation/map.h"
 #include "orbits/orbit_newton.h"
 
 double pendres_parameter_scale(pendres_parameter parameter)

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "continuation/layout.h"
 #include "engine/context_internal.h"
 
 typedef void convert(const pendres_scales *scales, const pendres_dimensions *d, size_t n,
@@ -28,14 +27,6 @@ static void convert_bifurcations(const pendres_door *d, convert *way, size_t n,
   }
 }
 
-static void convert_branch(const pendres_door *d, convert *way, pendres_branch *b)
-{
-  const pendres_scales s = scales_of(d, b->parameter, b->parameter);
-  way(&s, &pendres_dim_branch_point, b->count, b->point);
-  convert_bifurcations(d, way, b->bifurcations, b->bifurcation);
-  way(&s, &pendres_dim_length, 1, &b->map.centre);
-}
-
 /* Points of map.h are y, w = dy/dtheta and the parameters. */
 static void convert_points(const pendres_door *d, convert *way, size_t n,
                            double (*u)[PENDRES_U_COUNT])
@@ -52,11 +43,18 @@ static void convert_points(const pendres_door *d, convert *way, size_t n,
 
 static void convert_curve(const pendres_door *d, convert *way, pendres_curve *c)
 {
-  const pendres_scales s = scales_of(d, c->parameter[0], c->parameter[1]);
-  way(&s, &pendres_dim_curve_point, c->count, c->point);
-  way(&s, &pendres_dim_cusp, c->cusps, c->cusp);
-  convert_points(d, way, c->count, c->u);
-  way(&s, &pendres_dim_length, 1, &c->map.centre);
+  const int branch = pendres_curve_is_branch(c);
+  const pendres_scales s = scales_of(d, pendres_curve_parameter(c, 0),
+                                     pendres_curve_parameter(c, !branch));
+  way(&s, &pendres_dim_length, 1, &c->kind.system.map.centre);
+  if (branch) {
+    way(&s, &pendres_dim_branch_point, c->count, c->branch_point);
+    way(&s, &pendres_dim_bifurcation, c->specials, c->bifurcation);
+  } else {
+    way(&s, &pendres_dim_curve_point, c->count, c->point);
+    way(&s, &pendres_dim_cusp, c->specials, c->cusp);
+    convert_points(d, way, c->count, c->u);
+  }
 }
 
 /* ---- copies ---- */
@@ -78,28 +76,30 @@ const pendres_curve_options *pendres_curve_options_inside(pendres_door *d, size_
   return pendres_door_in(d, &pendres_dim_curve_options, 1, o);
 }
 
-const pendres_branch *pendres_branch_inside(pendres_door *d, const pendres_branch *b)
-{
-  if (b == NULL || !pendres_door_changes(d)) return b;
-  pendres_branch *inside = pendres_door_copy(d, b, sizeof *b);
-  if (inside == NULL) return NULL;
-  inside->point = pendres_door_copy(d, b->point, b->count * sizeof *b->point);
-  inside->bifurcation =
-    pendres_door_copy(d, b->bifurcation, b->bifurcations * sizeof *b->bifurcation);
-  if (d->status == PENDRES_OK) convert_branch(d, pendres_units_in, inside);
-  return inside;
-}
-
-const pendres_curve *pendres_curve_inside(pendres_door *d, const pendres_curve *c)
+static const pendres_curve *curve_inside(pendres_door *d, const pendres_curve *c)
 {
   if (c == NULL || !pendres_door_changes(d)) return c;
   pendres_curve *inside = pendres_door_copy(d, c, sizeof *c);
   if (inside == NULL) return NULL;
+  inside->branch_point = pendres_door_copy(d, c->branch_point, c->count * sizeof *c->branch_point);
+  inside->bifurcation = pendres_door_copy(d, c->bifurcation, c->specials * sizeof *c->bifurcation);
   inside->point = pendres_door_copy(d, c->point, c->count * sizeof *c->point);
-  inside->cusp = pendres_door_copy(d, c->cusp, c->cusps * sizeof *c->cusp);
+  inside->cusp = pendres_door_copy(d, c->cusp, c->specials * sizeof *c->cusp);
   inside->u = pendres_door_copy(d, c->u, c->count * sizeof *c->u);
   if (d->status == PENDRES_OK) convert_curve(d, pendres_units_in, inside);
   return inside;
+}
+
+const pendres_curve *pendres_curve_open(pendres_door *d, pendres_context *ctx,
+                                        const pendres_curve *c)
+{
+  const int branch = c != NULL && pendres_curve_is_branch(c);
+  const pendres_orbit *first = NULL;
+  if (c != NULL && c->count > 0) first = branch ? &c->branch_point->orbit : &c->point->orbit;
+  pendres_door_open(d, ctx, first != NULL ? &first->pendulum : NULL);
+  if (c != NULL)
+    pendres_door_move(d, pendres_curve_parameter(c, 0), pendres_curve_parameter(c, !branch));
+  return curve_inside(d, c);
 }
 
 const pendres_curves *pendres_curves_inside(pendres_door *d, const pendres_curves *set)
@@ -108,7 +108,7 @@ const pendres_curves *pendres_curves_inside(pendres_door *d, const pendres_curve
   pendres_curves *inside = pendres_door_copy(d, set, sizeof *set);
   pendres_curve **list = pendres_door_memory(d, (set->count + 1) * sizeof *list);
   for (size_t i = 0; i < set->count && list != NULL; i++) {
-    const pendres_curve *c = pendres_curve_inside(d, set->curve[i]);
+    const pendres_curve *c = curve_inside(d, set->curve[i]);
     memcpy(&list[i], &c, sizeof c);
   }
   if (inside != NULL) inside->curve = list;
@@ -116,26 +116,6 @@ const pendres_curves *pendres_curves_inside(pendres_door *d, const pendres_curve
 }
 
 /* ---- in place ---- */
-
-void pendres_branch_enter(const pendres_door *d, pendres_branch *b)
-{
-  if (b != NULL && pendres_door_changes(d)) convert_branch(d, pendres_units_in, b);
-}
-
-void pendres_branch_leave(const pendres_door *d, pendres_branch *b)
-{
-  if (b != NULL && pendres_door_changes(d)) convert_branch(d, pendres_units_out, b);
-}
-
-void pendres_branches_enter(const pendres_door *d, pendres_branches *set)
-{
-  for (size_t i = 0; set != NULL && i < set->count; i++) pendres_branch_enter(d, set->branch[i]);
-}
-
-void pendres_branches_leave(const pendres_door *d, pendres_branches *set)
-{
-  for (size_t i = 0; set != NULL && i < set->count; i++) pendres_branch_leave(d, set->branch[i]);
-}
 
 void pendres_curve_leave(const pendres_door *d, pendres_curve *c)
 {

@@ -1,4 +1,6 @@
-/* zeros.c -- zeros of test functions along a trail; see trail.h. */
+/* zeros.c -- zeros of functions along a curve; see curve.h. */
+#include "continuation/curve.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +9,6 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/crossing.h"
-#include "continuation/trail.h"
 
 /* A minimum above this share of its neighbours' values is no zero that the points missed. */
 static const double suspicious = 0.3;
@@ -17,13 +18,13 @@ static const double touching = 0.05;
 static const double narrowest = 1e-9; /* of a search, in arclength */
 enum { MOST_TRIALS = 24 };
 
-double pendres_trail_between(const pendres_trail *t, const pendres_trail_zero *z,
+double pendres_curve_between(const pendres_curve *t, const pendres_curve_zero *z,
                              double u[PENDRES_U_COUNT])
 {
-  const pendres_arc_point *a = &t->point[z->i], *b = &t->point[(z->i + 1) % t->count];
+  const pendres_curve_node *a = &t->node[z->i], *b = &t->node[(z->i + 1) % t->nodes];
   double end[PENDRES_U_COUNT];
   memcpy(end, b->u, sizeof end);
-  if (z->i + 1 == t->count) end[PENDRES_U_Y] += t->round;
+  if (z->i + 1 == t->nodes) end[PENDRES_U_Y] += t->round;
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (end[i] - a->u[i]);
   return pendres_arc_distance(a->u, end);
 }
@@ -65,24 +66,24 @@ static double zero_within(const parabola *p, double a, double b)
 /* ---- zeros between points ---- */
 
 /* Three points in a row from number i on. */
-static void three(const pendres_trail *t, pendres_trail_test *test, size_t i, double s[3],
+static void three(const pendres_curve *t, pendres_curve_function *test, size_t i, double s[3],
                   double g[3])
 {
   for (size_t m = 0; m < 3; m++) {
-    s[m] = t->point[i + m].arclength;
-    g[m] = test(&t->point[i + m]);
+    s[m] = t->node[i + m].arclength;
+    g[m] = test(&t->node[i + m]);
   }
 }
 
 /* Share of the way from point i to the next at which the function vanishes. */
-static double part_of(const pendres_trail *t, pendres_trail_test *test, size_t i, double a,
+static double part_of(const pendres_curve *t, pendres_curve_function *test, size_t i, double a,
                       double b)
 {
-  if (i + 1 < t->count) {
-    const double from = t->point[i].arclength, to = t->point[i + 1].arclength;
+  if (i + 1 < t->nodes) {
+    const double from = t->node[i].arclength, to = t->node[i + 1].arclength;
     for (int side = 0; side < 2; side++) {
       double s[3], g[3];
-      if (side == 0 ? i == 0 : i + 2 >= t->count) continue;
+      if (side == 0 ? i == 0 : i + 2 >= t->nodes) continue;
       three(t, test, side == 0 ? i - 1 : i, s, g);
       const parabola p = parabola_of(s, g);
       const double zero = zero_within(&p, from, to);
@@ -100,42 +101,50 @@ static int dips(const double g[3])
 }
 
 /* Whether the function has a least value of about 0 at point i. */
-static int touches(const pendres_trail *t, pendres_trail_test *test, size_t i)
+static int touches(const pendres_curve *t, pendres_curve_function *test, size_t i)
 {
   double s[3], g[3];
-  if (i == 0 || i + 1 >= t->count) return 0;
+  if (i == 0 || i + 1 >= t->nodes) return 0;
   three(t, test, i - 1, s, g);
   if (!dips(g)) return 0;
   const parabola p = parabola_of(s, g);
   return fabs(value_of(&p, vertex_of(&p))) < touching * fmin(fabs(g[0]), fabs(g[2]));
 }
 
-size_t pendres_trail_zeros(const pendres_trail *t, pendres_trail_test *test, size_t room,
-                           pendres_trail_zero *zeros)
+/* How many chords a curve has. */
+static size_t chords_of(const pendres_curve *t)
+{
+  return t->nodes < 2 ? 0 : pendres_curve_closed(t) ? t->nodes : t->nodes - 1;
+}
+
+size_t pendres_curve_zeros(const pendres_curve *t, pendres_curve_function *test,
+                           pendres_curve_zero zeros[PENDRES_CURVE_ZEROS])
 {
   size_t count = 0;
-  const size_t n = t->count, chords = t->closed ? n : n - 1;
-  for (size_t i = 0; i < chords && n > 1 && count < room; i++) {
-    const double a = test(&t->point[i]), b = test(&t->point[(i + 1) % n]);
+  for (size_t i = 0; i < chords_of(t) && count < PENDRES_CURVE_ZEROS; i++) {
+    const double a = test(&t->node[i]), b = test(&t->node[(i + 1) % t->nodes]);
     if (a == 0.0 || a * b < 0.0)
-      zeros[count++] = (pendres_trail_zero){.i = i, .part = part_of(t, test, i, a, b)};
+      zeros[count++] = (pendres_curve_zero){.i = i, .part = part_of(t, test, i, a, b)};
     else if (touches(t, test, i))
-      zeros[count++] = (pendres_trail_zero){.i = i, .part = 0.0};
+      zeros[count++] = (pendres_curve_zero){.i = i, .part = 0.0};
   }
   return count;
 }
 
-size_t pendres_trail_crossings(const pendres_trail *t, size_t room, pendres_trail_zero *zeros)
+pendres_status pendres_curve_find_crossings(pendres_context *ctx, const pendres_curve *t,
+                                            pendres_curve_zero zeros[PENDRES_CURVE_ZEROS],
+                                            size_t *count)
 {
-  size_t count = 0;
-  const size_t n = t->count, chords = t->closed ? n : n - 1;
-  for (size_t i = 0; i < chords && n > 1 && count < room; i++) {
-    const pendres_arc_point *p = &t->point[i], *q = &t->point[(i + 1) % n];
-    const double a = pendres_crossing_bordered(&p->image, t->kind.unknown[2], p->tangent);
-    const double b = pendres_crossing_bordered(&q->image, t->kind.unknown[2], q->tangent);
-    if (a * b < 0.0) zeros[count++] = (pendres_trail_zero){.i = i, .part = a / (a - b)};
+  const int parameter = t->kind.system.unknown[2];
+  (void)ctx;
+  *count = 0;
+  for (size_t i = 0; i < chords_of(t) && *count < PENDRES_CURVE_ZEROS; i++) {
+    const pendres_curve_node *p = &t->node[i], *q = &t->node[(i + 1) % t->nodes];
+    const double a = pendres_crossing_bordered(&p->image, parameter, p->tangent);
+    const double b = pendres_crossing_bordered(&q->image, parameter, q->tangent);
+    if (a * b < 0.0) zeros[(*count)++] = (pendres_curve_zero){.i = i, .part = a / (a - b)};
   }
-  return count;
+  return PENDRES_OK;
 }
 
 /* ---- births ---- */
@@ -144,23 +153,23 @@ size_t pendres_trail_crossings(const pendres_trail *t, size_t room, pendres_trai
  * An orbit and its image by a half map lie on either side of the orbit that both were born from,
  * and change places there: the way from one to the other turns round.
  */
-static void turns_round(const pendres_trail *t, int half, const pendres_continuation_miss *miss,
-                        size_t room, pendres_trail_zero *zeros, size_t *count)
+static void turns_round(const pendres_curve *t, int half, const pendres_continuation_miss *miss,
+                        pendres_curve_zero zeros[PENDRES_CURVE_ZEROS], size_t *count)
 {
-  const size_t n = t->count, chords = t->closed ? n : n - 1;
-  for (size_t i = 0; i < chords && *count < room; i++) {
-    const double *a = miss[i].off, *b = miss[(i + 1) % n].off;
+  for (size_t i = 0; i < chords_of(t) && *count < PENDRES_CURVE_ZEROS; i++) {
+    const double *a = miss[i].off, *b = miss[(i + 1) % t->nodes].off;
     const double from = hypot(a[0], a[1]), to = hypot(b[0], b[1]);
     if (a[0] * b[0] + a[1] * b[1] < 0.0)
-      zeros[(*count)++] =
-        (pendres_trail_zero){.i = i, .part = from / (from + to), .half = half};
+      zeros[(*count)++] = (pendres_curve_zero){.i = i, .part = from / (from + to), .half = half};
   }
 }
 
-pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t, size_t room,
-                                    pendres_trail_zero *zeros, size_t *count)
+pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_curve *t,
+                                         pendres_curve_zero zeros[PENDRES_CURVE_ZEROS],
+                                         size_t *count)
 {
-  const size_t n = t->count;
+  const size_t n = t->nodes;
+  const pendres_continuation_map *map = &t->kind.system.map;
   pendres_status status = PENDRES_OK;
   *count = 0;
   if (!t->kind.apart || n < 2) return status;
@@ -171,18 +180,17 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     int here = 0;
-    memcpy(u[i], t->point[i].u, sizeof u[i]);
-    status = pendres_continuation_map_steps(ctx, t->kind.map.force, u[i], t->kind.tolerance, &here);
+    memcpy(u[i], t->node[i].u, sizeof u[i]);
+    status = pendres_continuation_map_steps(ctx, map->force, u[i], t->kind.tolerance, &here);
     if (here > steps) steps = here;
   }
   for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++) {
     pendres_continuation_map half;
-    if ((t->kind.apart >> which & 1) == 0 ||
-        !pendres_continuation_map_half(&t->kind.map, which, &half))
+    if ((t->kind.apart >> which & 1) == 0 || !pendres_continuation_map_half(map, which, &half))
       continue;
     status = pendres_continuation_map_closes(ctx, &half, steps, n,
                                              (const double (*)[PENDRES_U_COUNT])u, miss);
-    if (status == PENDRES_OK) turns_round(t, which, miss, room, zeros, count);
+    if (status == PENDRES_OK) turns_round(t, which, miss, zeros, count);
   }
   free(u);
   free(miss);
@@ -192,35 +200,35 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
 /* ---- zeros that the points missed ---- */
 
 /* The point of the curve near the place s between two points: linear, then corrected. */
-static pendres_status point_at(pendres_context *ctx, const pendres_trail *t,
-                               const pendres_arc_point between[2], double s,
-                               pendres_arc_point *out, int *good)
+static pendres_status point_at(pendres_context *ctx, const pendres_curve *t,
+                               const pendres_curve_node between[2], double s,
+                               pendres_curve_node *out, int *good)
 {
-  const pendres_arc_point *a = &between[0], *b = &between[1];
+  const pendres_curve_node *a = &between[0], *b = &between[1];
   const double part = (s - a->arclength) / (b->arclength - a->arclength);
-  pendres_arc_correction c;
+  pendres_correction c = {.kind = &t->kind};
   *out = part < 0.5 ? *a : *b;
   memcpy(c.tangent, out->tangent, sizeof c.tangent);
   for (int i = 0; i < PENDRES_U_COUNT; i++) c.u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
-  pendres_status status = pendres_continuation_map_steps(ctx, t->kind.map.force, c.u,
-                                                         pendres_accuracy_first(ctx), &c.steps);
-  if (status == PENDRES_OK) status = pendres_arc_correct(ctx, &t->kind, 1, &c);
-  *good = status == PENDRES_OK && !isnan(c.rounding);
+  pendres_status status = pendres_continuation_map_steps(
+    ctx, t->kind.system.map.force, c.u, pendres_accuracy_first(ctx), &c.steps);
+  if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, &c);
+  *good = status == PENDRES_OK && !isnan(pendres_correction_rounding(&c));
   if (!*good) return status;
   memcpy(out->u, c.u, sizeof out->u);
   out->held = 0;
   out->arclength = s;
-  return pendres_arc_describe(ctx, &t->kind, c.steps, out);
+  return pendres_follow_describe(ctx, &t->kind, c.steps, out);
 }
 
-static int insert(pendres_trail *t, size_t at, const pendres_arc_point *p)
+static int insert(pendres_curve *t, size_t at, const pendres_curve_node *p)
 {
-  pendres_arc_point *grown = pendres_grow(t->point, t->count, &t->capacity, sizeof *grown);
+  pendres_curve_node *grown = pendres_grow(t->node, t->nodes, &t->capacity, sizeof *grown);
   if (grown == NULL) return -1;
-  t->point = grown;
-  memmove(t->point + at + 1, t->point + at, (t->count - at) * sizeof *t->point);
-  t->point[at] = *p;
-  t->count++;
+  t->node = grown;
+  memmove(t->node + at + 1, t->node + at, (t->nodes - at) * sizeof *t->node);
+  t->node[at] = *p;
+  t->nodes++;
   return 0;
 }
 
@@ -228,9 +236,9 @@ static int insert(pendres_trail *t, size_t at, const pendres_arc_point *p)
  * Look for the least |value| between points[0] and [2], [1] being less than both, by parabolas.
  * *found: a point of the other sign was met; it is then *beyond, and points are its neighbours.
  */
-static pendres_status descend(pendres_context *ctx, const pendres_trail *t,
-                              pendres_trail_test *test, pendres_arc_point points[3],
-                              pendres_arc_point *beyond, int *found)
+static pendres_status descend(pendres_context *ctx, const pendres_curve *t,
+                              pendres_curve_function *test, pendres_curve_node points[3],
+                              pendres_curve_node *beyond, int *found)
 {
   *found = 0;
   for (int trial = 0; trial < MOST_TRIALS; trial++) {
@@ -249,7 +257,7 @@ static pendres_status descend(pendres_context *ctx, const pendres_trail *t,
     if (!(next > s[0] && next < s[2]) || fabs(next - s[1]) < 0.02 * width || trial % 4 == 3)
       next = s[2] - s[1] > s[1] - s[0] ? 0.5 * (s[1] + s[2]) : 0.5 * (s[0] + s[1]);
     const int side = next < s[1] ? 0 : 1;
-    pendres_arc_point here;
+    pendres_curve_node here;
     const pendres_status status =
       point_at(ctx, t, &points[side], next, &here, &good);
     if (status != PENDRES_OK) return status;
@@ -270,15 +278,15 @@ static pendres_status descend(pendres_context *ctx, const pendres_trail *t,
   return PENDRES_OK;
 }
 
-pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *t,
-                                    pendres_trail_test *test)
+pendres_status pendres_curve_refine(pendres_context *ctx, pendres_curve *t,
+                                    pendres_curve_function *test)
 {
-  for (size_t i = 1; i + 1 < t->count; i++) {
-    pendres_arc_point points[3], beyond;
+  for (size_t i = 1; i + 1 < t->nodes; i++) {
+    pendres_curve_node points[3], beyond;
     int found = 0;
     double g[3];
     for (size_t m = 0; m < 3; m++) {
-      points[m] = t->point[i + m - 1];
+      points[m] = t->node[i + m - 1];
       g[m] = test(&points[m]);
     }
     if (!dips(g)) continue;
@@ -287,11 +295,11 @@ pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *t,
     if (!found) continue;
     /* Insert the point of the minimum and the one of the other sign in order; the points that were
        there stay. */
-    pendres_arc_point more[2] = {found == 1 ? beyond : points[1], found == 1 ? points[1] : beyond};
+    pendres_curve_node more[2] = {found == 1 ? beyond : points[1], found == 1 ? points[1] : beyond};
     for (int m = 0; m < 2; m++) {
       size_t at = i - 1;
-      while (at < t->count && t->point[at].arclength < more[m].arclength) at++;
-      if (at < t->count && t->point[at].arclength == more[m].arclength) continue;
+      while (at < t->nodes && t->node[at].arclength < more[m].arclength) at++;
+      if (at < t->nodes && t->node[at].arclength == more[m].arclength) continue;
       if (insert(t, at, &more[m]) != 0)
         return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
     }

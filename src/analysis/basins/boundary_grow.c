@@ -62,7 +62,7 @@ static pendres_status second_derivative(pendres_context *ctx,
     points[i][PENDRES_U_W] += (2 * i - 1) * h * e[1];
   }
   const pendres_status status = pendres_continuation_map_states(
-    ctx, closing->map, closing->steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
+    ctx, &closing->map, closing->steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
   for (int i = 0; i < 2 && status == PENDRES_OK; i++)
     for (int k = 0; k < 2; k++)
       sum += l[i] * (image[1].n[i][k] - image[0].n[i][k]) / (2.0 * h) * e[k];

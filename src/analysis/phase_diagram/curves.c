@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "base/grow.h"
-#include "continuation/families.h"
 #include "engine/context_internal.h"
+#include "continuation/sets.h"
 #include "continuation/units.h"
 #include "analysis/phase_diagram/line.h"
 

@@ -320,7 +320,7 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
   options = pendres_phase_options_inside(&d, options, &inside);
   out = pendres_door_out(&d, &pendres_dim_phase_point, n, out);
   PENDRES_DOOR_CALL(&d, phase_line(ctx, n, pendulums, options, out, branches));
-  if (branches != NULL) pendres_branches_leave(&d, *branches);
+  if (branches != NULL) pendres_curves_leave(&d, pendres_branches_set(*branches));
   return pendres_door_close(&d);
 }
 
@@ -479,9 +479,9 @@ pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
   options = pendres_phase_options_inside(&d, options, &inside);
   points = pendres_door_out(&d, &pendres_dim_phase_point, n, points);
   if (d.status == PENDRES_OK) {
-    pendres_branches_enter(&d, branches);
+    pendres_curves_enter(&d, pendres_branches_set(branches));
     PENDRES_DOOR_CALL(&d, phase_line_complete(ctx, n, curves, options, points, branches));
-    pendres_branches_leave(&d, branches);
+    pendres_curves_leave(&d, pendres_branches_set(branches));
   }
   return pendres_door_close(&d);
 }

@@ -1,15 +1,15 @@
 /*
- * families.h -- the curves that many bifurcations lie on, found in parts that know
- * nothing of each other.
+ * sets.h -- sets of branches and of curves, and the curves that many bifurcations lie on, found in
+ * parts that know nothing of each other.
  *
  * Owns: which bifurcations can lie on one curve, so that all others can be left to other threads;
  * how what these find is put together. The curves are those that pendres_curves_extend() finds, in
  * its order.
  */
-#ifndef PENDRES_CONTINUATION_FAMILIES_H
-#define PENDRES_CONTINUATION_FAMILIES_H
+#ifndef PENDRES_SETS_H
+#define PENDRES_SETS_H
 
-#include <pendres/continuation.h>
+#include "continuation/curve.h"
 
 /* 0 where two bifurcations are of one family: none lies on a curve of another family. Otherwise
    below 0 where the curves of the first one's family cost more, as those of long orbits do; an

@@ -1,0 +1,270 @@
+/* crossed.c -- where branches and curves take a value of a parameter; see continuation.h. */
+#include "continuation/branch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/turns.h"
+#include "continuation/parameter.h"
+#include "continuation/units.h"
+#include "engine/context_internal.h"
+#include "model/model.h"
+
+/* Chords of a curve's points. */
+static size_t chords_of(const pendres_curve *c)
+{
+  return c->count < 2 ? 0 : pendres_curve_closed(c) ? c->count : c->count - 1;
+}
+
+/* ---- branches ---- */
+
+double pendres_branch_value(const pendres_curve *b, size_t i)
+{
+  return pendres_parameter_get(pendres_curve_parameter(b, 0), &b->branch_point[i].orbit.pendulum);
+}
+
+/* The Poincaré point on a chord, between whose ends x may differ by whole turns. */
+static pendres_orbit_guess between(const pendres_curve *b, size_t i, size_t k, double part,
+                                   double value)
+{
+  const pendres_orbit *p = &b->branch_point[i].orbit, *q = &b->branch_point[k].orbit;
+  const double dx = pendres_less_turns(q->x - p->x, pendres_model_turn(&p->pendulum));
+  return (pendres_orbit_guess){
+    .pendulum = pendres_parameter_with(&p->pendulum, pendres_curve_parameter(b, 0), value),
+    .x = p->x + part * dx,
+    .v = p->v + part * (q->v - p->v),
+    .period = p->period,
+    .winding = p->winding};
+}
+
+static pendres_status branch_cross(pendres_context *ctx, const pendres_curve *b, double value,
+                                   size_t room, pendres_orbit *out, size_t *found)
+{
+  if (b == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "branch, out and found");
+  if (!isfinite(value))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
+  *found = 0;
+  const int closed = pendres_curve_closed(b);
+  const size_t chords = chords_of(b);
+  pendres_orbit_guess *guess = calloc(chords + 1, sizeof *guess);
+  pendres_orbit *orbit = malloc((chords + 1) * sizeof *orbit);
+  pendres_status *outcome = malloc((chords + 1) * sizeof *outcome);
+  pendres_status status = PENDRES_OK;
+  size_t n = 0;
+  if (guess == NULL || orbit == NULL || outcome == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+    goto done;
+  }
+  for (size_t i = 0; i < chords; i++) {
+    const size_t k = (i + 1) % b->count;
+    const double from = pendres_branch_value(b, i) - value, to = pendres_branch_value(b, k) - value;
+    /* A value that a point has exactly belongs to the chord that begins there. */
+    if (from == 0.0 || from * to < 0.0)
+      guess[n++] = between(b, i, k, from == 0.0 ? 0.0 : from / (from - to), value);
+    else if (to == 0.0 && k == b->count - 1 && !closed)
+      guess[n++] = between(b, i, k, 1.0, value);
+  }
+  status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (outcome[i] == PENDRES_NOT_CONVERGED) continue;
+    if (*found < room) out[*found] = orbit[i];
+    ++*found;
+  }
+done:
+  free(guess);
+  free(orbit);
+  free(outcome);
+  return status;
+}
+
+pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
+                                    size_t room, pendres_orbit *out, size_t *found)
+{
+  pendres_door d;
+  const pendres_curve *inside = pendres_curve_open(&d, ctx, b != NULL ? &b->curve : NULL);
+  pendres_orbit *orbit = pendres_door_out(&d, &pendres_dim_orbit, room, out);
+  PENDRES_DOOR_CALL(&d, branch_cross(ctx, inside, value / d.scales.first, room, orbit, found));
+  return pendres_door_close(&d);
+}
+
+/*
+ * ---- curves of bifurcations ----
+ *
+ * Between two of its points a curve is taken for the cubic through four: the parameter may turn
+ * back between them, and take the value twice or three times.
+ */
+
+enum { NODES = 4, ROOTS = 3, PARTS = 16, SAMPLES = 2 * PARTS, BISECTIONS = 40 };
+
+/* Points around a chord, which goes from t = 0 to its length. */
+typedef struct stencil {
+  int nodes;
+  double t[NODES]; /* distance along the points, scaled as arclength */
+  double u[NODES][PENDRES_U_COUNT];
+  double length;
+} stencil;
+
+/* Point number k of a curve, moved by whole turns next to the point at hand. */
+static void next_to(const pendres_curve *c, size_t k, const double here[PENDRES_U_COUNT],
+                    double u[PENDRES_U_COUNT])
+{
+  const pendres_continuation_map *map = &c->kind.system.map;
+  const double turn = map->mirror ? 0.0 : pendres_model_of(map->force)->period;
+  memcpy(u, c->u[k], PENDRES_U_COUNT * sizeof *u);
+  if (turn > 0.0) u[PENDRES_U_Y] -= turn * rint((u[PENDRES_U_Y] - here[PENDRES_U_Y]) / turn);
+}
+
+/* A third and a fourth node: the first points beyond the chord that are not too close to it. */
+static void add_beyond(stencil *s, const pendres_curve *c, size_t from, size_t other, int side)
+{
+  double away = 0.0, here[PENDRES_U_COUNT], beyond[PENDRES_U_COUNT];
+  size_t at = from;
+  memcpy(here, s->u[side < 0 ? 0 : 1], sizeof here);
+  while (away < 0.2 * s->length) {
+    if ((side < 0 ? at == 0 : at + 1 == c->count) && !pendres_curve_closed(c)) return;
+    at = (at + (side < 0 ? c->count - 1 : 1)) % c->count;
+    if (at == other) return;
+    next_to(c, at, here, beyond);
+    away += pendres_arc_distance(here, beyond);
+    memcpy(here, beyond, sizeof here);
+  }
+  memcpy(s->u[s->nodes], here, sizeof here);
+  s->t[s->nodes++] = side < 0 ? -away : s->length + away;
+}
+
+/* The chord from point i to the next (after the last one the first, if closed). */
+static stencil stencil_of(const pendres_curve *c, size_t i)
+{
+  const size_t k = (i + 1) % c->count;
+  stencil s = {.nodes = 2};
+  memcpy(s.u[0], c->u[i], sizeof s.u[0]);
+  next_to(c, k, s.u[0], s.u[1]);
+  s.length = s.t[1] = pendres_arc_distance(s.u[0], s.u[1]);
+  add_beyond(&s, c, i, k, -1);
+  add_beyond(&s, c, k, i, 1);
+  return s;
+}
+
+static void point_at(const stencil *s, double t, double u[PENDRES_U_COUNT])
+{
+  memset(u, 0, PENDRES_U_COUNT * sizeof *u);
+  for (int i = 0; i < s->nodes; i++) {
+    double weight = 1.0;
+    for (int k = 0; k < s->nodes; k++)
+      if (k != i) weight *= (t - s->t[k]) / (s->t[i] - s->t[k]);
+    for (int m = 0; m < PENDRES_U_COUNT; m++) u[m] += weight * s->u[i][m];
+  }
+}
+
+static double off(const stencil *s, int place, double value, double t)
+{
+  double u[PENDRES_U_COUNT];
+  point_at(s, t, u);
+  return u[place] - value;
+}
+
+/* Samples along the chord, and vertices of parabolas through three: no pair of roots is lost. */
+static int sample(const stencil *s, int place, double value, double t[SAMPLES], double g[SAMPLES])
+{
+  const double h = s->length / PARTS;
+  double even[PARTS + 1];
+  int n = 0;
+  for (int j = 1; j < PARTS; j++) even[j] = off(s, place, value, j * h);
+  /* The ends are the curve's own points to the last digit, so that neighbouring chords agree. */
+  even[0] = s->u[0][place] - value;
+  even[PARTS] = s->u[1][place] - value;
+  for (int j = 0; j <= PARTS; j++) {
+    const double bend = j % PARTS == 0 ? 0.0 : even[j + 1] - 2.0 * even[j] + even[j - 1];
+    const double vertex = bend != 0.0 ? 0.5 * (even[j - 1] - even[j + 1]) / bend : 0.0;
+    if (vertex < 0.0 && vertex > -0.5) {
+      t[n] = (j + vertex) * h;
+      g[n] = off(s, place, value, t[n]);
+      n++;
+    }
+    t[n] = j * h;
+    g[n++] = even[j];
+    if (vertex > 0.0 && vertex <= 0.5) {
+      t[n] = (j + vertex) * h;
+      g[n] = off(s, place, value, t[n]);
+      n++;
+    }
+  }
+  return n;
+}
+
+/* Find where 0 <= t < length (<= if `last`) and coordinate `place` has a value; returns their
+   number. */
+static int roots_of(const stencil *s, int place, double value, int last, double t[ROOTS])
+{
+  double at[SAMPLES], g[SAMPLES];
+  const int n = sample(s, place, value, at, g);
+  int found = 0;
+  for (int j = 0; j + 1 < n && found < ROOTS; j++) {
+    double low = at[j], high = at[j + 1];
+    if (g[j] != 0.0 && !(g[j] * g[j + 1] < 0.0)) continue;
+    for (int b = 0; b < BISECTIONS && g[j] != 0.0; b++) {
+      const double middle = 0.5 * (low + high);
+      if (off(s, place, value, middle) * g[j] > 0.0) low = middle;
+      else high = middle;
+    }
+    t[found++] = g[j] == 0.0 ? low : 0.5 * (low + high);
+  }
+  if (last && g[n - 1] == 0.0 && found < ROOTS) t[found++] = s->length;
+  return found;
+}
+
+static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
+                                  size_t room, pendres_bifurcation *out, size_t *found)
+{
+  if (c == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "curve, out and found");
+  if (!isfinite(value))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
+  *found = 0;
+  const pendres_continuation_condition condition = c->kind.system.condition;
+  const int second = c->kind.system.unknown[3];
+  double guess[PENDRES_U_COUNT], last_guess[PENDRES_U_COUNT], last[PENDRES_U_COUNT];
+  for (size_t i = 0; i < chords_of(c); i++) {
+    double t[ROOTS];
+    const stencil s = stencil_of(c, i);
+    const int is_last = !pendres_curve_closed(c) && i + 2 == c->count;
+    const int roots = roots_of(&s, second, value, is_last, t);
+    for (int r = 0; r < roots; r++) {
+      pendres_located located;
+      point_at(&s, t[r], guess);
+      /* What stays as it is along the curve does so to the last bit. */
+      for (int k = PENDRES_U_OMEGA; k < PENDRES_U_COUNT; k++)
+        if (k != c->kind.system.unknown[2]) guess[k] = k == second ? value : c->u[i][k];
+      pendres_status status =
+        pendres_curve_locate(ctx, &c->kind, condition, guess, 2.0 * s.length + 1e-3, &located);
+      if (status == PENDRES_NOT_CONVERGED) continue;
+      if (!pendres_located_found(status)) return status;
+      /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
+      const int again = *found > 0 &&
+                        pendres_arc_distance(located.pair.fine, last) <
+                          0.1 * pendres_arc_distance(guess, last_guess);
+      memcpy(last_guess, guess, sizeof last_guess);
+      memcpy(last, located.pair.fine, sizeof last);
+      if (again) continue;
+      if (*found < room) {
+        status = pendres_continuation_locate_finish(ctx, condition, pendres_curve_parameter(c, 0),
+                                                    &located, &out[*found]);
+        if (status != PENDRES_OK) return status;
+      }
+      ++*found;
+    }
+  }
+  return PENDRES_OK;
+}
+
+pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
+                                   size_t room, pendres_bifurcation *out, size_t *found)
+{
+  pendres_door d;
+  const pendres_curve *inside = pendres_curve_open(&d, ctx, c);
+  pendres_bifurcation *b = pendres_door_out(&d, &pendres_dim_bifurcation, room, out);
+  PENDRES_DOOR_CALL(&d, curve_cross(ctx, inside, value / d.scales.second, room, b, found));
+  return pendres_door_close(&d);
+}

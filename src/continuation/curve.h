@@ -1,0 +1,227 @@
+/*
+ * curve.h -- a curve of solutions: of orbits in one parameter, which is a branch, or of
+ * bifurcations in two.
+ *
+ * Owns: following curves both ways from a start, within bounds; correcting their nodes to the
+ * tolerance; the special points on them, where test functions change their sign: bifurcations of a
+ * branch, cusps of a curve of folds.
+ */
+#ifndef PENDRES_CURVE_H
+#define PENDRES_CURVE_H
+
+#include "continuation/follow.h"
+#include "continuation/locate.h"
+
+/* Where a test function is thought to vanish: between nodes i and i + 1 (or the first, if closed),
+   this share of the way. */
+typedef struct pendres_curve_zero {
+  size_t i;
+  double part;
+  int half; /* of a birth: the number of the half map whose orbits the branch was born from */
+} pendres_curve_zero;
+
+/* A bifurcation or a cusp, and where on the curve it lies. */
+typedef struct pendres_curve_special {
+  pendres_curve_zero at;
+  pendres_continuation_condition condition;
+  pendres_located located;
+} pendres_curve_special;
+
+/* A point: a node, or the special one of this number that follows upon it (-1: none). */
+typedef struct pendres_curve_place {
+  size_t i;
+  int special;
+  double arclength; /* from the first node */
+} pendres_curve_place;
+
+/* One way along a curve from its start. */
+typedef struct pendres_curve_way {
+  pendres_follower at;
+  int taken, going; /* of the follower's nodes ahead; whether there may be more */
+  size_t count, capacity;
+  pendres_curve_node start, *node; /* outwards, without the start */
+  pendres_branch_end end;
+} pendres_curve_way;
+
+struct pendres_curve {
+  pendres_followed kind;
+  pendres_branch_end end[2];
+  size_t start; /* in a set: the number of the bifurcation that it was followed from */
+  size_t count, specials; /* points, special ones included */
+  /* What callers see, in their units. Of a branch: */
+  pendres_branch_point *branch_point;
+  pendres_bifurcation *bifurcation;
+  /* Of a curve of bifurcations, and where its points are: */
+  pendres_curve_point *point;
+  pendres_cusp *cusp;
+  double (*u)[PENDRES_U_COUNT];
+  /* What has been found on the way there, until pendres_curve_forget(). */
+  pendres_curve_way *way; /* [2] */
+  size_t nodes, capacity, room;
+  pendres_curve_node *node; /* in order, arclength ascending from 0 */
+  double round; /* closed: the last node is followed by the first, whose y is meant to be so much
+                   larger: whole turns, where the way round leads from well to well */
+  pendres_curve_special *special;
+  pendres_curve_place *place; /* [count] all points, in order */
+  /* For each node: what it was corrected to, its orbit, and the errors of its parameters. */
+  pendres_continuation_pair *pair;
+  pendres_orbit *orbit;
+  double (*error)[2];
+};
+
+/* A branch is a curve of orbits. */
+struct pendres_branch {
+  pendres_curve curve;
+};
+
+static inline pendres_branch *pendres_branch_of(pendres_curve *orbits)
+{
+  return (pendres_branch *)orbits;
+}
+
+/* Sets of curves, and of branches. */
+struct pendres_curves {
+  size_t count, capacity, skipped;
+  pendres_curve **curve;
+};
+
+struct pendres_branches {
+  pendres_curves set;
+};
+
+static inline pendres_branches *pendres_branches_of(pendres_curves *set)
+{
+  return (pendres_branches *)set;
+}
+
+/* NULL: none. */
+static inline pendres_curves *pendres_branches_set(pendres_branches *branches)
+{
+  return branches != NULL ? &branches->set : NULL;
+}
+
+static inline int pendres_curve_is_branch(const pendres_curve *c)
+{
+  return c->kind.system.condition == PENDRES_CONDITION_NONE;
+}
+
+static inline int pendres_curve_closed(const pendres_curve *c)
+{
+  return c->end[0] == PENDRES_END_CLOSED;
+}
+
+/* ---- following ---- */
+
+/* A solution to start from, and the curve that it lies on. */
+typedef struct pendres_curve_start {
+  pendres_followed kind;
+  double u[PENDRES_U_COUNT];
+} pendres_curve_start;
+
+/* Bounds of the parameters among the unknowns, in their order, and of the way. */
+typedef struct pendres_curve_bounds {
+  double low[2], high[2];
+  double wildest;
+  size_t most_points; /* each way */
+} pendres_curve_bounds;
+
+/* What is made of a curve whose nodes have been found: its special points, and what callers see. */
+typedef pendres_status pendres_curve_finisher(pendres_context *ctx, pendres_curve *curve);
+
+/* Begin n curves, follow them, finish each, and forget its nodes. On failure all of out[n] are
+   NULL. */
+pendres_status pendres_curves_make(pendres_context *ctx, size_t n,
+                                   const pendres_curve_start *starts,
+                                   const pendres_curve_bounds *bounds,
+                                   pendres_curve_finisher *finish, pendres_curve **out);
+
+/* The same step by step. An empty curve, to be freed whether this succeeds or not; */
+pendres_status pendres_curve_begin(pendres_context *ctx, const pendres_curve_start *start,
+                                   pendres_curve *curve);
+/* go on with n curves that have ended by the number of points alone, or not begun to; */
+pendres_status pendres_curve_extend(pendres_context *ctx, size_t n, pendres_curve *const *curves,
+                                    const pendres_curve_bounds *bounds);
+/* and free what callers do not see of it. */
+void pendres_curve_forget(pendres_curve *curve);
+
+/* The curve of bifurcations in two parameters that one lies on, and its place there. */
+pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_parameter second,
+                                         double spacing, double u[PENDRES_U_COUNT]);
+
+/* ---- special points ---- */
+
+/*
+ * What is looked for on a curve: where the zeros of a function of its nodes are, or what else finds
+ * them, and a way to locate what one stands for, near u: `out` has its place already.
+ * PENDRES_NOT_CONVERGED: it was no zero.
+ */
+enum { PENDRES_CURVE_ZEROS = 256 /* at most, of one function */ };
+typedef double pendres_curve_function(const pendres_curve_node *node);
+typedef struct pendres_curve_test {
+  pendres_curve_function *function;
+  int refine; /* whether it may touch 0, or have two zeros between nodes: these are added then */
+  pendres_status (*find)(pendres_context *ctx, const pendres_curve *curve,
+                         pendres_curve_zero zeros[PENDRES_CURVE_ZEROS], size_t *count);
+  pendres_status (*locate)(pendres_context *ctx, const pendres_curve *curve,
+                           const double u[PENDRES_U_COUNT], double reach,
+                           pendres_curve_special *out);
+} pendres_curve_test;
+
+/* Find the special points of a curve by n tests, one after another, each point once. */
+pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *curve, size_t n,
+                                           const pendres_curve_test *tests);
+
+/* Solve for a condition near u, on the curve's map. As pendres_continuation_locate(). */
+pendres_status pendres_curve_locate(pendres_context *ctx, const pendres_followed *kind,
+                                    pendres_continuation_condition condition,
+                                    const double u[PENDRES_U_COUNT], double reach,
+                                    pendres_located *out);
+
+/* Where a branch passes branch points, or places where branches come so close that its nodes have
+   led from one to another, in order. Births are among them. */
+pendres_status pendres_curve_find_crossings(pendres_context *ctx, const pendres_curve *curve,
+                                            pendres_curve_zero zeros[PENDRES_CURVE_ZEROS],
+                                            size_t *count);
+
+/* Where a branch that keeps apart from orbits that close by a half map passes one: the orbit was
+   born there, and beyond it is its own image. In order. */
+pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_curve *curve,
+                                         pendres_curve_zero zeros[PENDRES_CURVE_ZEROS],
+                                         size_t *count);
+
+/* Add nodes where a function comes close to 0 without changing its sign from one to the next, until
+   it does or is known not to: two folds may be close together. */
+pendres_status pendres_curve_refine(pendres_context *ctx, pendres_curve *curve,
+                                    pendres_curve_function *function);
+
+/* Find the zeros of a function, in order; returns their number. A minimum of about 0 counts as one:
+   where a branch is born from another the determinant touches 0. */
+size_t pendres_curve_zeros(const pendres_curve *curve, pendres_curve_function *function,
+                           pendres_curve_zero zeros[PENDRES_CURVE_ZEROS]);
+
+/* The point at a zero, by linear interpolation, and the length of the chord. */
+double pendres_curve_between(const pendres_curve *curve, const pendres_curve_zero *zero,
+                             double u[PENDRES_U_COUNT]);
+
+/* ---- to the tolerance ---- */
+
+/*
+ * Correct n nodes of these numbers (NULL: the first n) at coarse and fine steps so that errors come
+ * down to the tolerance where they can: sets their pairs, and the errors of their unknown
+ * parameters, error[i][0..1]. Each stays in the plane across its tangent.
+ */
+pendres_status pendres_curve_polish(pendres_context *ctx, pendres_curve *curve, size_t n,
+                                    const size_t *index);
+
+/* Measure the orbits of all nodes, and list all points in order. */
+pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *curve);
+
+/*
+ * The same for a branch that is only to lead on: its nodes are left where the follower found them,
+ * with errors of its tolerance, but for those next to special points. Of an orbit there are the
+ * state, period, winding, multipliers and stability, which agree with the signs of test functions;
+ * measures and errors are NaN.
+ */
+pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *curve);
+
+#endif

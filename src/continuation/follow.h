@@ -1,0 +1,121 @@
+/*
+ * follow.h -- the one follower: along a curve of solutions by pseudo-arclength.
+ *
+ * Owns: predictor, corrector and step length. A follower is on its way along a curve, whatever the
+ * curve's equations are: it predicts several points ahead of its place at once, in lanes side by
+ * side, corrects all of them by Newton's method, and keeps those that converged and lie in order;
+ * several followers share the same blocks. What one finds depends on itself alone.
+ *
+ * Source: Keller, in Applications of Bifurcation Theory (1977); Kuznetsov, section 10.2.
+ */
+#ifndef PENDRES_FOLLOW_H
+#define PENDRES_FOLLOW_H
+
+#include <pendres/continuation.h>
+
+#include "continuation/equations.h"
+
+enum { PENDRES_AHEAD = 8 };
+
+/* What is followed, and how finely. */
+typedef struct pendres_followed {
+  pendres_continuation_system system; /* one unknown more than equations; steps are chosen on the
+                                         way */
+  double tolerance; /* the error of a period that steps are chosen for */
+  double spacing;   /* the largest spacing of points, in scaled arclength */
+  int apart; /* found where a follower begins. Bit k: off the orbits that already close by half map
+                number k, and stays off them: where its branch meets the one that it was born from,
+                it stays on its own */
+} pendres_followed;
+
+/* A place on a curve. */
+typedef struct pendres_curve_node {
+  double u[PENDRES_U_COUNT];
+  double tangent[PENDRES_UNKNOWNS]; /* unit vector of the scaled unknowns */
+  int held; /* 1 + the number of an unknown that corrections leave as it is; 0: none */
+  double arclength; /* from where the follower began, of the scaled unknowns */
+  pendres_continuation_image image;
+  double growth;  /* how sensitive the equations are here; curves end where it is too large */
+  double null[2]; /* of folds: the null vector of N - I, its sign kept along the curve, */
+  double bending; /* and the derivative of det(N - I) along it, whose zero is a cusp */
+} pendres_curve_node;
+
+typedef struct pendres_follower {
+  pendres_followed kind;
+  int stuck;
+  double step; /* spacing of the points ahead */
+  pendres_curve_node here;
+  double bend[PENDRES_UNKNOWNS]; /* derivative of the tangent by arclength */
+  pendres_curve_node ahead[PENDRES_AHEAD]; /* what the latest advance found, in order */
+  int found;
+} pendres_follower;
+
+/*
+ * The curve of orbits (PENDRES_CONDITION_NONE: of one parameter) or of bifurcations (of two) that
+ * an orbit lies on, and its place there.
+ */
+pendres_followed pendres_followed_of(const pendres_orbit *orbit,
+                                         pendres_continuation_condition condition,
+                                         const pendres_parameter *parameter, double spacing,
+                                         double u[PENDRES_U_COUNT]);
+
+/*
+ * Begin at u, corrected to the curve across its tangent, towards growing (direction > 0) or
+ * falling values of the last unknown; where that stands still, the two directions are opposite.
+ * PENDRES_NOT_CONVERGED if there is no curve at u.
+ */
+pendres_status pendres_follow_begin(pendres_context *ctx, const pendres_followed *kind,
+                                    const double u[PENDRES_U_COUNT], double direction,
+                                    pendres_follower *out);
+
+/* Advance n followers; each ends with its `ahead` filled, or stuck. Stuck ones are left alone. */
+pendres_status pendres_follow_advance(pendres_context *ctx, size_t n,
+                                      pendres_follower *const *followers);
+
+/* A point that is to be corrected, and what becomes of it. */
+typedef struct pendres_correction {
+  const pendres_followed *kind;
+  double tangent[PENDRES_UNKNOWNS]; /* the point stays in the plane across it */
+  int steps;                        /* a period */
+  double u[PENDRES_U_COUNT];        /* where it is; replaced */
+  /* The corrector's own: */
+  enum { PENDRES_CORRECTION_ACTIVE, PENDRES_CORRECTION_CONVERGED, PENDRES_CORRECTION_FAILED } state;
+  int waiting;
+  pendres_continuation_equations at;
+} pendres_correction;
+
+/* Correct n points. One fails, too, that converges to orbits that its kind keeps apart from. */
+pendres_status pendres_follow_correct(pendres_context *ctx, size_t n, pendres_correction *points);
+
+/* The error of the scaled unknowns of a corrected point by rounding; NaN where that failed. */
+double pendres_correction_rounding(const pendres_correction *point);
+
+/* What a node is beside its place: image, growth, tangent, and null vector and bending with the
+   sign of the null vector that the node has already. */
+pendres_status pendres_follow_describe(pendres_context *ctx, const pendres_followed *kind,
+                                       int steps, pendres_curve_node *node);
+
+/*
+ * Something on a curve: a function of its nodes that changes its sign there, and what follows from
+ * two nodes between which it does and a place u between them.
+ */
+typedef struct pendres_search {
+  const char *start; /* what the curve is of: "orbit" */
+  double (*value)(const pendres_curve_node *start, const pendres_curve_node *node);
+  /* PENDRES_NOT_CONVERGED: it is not there, and the search goes on; PENDRES_NOT_FOUND: the other
+     way is tried. */
+  pendres_status (*locate)(pendres_context *ctx, const pendres_followed *kind,
+                           const pendres_curve_node nodes[2], const double u[PENDRES_U_COUNT],
+                           void *out);
+} pendres_search;
+
+/*
+ * Search along a curve from u on: first towards growing values of the last unknown (first > 0), or
+ * falling ones (< 0), or in the direction in which the function comes closer to 0; then the other
+ * way. PENDRES_NOT_FOUND, without a message, if it is not within a range of parameters.
+ */
+pendres_status pendres_follow_search(pendres_context *ctx, const pendres_followed *kind,
+                                     const double u[PENDRES_U_COUNT], const pendres_search *search,
+                                     double first, void *out);
+
+#endif

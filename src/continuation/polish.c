@@ -1,0 +1,261 @@
+/* polish.c -- the nodes of a curve to the tolerance, and its points in order; see curve.h. */
+#include "continuation/curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/angles.h"
+#include "engine/accuracy.h"
+#include "engine/context_internal.h"
+#include "engine/coordinates.h"
+#include "engine/steps.h"
+#include "orbits/attractor_set.h"
+#include "orbits/orbit_measure.h"
+
+/*
+ * The two computations of a point of a branch differ in the parameter as well. What an orbit at one
+ * value of it is known to is their distance there: the coarser is moved along the branch. Next to a
+ * fold that would lead around it: there a parameter that is off by so much moves the orbit by the
+ * root of it.
+ */
+static void to_one_parameter(const pendres_continuation_system *s, const pendres_curve_node *at,
+                             pendres_continuation_pair *pair)
+{
+  const int place = s->unknown[2];
+  const double along = at->tangent[2];
+  const double scale = pendres_arc_scale(place, pair->fine[place]);
+  const double off = (pair->fine[place] - pair->coarse[place]) / scale;
+  if (!(fabs(off) < 0.05 * along * along)) {
+    pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
+    return;
+  }
+  for (int k = 0; k < s->unknowns; k++)
+    pair->coarse[s->unknown[k]] +=
+      pendres_arc_scale(s->unknown[k], pair->fine[s->unknown[k]]) * at->tangent[k] * off / along;
+  pair->coarse[place] = pair->fine[place];
+  pair->rounding /= fmax(fabs(along), 1e-3);
+}
+
+/* Nodes that are still to be made more exact: their numbers, and what their correction needs. */
+typedef struct polish {
+  size_t left, *index;
+  pendres_correction *point;
+} polish;
+
+static pendres_status begin(pendres_context *ctx, pendres_curve *c, const size_t *index, polish *p)
+{
+  const pendres_followed *kind = &c->kind;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < p->left && status == PENDRES_OK; k++) {
+    const size_t i = p->index[k] = index != NULL ? index[k] : k;
+    c->pair[i] = (pendres_continuation_pair){
+      .map = kind->system.map, .critical = kind->system.condition != PENDRES_CONDITION_NONE};
+    memcpy(c->pair[i].coarse, c->node[i].u, sizeof c->pair[i].coarse);
+    status = pendres_continuation_map_steps(ctx, kind->system.map.force, c->node[i].u,
+                                            pendres_accuracy_first(ctx), &c->pair[i].coarse_steps);
+  }
+  return status;
+}
+
+/* Correct all nodes that are left, with the coarser number of steps or with the finer one. */
+static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish *w, int fine)
+{
+  enum { CHUNK = 1024 };
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < w->left; i++) {
+    pendres_continuation_pair *p = &curve->pair[w->index[i]];
+    const pendres_curve_node *at = &curve->node[w->index[i]];
+    pendres_correction *c = &w->point[i];
+    c->kind = &curve->kind;
+    memcpy(c->tangent, at->tangent, sizeof c->tangent);
+    if (at->held > 0) {
+      memset(c->tangent, 0, sizeof c->tangent);
+      c->tangent[at->held - 1] = 1.0;
+    }
+    if (fine) {
+      p->fine_steps = pendres_steps_rung((int)ceil(1.4 * p->coarse_steps));
+      p->fine_steps += p->fine_steps % 2;
+    }
+    c->steps = fine ? p->fine_steps : p->coarse_steps;
+    memcpy(c->u, p->coarse, sizeof c->u);
+  }
+  for (size_t first = 0; first < w->left && status == PENDRES_OK; first += CHUNK)
+    status = pendres_follow_correct(ctx, w->left - first < CHUNK ? w->left - first : CHUNK,
+                                    w->point + first);
+  for (size_t i = 0; i < w->left && status == PENDRES_OK; i++) {
+    pendres_continuation_pair *p = &curve->pair[w->index[i]];
+    /* A node that cannot be corrected stays where the follower left it, with an error that says
+       so. */
+    const double rounding = pendres_correction_rounding(&w->point[i]);
+    memcpy(fine ? p->fine : p->coarse, w->point[i].u, sizeof p->fine);
+    p->rounding = isnan(rounding) ? curve->kind.tolerance : rounding;
+  }
+  return status;
+}
+
+/* Whether node i of a branch is in the plane across the branch, and not at a given parameter. */
+static int across(const pendres_curve *c, size_t i)
+{
+  return c->nodes > 1 && c->node[i].held == 0;
+}
+
+/* Errors of the parameters of node i; returns the largest error of all, as tolerances have it. */
+static double errors_at(const pendres_curve *c, size_t i, double error[2])
+{
+  const pendres_continuation_system *s = &c->kind.system;
+  const pendres_continuation_pair *p = &c->pair[i];
+  const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
+                             p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
+  /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
+  const double turning = across(c, i) ? fmax(fabs(c->node[i].tangent[2]), 1e-3) : 1.0;
+  double worst = 0.0;
+  for (int k = 0; k < s->unknowns; k++) {
+    const int place = s->unknown[k];
+    /* Two values of a parameter may agree by chance: it is not known better than the point is. */
+    const double e = pendres_continuation_orbit_error(
+      p->coarse[place], p->fine[place],
+      pendres_arc_scale(place, p->fine[place]) * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
+    if (k >= 2) error[k - 2] = e;
+    worst = fmax(worst, k == 2 && s->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
+  }
+  return worst;
+}
+
+/* Keep the nodes whose errors exceed the tolerance for another try, if there is to be one. */
+static void keep_inexact(const pendres_options *options, int last, pendres_curve *c, polish *w)
+{
+  size_t again = 0;
+  for (size_t k = 0; k < w->left; k++) {
+    const size_t i = w->index[k];
+    const double worst = errors_at(c, i, c->error[i]);
+    if (!(worst > options->tolerance) || last || options->steps_per_period != 0) continue;
+    c->pair[i].coarse_steps = c->pair[i].fine_steps;
+    memcpy(c->pair[i].coarse, c->pair[i].fine, sizeof c->pair[i].coarse);
+    w->index[again++] = i;
+  }
+  w->left = again;
+}
+
+pendres_status pendres_curve_polish(pendres_context *ctx, pendres_curve *c, size_t n,
+                                    const size_t *index)
+{
+  enum { MOST_TRIES = 4 };
+  polish w = {.left = n, .index = malloc((n + 1) * sizeof *w.index),
+              .point = calloc(n + 1, sizeof *w.point)};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (w.index == NULL || w.point == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for a branch");
+  else
+    status = begin(ctx, c, index, &w);
+  for (int attempt = 0; attempt < MOST_TRIES && w.left > 0 && status == PENDRES_OK; attempt++) {
+    status = correct(ctx, c, &w, 0);
+    if (status == PENDRES_OK) status = correct(ctx, c, &w, 1);
+    if (status == PENDRES_OK) keep_inexact(&ctx->options, attempt + 1 == MOST_TRIES, c, &w);
+  }
+  for (size_t k = 0; k < n && status == PENDRES_OK && c->kind.system.unknowns == 3; k++) {
+    const size_t i = index != NULL ? index[k] : k;
+    if (across(c, i)) to_one_parameter(&c->kind.system, &c->node[i], &c->pair[i]);
+  }
+  free(w.index);
+  free(w.point);
+  return status;
+}
+
+/* ---- all points ---- */
+
+static pendres_status make_room(pendres_context *ctx, pendres_curve *c)
+{
+  const size_t n = c->nodes + 1;
+  c->pair = malloc(n * sizeof *c->pair);
+  c->orbit = malloc(n * sizeof *c->orbit);
+  c->error = malloc(n * sizeof *c->error);
+  c->place = malloc((n + c->specials) * sizeof *c->place);
+  if (c->pair == NULL || c->orbit == NULL || c->error == NULL || c->place == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+  return PENDRES_OK;
+}
+
+static void list_points(pendres_curve *c)
+{
+  size_t k = 0;
+  c->count = 0;
+  for (size_t i = 0; i < c->nodes; i++) {
+    const double at = c->node[i].arclength;
+    c->place[c->count++] = (pendres_curve_place){.i = i, .special = -1, .arclength = at};
+    for (; k < c->specials && c->special[k].at.i == i; k++) {
+      double u[PENDRES_U_COUNT];
+      const double chord = pendres_curve_between(c, &c->special[k].at, u);
+      c->place[c->count++] = (pendres_curve_place){
+        .i = i, .special = (int)k, .arclength = at + c->special[k].at.part * chord};
+    }
+  }
+}
+
+pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *c)
+{
+  pendres_status status = make_room(ctx, c);
+  if (status == PENDRES_OK) status = pendres_curve_polish(ctx, c, c->nodes, NULL);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_orbit_measure(ctx, c->nodes, c->pair, c->orbit);
+  if (status == PENDRES_OK) list_points(c);
+  return status;
+}
+
+/* ---- outlines ---- */
+
+/* The special points stand behind nodes: polish these and the next ones, so that nodes and special
+   points are in the order of the parameter, too. */
+static pendres_status polish_neighbours(pendres_context *ctx, pendres_curve *c)
+{
+  size_t *index = malloc((2 * c->specials + 1) * sizeof *index), n = 0;
+  if (index == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  for (size_t k = 0; k < c->specials; k++)
+    for (size_t i = c->special[k].at.i; i <= c->special[k].at.i + 1 && i < c->nodes; i++)
+      if (n == 0 || i > index[n - 1]) index[n++] = i;
+  const pendres_status status = pendres_curve_polish(ctx, c, n, index);
+  free(index);
+  return status;
+}
+
+/* The trace of the derivative over all of the orbit's period, from that of its map. */
+static double trace_of(const pendres_continuation_map *map, const pendres_continuation_image *image)
+{
+  const double trace = image->trace;
+  if (map->mirror == PENDRES_MIRROR_NONE) return trace;
+  /* Of rest the map is the strobe map itself, followed by a reflection. */
+  if (map->mirror == PENDRES_MIRROR_WHOLE && map->period == 1) return -trace;
+  return trace * trace - 2.0 * image->determinant;
+}
+
+static pendres_orbit outline_of(const pendres_continuation_pair *pair,
+                                const pendres_continuation_image *image)
+{
+  const double *u = pair->fine;
+  const pendres_pendulum p = pendres_continuation_map_pendulum(pair->map.force, u);
+  const pendres_coordinates place = {.y = u[PENDRES_U_Y], .w = u[PENDRES_U_W]};
+  const double time = two_pi * pair->map.period / p.drive_frequency;
+  pendres_orbit o = pendres_orbit_none(&p);
+  pendres_coordinates_out(&p, &place, &o.x, &o.v);
+  o.period = pair->map.period;
+  o.winding = pair->map.mirror ? 0 : pair->map.winding;
+  pendres_orbit_set_multipliers(trace_of(&pair->map, image), exp(-0.5 * p.damping * time), &o);
+  return o;
+}
+
+pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *c)
+{
+  pendres_status status = make_room(ctx, c);
+  for (size_t i = 0; i < c->nodes && status == PENDRES_OK; i++) {
+    c->pair[i] = (pendres_continuation_pair){.map = c->kind.system.map};
+    memcpy(c->pair[i].fine, c->node[i].u, sizeof c->pair[i].fine);
+    c->error[i][0] = c->error[i][1] = c->kind.tolerance;
+  }
+  if (status == PENDRES_OK) status = polish_neighbours(ctx, c);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < c->nodes; i++)
+    c->orbit[i] = outline_of(&c->pair[i], &c->node[i].image);
+  list_points(c);
+  return PENDRES_OK;
+}

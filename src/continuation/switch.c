@@ -1,0 +1,138 @@
+/* switch.c -- from a bifurcation onto the branch that crosses there; see continuation.h. */
+#include "continuation/branch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "continuation/parameter.h"
+#include "continuation/units.h"
+#include "engine/accuracy.h"
+#include "engine/context_internal.h"
+
+/* Correct a node of a kind of orbits to where they meet the plane across its tangent; *error
+   becomes that of the parameter. */
+static pendres_status meet_plane(pendres_context *ctx, const pendres_followed *kind,
+                                 pendres_curve_node *node, pendres_continuation_pair *pair,
+                                 double *error)
+{
+  double errors[1][2] = {{NAN, NAN}};
+  pendres_curve one = {.kind = *kind, .nodes = 1, .node = node, .pair = pair, .error = errors};
+  const pendres_status status = pendres_curve_polish(ctx, &one, 1, NULL);
+  *error = errors[0][0];
+  return status;
+}
+
+/* The other branch at a branch point, a little along its direction, one way or the other. It leaves
+   that direction with the square of the distance, the branch itself in proportion to it. */
+static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurcation *at,
+                                      pendres_orbit *out)
+{
+  static const double longest = 0.02, straight = 0.05;
+  enum { HALVINGS = 6 };
+  double u[PENDRES_U_COUNT], way[PENDRES_UNKNOWNS] = {0.0}, scale[3], length = 0.0;
+  const pendres_followed orbits =
+    pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
+  const int *unknown = orbits.system.unknown;
+  memcpy(way, at->crossing, sizeof at->crossing);
+  if (unknown[2] == PENDRES_U_OMEGA) way[1] -= u[PENDRES_U_W] * way[2];
+  way[1] /= u[PENDRES_U_OMEGA];
+  for (int k = 0; k < 3; k++) scale[k] = pendres_arc_scale(unknown[k], u[unknown[k]]);
+  for (int k = 0; k < 3; k++) way[k] /= scale[k];
+  for (int k = 0; k < 3; k++) length = hypot(length, way[k]);
+  for (int k = 0; k < 3; k++) way[k] /= length;
+  for (int halving = 0; halving < HALVINGS; halving++) {
+    const double away = ldexp(longest, -halving);
+    int found = 0;
+    for (int side = 1; side >= -1; side -= 2) {
+      pendres_orbit here;
+      pendres_curve_node node = {.arclength = 0.0};
+      pendres_continuation_pair pair;
+      double error;
+      memcpy(node.tangent, way, sizeof way);
+      memcpy(node.u, u, sizeof u);
+      for (int k = 0; k < 3; k++) node.u[unknown[k]] += side * away * way[k] * scale[k];
+      pendres_status status = meet_plane(ctx, &orbits, &node, &pair, &error);
+      if (status == PENDRES_NOT_CONVERGED) continue;
+      const int good = status == PENDRES_OK && error < 1e-6 &&
+                       pendres_arc_distance(pair.fine, node.u) <= straight * away;
+      if (good) status = pendres_continuation_orbit_measure(ctx, 1, &pair, &here);
+      if (status != PENDRES_OK) return status;
+      if (good && (!found || here.stable)) *out = here;
+      found += good;
+    }
+    if (found == 2) return PENDRES_OK;
+  }
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
+}
+
+static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                    pendres_orbit *out)
+{
+  if (at == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "bifurcation and out");
+  if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING &&
+      at->kind != PENDRES_BRANCH_POINT)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "no branch crosses at a bifurcation of this kind");
+  const char *why = pendres_continuation_refuses(&at->orbit, at->parameter);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
+  if (at->kind == PENDRES_BRANCH_POINT) return switch_crossing(ctx, at, out);
+  double u[PENDRES_U_COUNT];
+  pendres_continuation_image image;
+  int steps = 0;
+  pendres_followed twice =
+    pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
+  pendres_continuation_map *map = &twice.system.map;
+  if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(map);
+  const pendres_continuation_map once = *map;
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, map->force, u, pendres_accuracy_first(ctx), &steps);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_states(ctx, &once, steps, 1,
+                                             (const double (*)[PENDRES_U_COUNT])u, &image);
+  if (status != PENDRES_OK) return status;
+  /* The null vector of N + I: the way in which the doubled map's orbits leave. */
+  const double a = image.n[0][0] + 1.0, b = image.n[0][1], c = image.n[1][0],
+               d = image.n[1][1] + 1.0;
+  const int upper = hypot(a, b) > hypot(c, d);
+  const double length = upper ? hypot(a, b) : hypot(c, d);
+  const double v[2] = {(upper ? -b : -d) / length, (upper ? a : c) / length};
+
+  map->mirror = PENDRES_MIRROR_NONE;
+  map->period = once.mirror ? once.period : 2 * once.period;
+  map->winding = once.mirror ? 0 : 2 * once.winding;
+  /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time. */
+  const double reach = 0.02 * pow(once.period, -1.3);
+  static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0};
+  for (size_t k = 0; k < sizeof tries / sizeof *tries && reach * tries[k] < 0.5; k++) {
+    const double away = reach * tries[k];
+    pendres_curve_node node = {.tangent = {v[0], v[1], 0.0, 0.0}};
+    pendres_continuation_pair pair;
+    double error;
+    memcpy(node.u, u, sizeof node.u);
+    node.u[PENDRES_U_Y] += away * v[0];
+    node.u[PENDRES_U_W] += away * v[1];
+    status = meet_plane(ctx, &twice, &node, &pair, &error);
+    if (status != PENDRES_OK) return status;
+    if (error > 1e-6 || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
+    /* Keep away from the branch that it came from, which the plane meets as well. Orbits of the
+       other branch are on the far side after one map, and so twice as far away. */
+    status = pendres_continuation_map_states(ctx, &once, steps, 1,
+                                             (const double (*)[PENDRES_U_COUNT])pair.fine, &image);
+    if (status != PENDRES_OK) return status;
+    const double apart = hypot(image.f[0], image.f[1]);
+    if (!(apart > away && apart < 4.0 * away)) continue;
+    return pendres_continuation_orbit_measure(ctx, 1, &pair, out);
+  }
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
+}
+
+pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                     pendres_orbit *out)
+{
+  pendres_door d;
+  pendres_door_open(&d, ctx, at != NULL ? &at->orbit.pendulum : NULL);
+  const pendres_bifurcation *inside = pendres_bifurcations_inside(&d, 1, at);
+  pendres_orbit *orbit = pendres_door_out(&d, &pendres_dim_orbit, 1, out);
+  PENDRES_DOOR_CALL(&d, branch_switch(ctx, inside, orbit));
+  return pendres_door_close(&d);
+}
