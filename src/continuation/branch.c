@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "continuation/crossing.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
-#include "base/grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
@@ -54,8 +54,8 @@ static double test_flip(const pendres_curve_node *p)
   return pendres_continuation_map_flip(&p->image);
 }
 
-/* Half map number `which` of a branch's, about the place that an orbit at u is about, and by how far
-   that misses closing by it. PENDRES_NOT_CONVERGED: there is none. */
+/* Half map number `which` of a branch's, about the place that an orbit at u is about, and by how
+   far that misses closing by it. PENDRES_NOT_CONVERGED: there is none. */
 static pendres_status half_at(pendres_context *ctx, const pendres_curve *t, int which,
                               const double u[PENDRES_U_COUNT], pendres_continuation_map *half,
                               double *off)
