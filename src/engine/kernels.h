@@ -131,7 +131,7 @@ typedef struct pendres_operation {
   double *to, *slope;
   double cos_theta;
   double carry; /* 0: nothing is carried; else cos_theta is that of the step's end */
-  int second;   /* tangents: by steps twice as long, too */
+  int second;   /* tangents: with steps twice as long, too */
   int keep;
 } pendres_operation;
 

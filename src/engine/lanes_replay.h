@@ -29,14 +29,14 @@ typedef struct pendres_lanes_replay_kind {
   int driven;  /* ... by a spring that depends on the phase */
 } pendres_lanes_replay_kind;
 
-/* The replays of one block, and the record that is being made. */
+/* The recordings of one block, and the one that is being made. */
 typedef struct pendres_lanes_replays pendres_lanes_replays;
 
 /* NULL if out of memory. */
 pendres_lanes_replays *pendres_lanes_replays_create(void);
 void pendres_lanes_replays_free(pendres_lanes_replays *r);
 
-/* What periods of a kind do; NULL: not known yet. Valid until the next recording ends. */
+/* The operations of periods of a kind; NULL: not known yet. Valid until the next recording ends. */
 const pendres_lanes_replay *pendres_lanes_replays_find(pendres_lanes_replays *r,
                                                        const pendres_lanes_replay_kind *kind);
 

@@ -1,13 +1,13 @@
 /*
- * lanes_shape.h -- how many pendulums a block holds, and how its memory is cut.
+ * lanes_shape.h -- how many pendulums a block holds, and how its memory is divided.
  *
  * Owns: the shape that all vectors of a block share. A vector has `rows` rows (kernels.h) of
  * `stride` lanes; stride is the number of lanes in use, rounded up to a multiple of 8, and may
  * change between two integrations.
  *
- * Lanes never mix, so the block is cut into strips of lanes, and what can be is put off
- * (lanes_tape.h) and then done strip by strip: all vectors of a strip fit the nearest cache,
- * however many lanes the block has.
+ * Lanes do not interact, so the block is divided into strips of lanes. Operations are deferred
+ * where possible (lanes_tape.h) and then done strip by strip: all vectors of a strip fit into the
+ * nearest cache, however many lanes the block has.
  */
 #ifndef PENDRES_LANES_SHAPE_H
 #define PENDRES_LANES_SHAPE_H
@@ -34,9 +34,9 @@ typedef struct pendres_lanes_shape {
   pendres_carried off;               /* errors of the lanes, likewise; NULL: not carried */
   pendres_tangents tangent;          /* or these */
   size_t vectors;                    /* made so far, for their place in the cache */
-  struct pendres_lanes_tape *tape;   /* what was put off */
-  struct _generic_N_Vector *spare;   /* stands in for clones that there is no memory for, */
-  int starved;                       /* and then this is set: nothing computed since is of use */
+  struct pendres_lanes_tape *tape;   /* deferred operations */
+  struct _generic_N_Vector *spare;   /* given out as a clone when there is no memory for one; */
+  int starved;                       /* this is set then: nothing computed since is valid */
 } pendres_lanes_shape;
 
 /* How many lanes the strip has that starts with this lane. */
@@ -45,7 +45,7 @@ static inline size_t pendres_lanes_strip(const pendres_lanes_shape *shape, size_
   return shape->strip + (lane < shape->wider ? PENDRES_LANES_MULTIPLE : 0);
 }
 
-/* From now on this many lanes, at most the capacity; nothing may have been put off. */
+/* From now on this many lanes, at most the capacity; no operation may be deferred at this time. */
 void pendres_lanes_shape_cut(pendres_lanes_shape *shape, size_t lanes);
 
 /* Do operations one after the other, on all lanes, strip by strip. */

@@ -2,7 +2,7 @@
  * method.h -- how lanes are advanced: each method is a constant struct of functions in a file of
  * its own, method_NAME.c, and a line of the list below.
  *
- * Owns: lanes under way, and the list.
+ * Owns: lanes that are being integrated, and the list.
  */
 #ifndef PENDRES_METHOD_H
 #define PENDRES_METHOD_H
@@ -12,7 +12,8 @@
 
 #include "engine/kernels.h"
 
-/* One pendulum under way. y is kept within half a turn of zero; whole turns are counted. */
+/* One pendulum that is being integrated. y is kept within half a turn of zero; whole turns are
+   counted. */
 typedef struct pendres_strobe_lane {
   const pendres_pendulum *pendulum; /* not owned */
   double y, w;                      /* angle, dy/dtheta at the latest strobe */
@@ -20,18 +21,19 @@ typedef struct pendres_strobe_lane {
   long period;                      /* strobes so far */
   int steps;                        /* a period; unused by adaptive methods */
   double added;                     /* variance that a step adds to y's error (flow.h); 0: errors
-                                       are not carried. With fixed steps only */
-  pendres_flow_error off;           /* what y and w are off by */
+                                       are not propagated. With fixed steps only */
+  pendres_flow_error off;           /* covariance of the errors of y and w */
   double worst;                     /* largest variance at a strobe so far, of y and w together */
   double longest;                   /* step of drive phase that block_adaptive and single may take;
                                        0: any */
   double taken;                     /* steps that they took, in a block on average */
 } pendres_strobe_lane;
 
-/* Look at lane number `index` after one more period; nonzero: it is done. */
+/* Called for lane number `index` after each period; nonzero: the lane is done. */
 typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_lane *lane);
 
-/* A run: lanes, who looks at them, and how exact methods are that choose their own steps. */
+/* A run: the lanes, the function that is called for them, and the tolerance of methods that choose
+   their own steps. */
 typedef struct pendres_strobe_job {
   size_t n;            /* > 0 */
   const size_t *which; /* numbers of the lanes that run, [n]; NULL: lanes 0 to n - 1 */
@@ -48,10 +50,10 @@ static inline size_t pendres_strobe_which(const pendres_strobe_job *job, size_t 
 }
 
 typedef struct pendres_method_functions {
-  int fixed_steps;     /* steps are as many as a lane says; other methods choose their own by the
-                          tolerance */
-  int running_clock;   /* the clock is not put back at a period's end, so that its rounding adds up
-                          */
+  int fixed_steps;     /* the number of steps is that of the lane; other methods choose their own by
+                          the tolerance */
+  int running_clock;   /* the clock is not reset at a period's end, so that its rounding errors add
+                          up */
   /* Run lanes until visit() has declared each of them done; they keep their final state. */
   pendres_status (*run)(pendres_context *ctx, const pendres_strobe_job *job);
 } pendres_method_functions;

@@ -146,7 +146,7 @@ static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p
   }
   set->units[0] = d->scales.unit;
   set->attractor_sets[0].pendulum = *p;
-  /* Whoever asks for attractors alone has many pendulums to come. */
+  /* A caller that asks for attractors only will probably label many pendulums with them. */
   set->attractor_sets[0].effort = PENDRES_TRAPPING_MANY;
   const pendres_settle_starts starts = {.n = n, .set = zero, .x = x, .v = v};
   status = pendres_settle_batch(ctx, 1, set->attractor_sets, &starts, outcome);

@@ -11,8 +11,8 @@
 
 struct pendres_attractors {
   size_t sets;
-  pendres_attractor_set *attractor_sets; /* in canonical units, */
-  pendres_units *units;          /* [sets] which are these in the caller's */
+  pendres_attractor_set *attractor_sets; /* in canonical units */
+  pendres_units *units;          /* [sets] the canonical units, in the caller's */
   size_t count;
   const pendres_attractor **attractors; /* all of them, set after set, as the caller sees them: */
   pendres_attractor *shown; /* these or, where it is NULL, those of the sets of attractors */
@@ -21,10 +21,10 @@ struct pendres_attractors {
 /* Open a door with the units of a set of one parameter set. */
 void pendres_attractors_open(pendres_door *d, pendres_context *ctx, const pendres_attractors *set);
 
-/* Such a set as it is behind its door: all of it in canonical units, until the door is closed. */
+/* The same set behind its door: all of it in canonical units, until the door is closed. */
 const pendres_attractors *pendres_attractors_inside(pendres_door *d, const pendres_attractors *set);
 
-/* Modulus of the larger Floquet multiplier; NaN if the attractor is no closed orbit. */
+/* Modulus of the larger Floquet multiplier; NaN if the attractor is not a closed orbit. */
 static inline double pendres_attractor_multiplier(const pendres_attractor *a)
 {
   const pendres_orbit *o = &a->orbit;

@@ -20,7 +20,7 @@ enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };
 typedef struct pendres_attractor_set {
   pendres_pendulum pendulum;
   pendres_trapping_effort effort;
-  int any_well; /* 1: nobody asks for the well that a pendulum settles in */
+  int any_well; /* 1: the well that a pendulum settles in does not matter */
   size_t count, capacity;
   pendres_attractor *attractors;
   size_t ellipses, ellipse_capacity;
@@ -29,10 +29,10 @@ typedef struct pendres_attractor_set {
   size_t covers;
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
   int grows;        /* the force is linear, and all motions grow without bound */
-  double transient; /* drive periods that chaos which ends has lasted on average; 0: none met */
+  double transient; /* mean lifetime of transient chaos, in drive periods; 0: none was found */
 } pendres_attractor_set;
 
-/* A state of a parameter set to start from, or to look for an orbit near. */
+/* A state of a parameter set from which to start, or near which to look for an orbit. */
 typedef struct pendres_initial_guess {
   size_t set;       /* index of its set of attractors */
   double y, w;
@@ -42,10 +42,9 @@ typedef struct pendres_initial_guess {
 void pendres_attractor_set_clear(pendres_attractor_set *c);
 
 /*
- * Where initial guesses of a pendulum in canonical units start from unless told: all over a turn,
- * or about as far under other forces; and of these in each of up to four wells that have a
- * barrier, across it. Returns their number. What attracts little of these places may still be
- * missed.
+ * The default initial guesses for a pendulum in canonical units: spread over a turn, or about as
+ * far with other forces; for these also across each of up to four wells that have a barrier.
+ * Returns their number. An attractor whose basin contains none of these states may still be missed.
  */
 enum { PENDRES_ATTRACTOR_SET_STARTS = 180 };
 size_t pendres_attractor_set_starts(const pendres_pendulum *p,
@@ -64,13 +63,13 @@ pendres_status pendres_attractor_set_add(pendres_context *ctx,
                                          pendres_attractor_set *attractor_sets, size_t n,
                                          const pendres_initial_guess *guesses);
 
-/* Make room for one more attractor with so many ellipses; nonzero if out of memory. */
+/* Make room for one more attractor with `more_ellipses` ellipses; nonzero if out of memory. */
 int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_ellipses);
 
 /* An orbit of which nothing but the pendulum is known: all of its numbers are NaN. */
 pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
 
-/* Add a chaotic attractor; the cover becomes the set's. */
+/* Add a chaotic attractor; the set takes ownership of the cover. */
 pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_attractor_set *c,
                                            const pendres_chaos_measures *m, pendres_cover *cover);
 

@@ -11,7 +11,7 @@
 
 /* Harmonics of mirror images agree to this, and those of two other orbits of a pendulum do not. */
 static const double same_harmonics = 1e-6;
-enum { HARMONICS = 5 /* so many are compared */ };
+enum { HARMONICS = 5 /* that are compared */ };
 
 /* y(t) -> 2 c - y(t + half a drive period) changes the sign of even harmonics, and moves the mean
    to the other side of the centre; of an angle there are centres everywhere. */

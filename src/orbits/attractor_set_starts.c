@@ -1,4 +1,4 @@
-/* attractor_set_starts.c -- where initial guesses start from that nobody has told of; see
+/* attractor_set_starts.c -- the default initial guesses; see
    attractor_set.h. */
 #include "orbits/attractor_set.h"
 
@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "model/model.h"
 
-/* Of the turn of a pendulum, or of a well: so many places, each at rest and moving either way. */
+/* Positions across the turn of a pendulum, or across a well, each at rest and moving either way. */
 enum { ACROSS = 12, MOST_WELLS = (PENDRES_ATTRACTOR_SET_STARTS / (3 * ACROSS)) - 1 };
 /* Wells are looked for this far, in the units of length of a force, and so finely. */
 enum { FAR = 8, FINENESS = 64, POINTS = 2 * FAR * FINENESS + 1 };

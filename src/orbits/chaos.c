@@ -14,9 +14,9 @@
 #include "orbits/settle_lanes.h"
 
 enum {
-  SUSPECTS = 16,         /* so many lanes are looked at first ... */
-  SUSPECT_PERIODS = 128, /* ... for so many periods */
-  REPLICAS = 64,          /* so many replicas are watched, once they have lost each other */
+  SUSPECTS = 16,         /* lanes that are tested first ... */
+  SUSPECT_PERIODS = 128, /* ... over this number of periods */
+  REPLICAS = 64,         /* replicas that are followed, once they have separated */
   WARM_UP = 200,         /* periods in which they lose each other */
   ATTEMPTS = 3,          /* to send out replicas, while some leave the chaotic set immediately */
   BATCHES = 16,          /* that a replica's periods are parted into, an even number */
@@ -24,9 +24,9 @@ enum {
                             attractor in turn, all in step: 120 periods are whole rounds of 2, 3, 4,
                             5, 6 or 8 bands */
   LONGEST_BATCH = 4 * BATCH, /* periods; batches grow to this while replicas do not agree */
-  FEW_BATCHES = 4,       /* after which replicas that are on different attractors are told apart */
-  KEPT = 8 * BATCH,      /* so many of the latest strobe points of a replica are kept */
-  MOST_GUESSES = 8       /* so many orbits are looked for at a time */
+  FEW_BATCHES = 4,       /* after which replicas on different attractors are distinguished */
+  KEPT = 8 * BATCH,      /* latest strobe points of a replica that are kept */
+  MOST_GUESSES = 8       /* orbits that are searched for at a time */
 };
 
 /* The exponent of chaos must be above zero by this many standard errors. */
@@ -39,9 +39,9 @@ static const double suspicious = 2.0;
 /* Replicas start this close to the suspect, and at each further attempt closer by this factor: the
    basin of a chaotic attractor in narrow bands may end nearby. */
 static const double scatter = 1e-3, closer = 0.03;
-/* Replicas agree when the variance of their means is less than so many times what their batches let
-   one expect. For replicas on one attractor the ratio exceeds 2 in one case of 80000 with 16
-   batches, and in one of 6000 with 4 (F distribution). */
+/* Replicas agree when the variance of their means is less than this multiple of what is expected
+   from their batches. For replicas on one attractor the ratio exceeds 2 in one case of 80000 with
+   16 batches, and in one of 6000 with 4 (F distribution). */
 static const double agreement = 2.0;
 /* The confidence of a mean's error, and that of the bound on the escape rate. */
 static const double confidence = 0.999, escape_confidence = 0.95;

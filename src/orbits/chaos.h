@@ -7,8 +7,8 @@
  *
  * Method: Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9: a tangent vector is
  * advanced by the variational equation and rescaled to length one; the mean growth of its logarithm
- * is the exponent. It is carried along by a method of its own, of fourth order, cheaper than
- * derivatives of the map; a second one, by steps twice as long, tells its error.
+ * is the exponent. It is advanced by a method of its own, of fourth order, which is cheaper
+ * than derivatives of the map; its error is estimated from a second one, with steps twice as long.
  * Replicas are pendulums that started close together and have separated; they are followed side by
  * side. Chaos that ends is not an attractor: a replica has left it if it falls into a trapping
  * ellipse, or if its tangent vector shrinks while it returns to its own past. Each replica's
@@ -28,7 +28,7 @@ typedef enum pendres_chaos_verdict {
   PENDRES_CHAOS_NEW        /* an attractor has been added */
 } pendres_chaos_verdict;
 
-/* Whether the n lanes of set of attractors c, which have settled on nothing so far, are chaotic. */
+/* Whether the n lanes of attractor set c, which have not settled so far, are chaotic. */
 pendres_status pendres_chaos_find(pendres_context *ctx, pendres_attractor_set *c, size_t n,
                                   const pendres_strobe_lane *const *lanes,
                                   pendres_chaos_verdict *verdict);

@@ -1,5 +1,5 @@
 /*
- * chaos_cover.h -- what a set of attractors knows of a chaotic attractor.
+ * chaos_cover.h -- what a set of attractors holds for a chaotic attractor.
  *
  * Owns: the cells of the Poincaré plane that it visits, and its means over time as plain numbers.
  */
@@ -22,7 +22,7 @@ int pendres_cover_holds(const pendres_cover *cover, double y, double w);
 /* Add the cell of a state, and its neighbours. */
 void pendres_cover_add(pendres_cover *cover, double y, double w);
 
-/* A mean over time, and how far off it may be. */
+/* A mean over time and its error. */
 typedef struct pendres_chaos_mean {
   double value, error;
 } pendres_chaos_mean;

@@ -14,7 +14,8 @@
    enough that means over time are off by less than their statistical errors, which tangent vectors,
    of fourth order alone, ask more of than the states do. */
 static const double accuracy = 1e-8;
-/* Growth by steps twice as long has 16 times the error: so many times what is left to subtract. */
+/* With steps twice as long the growth has 16 times the error: the difference is 15 times the error
+   that is to be subtracted. */
 static const double extrapolated = 15.0;
 /* Tangent vectors are put back to length one where they are longer, or shorter than its inverse. */
 static const double longest = 1e100;

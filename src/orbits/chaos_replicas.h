@@ -1,5 +1,5 @@
 /*
- * chaos_replicas.h -- replicas: pendulums that carry tangent vectors along.
+ * chaos_replicas.h -- replicas: pendulums with tangent vectors that start close together.
  *
  * Owns: one drive period of such replicas, and sums over batches of periods.
  */
@@ -14,7 +14,7 @@ struct pendres_attractor_set;
 /* What is summed over drive periods. */
 typedef enum pendres_replica_measure {
   PENDRES_REPLICA_GROWTH,    /* of the logarithm of the tangent vector's length */
-  PENDRES_REPLICA_COARSE,    /* what it has been corrected by: more than the error that is left */
+  PENDRES_REPLICA_COARSE,    /* its correction, which is larger than the error that is left */
   PENDRES_REPLICA_WORK,      /* done by the drive: the loop area */
   PENDRES_REPLICA_OTHER,     /* work done by the torque and the parametric drive */
   PENDRES_REPLICA_LOSS,      /* of energy by friction */
@@ -27,14 +27,14 @@ typedef enum pendres_replica_measure {
 
 typedef struct pendres_replica {
   double y, w;       /* the angle within half a turn of zero */
-  double u[2][2];    /* tangent vectors of length one, by steps and by steps twice as long */
+  double u[2][2];    /* tangent vectors of length one, with steps and with steps twice as long */
   long turns;        /* whole turns taken out of y */
   long periods;      /* so far */
-  long trapped;      /* after so many periods it was first inside a trapping ellipse, or escaped;
+  long trapped;      /* the period after which it was first inside a trapping ellipse, or escaped;
                         0: never */
   double sum[PENDRES_REPLICA_MEASURES];
   double low[2], high[2]; /* angles in the latest two halves of periods, the later one last */
-  double last_y, last_w;  /* the latest sample of the period under way */
+  double last_y, last_w;  /* the latest sample of the current period */
 } pendres_replica;
 
 /* The latest strobe points of replicas, angles with whole turns: a ring buffer for each of them. */
@@ -47,8 +47,8 @@ typedef struct pendres_replica_trace {
 pendres_replica pendres_replica_at(double y, double w);
 
 /*
- * Go on for some periods. With a trace all sums are taken, and every strobe point is kept; without
- * one (NULL) those of growth, turns and speed alone are.
+ * Advance by some periods. With a trace all sums are taken, and every strobe point is kept; without
+ * one (NULL) only those of growth, turns and speed.
  */
 pendres_status pendres_replicas_advance(pendres_context *ctx, const struct pendres_attractor_set *c,
                                         size_t n, pendres_replica *a, long periods,

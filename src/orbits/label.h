@@ -1,12 +1,12 @@
 /*
- * label.h -- what orbits are called: the one place that says which states are SA and LA.
+ * label.h -- the labels of orbits: the only definition of SA and LA.
  *
  * Of the orbits of one drive period without winding that coexist at a pendulum's parameters, the
  * one of smallest amplitude is SA, those of larger amplitude are LA, whatever the drive; a pair of
- * mirror images counts as one. One that is alone has the name of the branch that it continues, told
- * by the fold at which SA ends (see pendres_label_border), and none where there is no such fold.
- * Where nothing is known of folds, as for a single set of parameters, the weak drives of the paper
- * have the rule that comes to the same there: SA lags less than pi/3 behind, LA more.
+ * mirror images counts as one. A single state has the name of the branch that it continues, which
+ * follows from the fold at which SA ends (see pendres_label_border), and none where there is no
+ * such fold. Where folds are not known, as for a single set of parameters, an equivalent rule for
+ * the weak drives of the paper is used: SA has a phase lag of less than pi/3, LA of more.
  *
  * Owns: that definition. No integration here.
  */
@@ -23,8 +23,8 @@ typedef struct pendres_label_states {
   double amplitude[PENDRES_LABEL_STATES], error[PENDRES_LABEL_STATES];
 } pendres_label_states;
 
-/* The fold at which SA ends along a parameter, seen from one point of that line: an orbit alone
-   beyond it is LA; before it, it is SA if its amplitude is less than the fold's, else LA. */
+/* The fold at which SA ends along a parameter, relative to one point of that line: a single orbit
+   beyond the fold is LA; before it, it is SA if its amplitude is less than the fold's, else LA. */
 typedef struct pendres_label_border {
   int distinct;     /* 0: there is no such fold, and no distinction */
   int beyond;       /* whether the point lies beyond the fold */
@@ -40,7 +40,7 @@ void pendres_label_note(pendres_label_states *states, const pendres_orbit *orbit
 /* Which state has the smallest amplitude (most = 0) or the largest; there must be one. */
 size_t pendres_label_extreme(const pendres_label_states *states, int most);
 
-/* The label of a closed orbit among the states. border: NULL where nothing is known of folds. */
+/* The label of a closed orbit among the states. border: NULL where folds are not known. */
 pendres_label pendres_label_of(const pendres_label_states *states,
                                const pendres_label_border *border, const pendres_orbit *orbit);
 

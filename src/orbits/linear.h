@@ -1,5 +1,5 @@
 /*
- * linear.h -- oscillators under a linear force, all of whose motions share one fate.
+ * linear.h -- oscillators with a linear force, whose motions all decay to one orbit or all grow.
  *
  * Owns: whether they grow without bound, as in the tongues of parametric resonance, how fast, and
  * the orbit that they decay to where they do not.
@@ -12,8 +12,8 @@
 
 typedef struct pendres_linear {
   enum {
-    PENDRES_LINEAR_NOT,     /* the force is not linear, or nothing is known */
-    PENDRES_LINEAR_GROWS,   /* for certain, but for motions on the unstable orbit exactly */
+    PENDRES_LINEAR_NOT,     /* the force is not linear, or the fate is not known */
+    PENDRES_LINEAR_GROWS,   /* for certain, except for motions exactly on the unstable orbit */
     PENDRES_LINEAR_DECAYS,  /* for certain */
     PENDRES_LINEAR_BETWEEN  /* the exponent is zero within its error */
   } fate;

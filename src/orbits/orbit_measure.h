@@ -1,8 +1,8 @@
 /*
  * orbit_measure.h -- what is measured on equally spaced samples of a closed orbit.
  *
- * Owns: the Fourier series of samples, and what it tells of an orbit. Nothing is integrated here.
- * The measures that users see follow from it: orbit_table.h.
+ * Owns: the Fourier series of samples, and the properties of an orbit that follow from it. Nothing
+ * is integrated here. The measures of the public interface are derived from it: orbit_table.h.
  */
 #ifndef PENDRES_ORBIT_MEASURE_H
 #define PENDRES_ORBIT_MEASURE_H
@@ -34,7 +34,7 @@ typedef struct pendres_orbit_value {
   double unresolved;  /* what harmonics too high for the samples may add to it */
 } pendres_orbit_value;
 
-/* What one computation tells of an orbit. */
+/* What one computation of an orbit yields. */
 typedef struct pendres_orbit_measures {
   pendres_orbit_value of[PENDRES_ORBIT_MEASURES]; /* by the rows of the table */
   double amplitude, mean_angle;
@@ -62,8 +62,9 @@ pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
                                             pendres_orbit_series *out);
 
 /*
- * How far two computations of an orbit are apart on the whole of it: the root mean square of what
- * angles and slopes differ by. That the two agree at one phase, or in one measure, may be chance.
+ * The distance of two computations of an orbit over the whole of it: the root mean square of the
+ * differences of angles and slopes. That the two agree at one phase, or in one measure, may be
+ * chance.
  */
 double pendres_orbit_measures_apart(const pendres_orbit_measures *a,
                                     const pendres_orbit_measures *b, int period);

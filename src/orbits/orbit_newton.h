@@ -31,8 +31,7 @@ typedef struct pendres_newton_candidate {
   double m_by[2][2][2]; /* derivatives of m by y and by w, from a pass that was asked for them */
 } pendres_newton_candidate;
 
-/* Companions of a candidate, which m_by is found from, start beside it by this much in y and in
-   w. */
+/* The neighbours of a candidate from which m_by is found start at this distance in y and in w. */
 extern const double pendres_newton_aside;
 
 /* Samples 0 .. samples-1 of a pass, all lanes. */
@@ -48,15 +47,15 @@ static inline const double *pendres_newton_sample(const pendres_newton_samples *
   return t->data + (sample * t->lanes + lane) * t->rows;
 }
 
-/* NULL, or what is wrong with an orbit that a caller has handed over: a static sentence. */
+/* NULL, or what is wrong with an orbit that a caller has passed: a static sentence. */
 const char *pendres_orbit_refuses(const pendres_orbit *o);
 
 void pendres_newton_samples_free(pendres_newton_samples *taken);
 
 /*
  * Integrate the first *count of n candidates once over their period: up to the first one whose
- * steps or period differ, the end, or the block's capacity. `taken` may be NULL. What is found for
- * candidates that have failed is not to be read.
+ * steps or period differ, the end, or the block's capacity. `taken` may be NULL. The results of
+ * candidates that have failed are not valid.
  */
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                    pendres_orbit_want want, pendres_newton_samples *taken,
@@ -84,18 +83,18 @@ int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newto
                           double *y, double *w, double shift[2]);
 
 /*
- * What random rounding errors of the steps, of one unit each, make of the closed orbit: where it
- * starts, and all along it as a root mean square. An error may grow a thousandfold on the way and
- * still have faded at the end of a period: with strong friction a pendulum lingers beside the top,
- * where errors grow, and is damped the more elsewhere.
+ * The effect of random rounding errors of the steps, of one unit each, on the closed orbit: on its
+ * starting point, and along it as a root mean square. An error may grow a thousandfold on the way
+ * and still have decayed at the end of a period: with strong friction a pendulum stays long near
+ * the upright position, where errors grow, and is damped the more elsewhere.
  */
 typedef struct pendres_newton_noise {
   double start, along;
   double swell; /* how much larger errors are along the orbit than where it starts; at least 1 */
 } pendres_newton_noise;
 
-/* The unit: the rounding error of one step for an angle of order one. On periodic orbits it is less
-   than for the worst of pendulums (strobe_noise.h). */
+/* The unit: the rounding error of one step for an angle of order one. It is smaller on periodic
+   orbits than for arbitrary trajectories (strobe_noise.h). */
 double pendres_newton_rounding(pendres_table table);
 /* The relative error of a derivative of the map by rounding, in these units, as measured. It is
    larger since sums have more terms and twice as many roundings. */

@@ -1,5 +1,6 @@
 /*
- * orbit_reading.h -- many orbits run once over their periods and measured, side by side.
+ * orbit_reading.h -- integrating many orbits over one period each, side by side, and measuring
+ * them.
  *
  * Owns: the order of the runs, and the memory for samples.
  */
@@ -10,9 +11,9 @@
 #include "orbits/orbit_newton.h"
 
 /*
- * What a caller takes from the run of one candidate: it writes one y and one w for each sample, and
- * keeps whatever else it wants. It returns where the measures of the samples are to go, or NULL if
- * this is no orbit; the candidate's state then becomes PENDRES_NEWTON_FAILED.
+ * The caller's function for the run of one candidate: it writes one y and one w for each sample,
+ * and keeps whatever else it needs. It returns the address for the measures of the samples, or
+ * NULL if this is not an orbit; the candidate's state then becomes PENDRES_NEWTON_FAILED.
  */
 typedef pendres_orbit_measures *pendres_orbit_taker(void *arg, const pendres_newton_candidate *c,
                                                     const pendres_newton_samples *taken, double *y,

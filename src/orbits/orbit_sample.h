@@ -10,7 +10,7 @@
 
 /*
  * Add the harmonics of the angle, averaged over the orbit's drive cycles and times share, to those
- * of a series. The orbit is integrated with as many steps a period as it was found with. The mean
+ * of a series. The orbit is integrated with the number of steps with which it was found. The mean
  * of the series stays as it is.
  */
 pendres_status pendres_orbit_add_harmonics(pendres_context *ctx, const pendres_orbit *orbit,

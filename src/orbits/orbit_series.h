@@ -1,8 +1,8 @@
 /*
  * orbit_series.h -- the Fourier series of a closed curve from samples of it and its derivatives.
  *
- * Owns: transforms, values and extremes of a series. From n values alone one knows harmonics up to
- * n / 2, and higher ones are taken for lower ones (aliasing). A pendulum's slope and second
+ * Owns: transforms, values and extremes of a series. The n values alone determine harmonics up to
+ * n / 2, and higher ones are mistaken for lower ones (aliasing). A pendulum's slope and second
  * derivative are known at every step as well; the three together determine harmonics up to 3 n / 2.
  */
 #ifndef PENDRES_ORBIT_SERIES_H
@@ -16,8 +16,8 @@
 #include <pendres/status.h>
 
 /*
- * Sines and cosines for the transforms, which cost about as much as a transform itself: kept from
- * one orbit to the next with as many samples. Starts as {0} and is freed by its owner.
+ * Sines and cosines for the transforms, which cost about as much as a transform itself: kept for
+ * the next orbit with the same number of samples. Starts as {0} and is freed by its owner.
  */
 typedef struct pendres_orbit_tables {
   gsl_fft_real_wavetable *forward;
@@ -55,7 +55,7 @@ pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
                                              const pendres_orbit_series *s, double *highest,
                                              double *lowest);
 
-/* What harmonics beyond the last may add to a value: as much as the highest ones that are there. */
+/* What harmonics beyond the last may add to a value: as much as the highest ones that are known. */
 double pendres_orbit_series_tail(const pendres_orbit_series *s);
 
 #endif

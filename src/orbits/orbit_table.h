@@ -1,8 +1,8 @@
 /*
  * orbit_table.h -- the measures of orbits, one row each.
  *
- * Owns: the table. What goes through all measures of an orbit, from its two computations to their
- * errors, motions that have none, mirror images and files, reads it here.
+ * Owns: the table, which is read by everything that treats all measures of an orbit alike: error
+ * estimates from two computations, motions that have no such measures, mirror images, and files.
  */
 #ifndef PENDRES_ORBIT_TABLE_H
 #define PENDRES_ORBIT_TABLE_H
@@ -11,11 +11,11 @@
 
 typedef struct pendres_orbit_row {
   pendres_orbit_quantity shown;
-  /* The value in one computation, of which all but `of` is known; NULL: orbit_error.c has it from
-     other measures. */
+  /* The value in one computation, of which everything except `of` is known; NULL: orbit_error.c
+     derives it from other measures. */
   pendres_orbit_value (*measure)(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                  const pendres_orbit_measures *m);
-  int angle; /* 1: whole turns do not count in differences */
+  int angle; /* 1: differences are taken modulo whole turns */
   int image; /* 1: a mirror image has the same value */
 } pendres_orbit_row;
 

@@ -15,7 +15,7 @@
 #include "orbits/settle_lanes.h"
 #include "engine/steps.h"
 
-enum { GUESSES = 12 /* so many pendulums of a parameter set are sent ahead */ };
+enum { GUESSES = 12 /* pendulums of a parameter set that are integrated before the others */ };
 
 /* ---- batches ---- */
 

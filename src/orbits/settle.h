@@ -10,13 +10,13 @@
 typedef struct pendres_settle_starts {
   size_t n;
   const size_t *set; /* number of each one's parameter set, those of one set being consecutive; not
-                        looked at where there is one set of attractors alone, of known attractors */
+                        read by pendres_settle_known() */
   const double *x, *v;
 } pendres_settle_starts;
 
 /*
- * Label pendulums of parameter sets that have a set of attractors each. Attractors are found on
- * the way and added to the sets of attractors. outcome[i].attractor counts within its set.
+ * Label pendulums of parameter sets that have a set of attractors each. Attractors that are found
+ * on the way are added to these sets. outcome[i].attractor is the number within its set.
  */
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_attractor_set *attractor_sets,
@@ -25,7 +25,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
 
 /* For how many periods pendulums are followed that may only settle on known attractors. */
 typedef enum pendres_settle_budget {
-  PENDRES_SETTLE_SHORT, /* enough for almost all; what takes longer stays unresolved */
+  PENDRES_SETTLE_SHORT, /* enough for almost all pendulums; the others stay unresolved */
   PENDRES_SETTLE_FULL
 } pendres_settle_budget;
 

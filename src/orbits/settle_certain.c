@@ -56,7 +56,7 @@ static const pendres_attractor_set *attractor_set_of(const pendres_settle_labell
   return &l->job->attractor_sets[l->job->set != NULL ? l->job->set[i] : 0];
 }
 
-/* Where there is one attractor alone, and nobody asks for the well, an error changes nothing. */
+/* Where there is only one attractor, and the well does not matter, an error changes nothing. */
 static void excuse(const pendres_settle_labelled *l)
 {
   for (size_t i = 0; i < l->n; i++) {

@@ -1,10 +1,10 @@
 /*
  * settle_certain.h -- labels that no error of the integration can change.
  *
- * Owns: what is done about a pendulum whose error, as it was carried along, is not small against
- * what separates one fate from another (settle_lanes.c). It is integrated again from its start,
- * more and more exactly, down to rounding. The label of the most exact run counts, of those in
- * which the error stayed below what separates fates.
+ * Owns: the treatment of a pendulum whose propagated error is not small against what separates one
+ * outcome from another (settle_lanes.c). It is integrated again from its start, more and more
+ * exactly, down to rounding. Of the runs in which the error stayed below what separates outcomes,
+ * the most exact one decides about the label.
  */
 #ifndef PENDRES_SETTLE_CERTAIN_H
 #define PENDRES_SETTLE_CERTAIN_H
@@ -25,8 +25,8 @@ typedef struct pendres_settle_labelled {
  * certain. A further run of a pendulum ends where its error has grown so large that no label can
  * be certain.
  *
- * Where errors are not carried along, as with adaptive steps, labels stay what they are, and are
- * compared with those of fixed steps: those that agree with a certain one are certain.
+ * Where errors are not propagated, as with adaptive steps, labels are not changed but compared with
+ * those of fixed steps: those that agree with a certain one are certain.
  */
 pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l);
 

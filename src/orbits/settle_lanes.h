@@ -1,8 +1,8 @@
 /*
  * settle_lanes.h -- running pendulums until they are inside a trapping ellipse.
  *
- * Owns: what is decided about a lane after each period, the budgets of periods, and the latest
- * strobe points of lanes that do not settle.
+ * Owns: the decision about a lane after each period, the budgets of periods, and the latest strobe
+ * points of lanes that do not settle.
  */
 #ifndef PENDRES_SETTLE_LANES_H
 #define PENDRES_SETTLE_LANES_H
@@ -51,13 +51,13 @@ static inline int pendres_settle_ended(const pendres_outcome *o)
   return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
 }
 
-/* Periods after which a pendulum that is in no ellipse is looked at closely. */
+/* Periods after which attractors are searched for near a pendulum that is in no ellipse. */
 long pendres_settle_first_budget(const pendres_pendulum *p);
 
 /* Periods after which it is given up. */
 long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attractor_set *c);
 
-/* Put a pendulum at its start, and choose its steps for this error a period, which is carried along
+/* Put a pendulum at its start, and choose its steps for this error per period, which is propagated
    where that is possible. */
 pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane);
@@ -67,8 +67,8 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum 
 pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
                                              double v);
 
-/* Whether errors are carried along: not with adaptive steps, and not where a number of steps was
-   asked for, as the error of one such step is not known. */
+/* Whether errors are propagated: not with adaptive steps, and not where the caller has given the
+   number of steps, as the error of one such step is not known. */
 int pendres_settle_carries(const pendres_context *ctx);
 
 /* The variance of the error that a step adds. */

@@ -10,8 +10,8 @@
 #include "orbits/recurrence.h"
 
 enum {
-  MOST_GUESSES = 8,  /* so many orbits are looked for at a time in one parameter set */
-  FIRST_HISTORY = 65 /* so many strobe points are there to be looked at after the first round */
+  MOST_GUESSES = 8,  /* orbits that are searched for at a time in one parameter set */
+  FIRST_HISTORY = 65 /* strobe points that are available after the first round */
 };
 
 /* Guess the orbit that a pendulum with this history is near; 0 if it does not come back. */

@@ -1,7 +1,7 @@
 /*
  * small_end.h -- the fold at which SA ends along a line of points in one parameter.
  *
- * Owns: how that fold, found once for the line, gives a name to a state that is alone at a point.
+ * Owns: how that fold, found once for the line, determines the label of a single state at a point.
  */
 #ifndef PENDRES_SMALL_END_H
 #define PENDRES_SMALL_END_H
@@ -15,11 +15,11 @@ typedef struct pendres_small_end {
   pendres_parameter parameter; /* that changes along the line */
   double value;                /* of the parameter, at the fold */
   double amplitude;            /* of the orbit there */
-  int falling;                 /* nonzero: SA ends as the parameter falls, not as it grows: with
-                                  stiffening forces, whose resonance bends to higher ones */
+  int falling;                 /* nonzero: SA ends as the parameter decreases, not as it increases:
+                                  with stiffening forces, whose resonance bends upwards */
 } pendres_small_end;
 
-/* The fold as an orbit at these parameters has it before or behind itself. */
+/* The fold relative to an orbit with these parameters. */
 pendres_label_border pendres_small_end_from(const pendres_small_end *end,
                                             const pendres_pendulum *pendulum);
 

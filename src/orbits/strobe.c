@@ -112,7 +112,7 @@ typedef struct stretch {
   long periods;      /* of the whole run */
   long last;         /* the stretch ends at this strobe */
   long length;       /* in periods */
-  long every;        /* counted from its end, one strobe out of so many is compared */
+  long every;        /* counted from its end, every `every`-th strobe is compared */
   size_t slots;      /* strobes of a lane that are compared in a stretch */
   pendres_coordinates *at; /* n * slots: where the first run was */
   double *apart;     /* n: distances at the end; infinite once two runs have lost each other */

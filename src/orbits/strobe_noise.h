@@ -1,7 +1,7 @@
 /*
  * strobe_noise.h -- rounding along trajectories.
  *
- * Owns: the size of rounding errors in a step. Lanes carry their covariance (flow.h), since a
+ * Owns: the size of rounding errors in a step. Lanes propagate their covariance (flow.h), since a
  * trajectory near a separatrix amplifies rounding by orders of magnitude, and two runs may then
  * agree by chance. With strong friction errors may grow as much and decay again within a period,
  * which the derivative of the map over a whole period does not show.

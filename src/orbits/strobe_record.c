@@ -47,7 +47,7 @@ static void keep(void *arg, int step, const pendres_rows *rows)
   }
 }
 
-/* A piece of a run: its first point, and the points of so many periods after it. */
+/* A piece of a run: its first point, and the points of the periods after it. */
 typedef struct piece {
   const pendres_recording *of;
   pendres_recording_place *at; /* where the run stands: moved on */
@@ -193,7 +193,7 @@ pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendu
   return pendres_door_close(&d);
 }
 
-/* Announce so many points of a record. */
+/* Announce the first `points` points of a record. */
 static void announce(pendres_door *d, size_t points, const pendres_record *to)
 {
   if (to == NULL) return;

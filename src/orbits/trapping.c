@@ -13,14 +13,14 @@
 
 enum {
   BASE_POINTS = 12, /* of a base ring, which tells only whether the map is nearly linear */
-  BASE_LOOKS = 8,   /* so many iterates the map may take to contract a base ring */
-  BASE_PASSES = 8,  /* so many base rings are tried */
+  BASE_LOOKS = 8,   /* iterates that the map may take to contract a base ring */
+  BASE_PASSES = 8,  /* base rings that are tried */
   FEW_POINTS = 16,  /* points of any other ring, by effort */
   MANY_POINTS = 48,
-  RINGS = 3,        /* so many are tried at once, at most */
+  RINGS = 3,        /* that are tried at the same time, at most */
   FEW_LOOKS = 12,   /* iterates after which a ring is given up, by effort */
   MANY_LOOKS = PENDRES_TRAPPING_LOOKS,
-  FEW_MORE = 16,    /* so many points may be put into a ring's arcs, by effort */
+  FEW_MORE = 16,    /* points that may be inserted into a ring's arcs, by effort */
   MANY_MORE = 96
 };
 

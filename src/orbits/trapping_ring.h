@@ -19,9 +19,9 @@
 #include "orbits/trapping_ellipse.h"
 
 enum {
-  PENDRES_TRAPPING_LOOKS = 24, /* a point is home after at most so many q-th iterates of the map */
-  /* A point is followed for so many more: neighbours that come home one after the other are then
-     seen there together, and so is the arc between them. */
+  PENDRES_TRAPPING_LOOKS = 24, /* q-th iterates of the map after which a point must be home */
+  /* Further iterates for which a point is followed: neighbours that come home one after the other
+     are then inside at the same time, and so is the arc between them. */
   PENDRES_TRAPPING_AFTER = 1
 };
 
