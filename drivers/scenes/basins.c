@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "scenes/basins.h"
+#include "scenes/points.h"
 
 enum {
   STATES_A_TASK = 65536, /* whole rows of about so many states */
@@ -40,45 +41,24 @@ static void describe(const deck *d, FILE *out)
     fprintf(out, "statistics tell wells of an attractor apart\n");
 }
 
-/* ---- whole grids ---- */
+/* ---- states ---- */
 
-/* What a task finds: this, then the states of its rows. */
-typedef struct part {
-  size_t lost, lost_index[LOST_A_TASK]; /* unresolved: how many, and some of them */
-  size_t given_up, given_up_index[BASINS_NAMED]; /* ended by their budget */
-} part;
+/* Unresolved states that are remembered. */
+typedef struct lost {
+  size_t n, *index;
+} lost;
 
-typedef struct sweep {
+/* States that are integrated together: of whole rows of the grid, or those that are asked for. */
+typedef struct states {
   basins *b;
-  size_t rows;         /* a task */
-  size_t lost, *index; /* unresolved states that tasks remember */
-} sweep;
+  const size_t *index;     /* numbers of those that are asked for; NULL: the grid, in its order */
+  scene_points points;     /* of pendres_basin_state */
+  lost lost;               /* of the grid */
+} states;
 
-static size_t rows_of(const sweep *s, size_t task)
+static size_t number_of(const states *s, size_t point)
 {
-  const size_t left = s->b->grid.nx - task * s->rows;
-  return left < s->rows ? left : s->rows;
-}
-
-/* Finish the states of rows that had been deferred. */
-static pendres_status finish_rows(pendres_context *ctx, const basins *b, size_t offset, size_t n,
-                                  pendres_basin_state *state)
-{
-  size_t deferred = 0, k = 0;
-  for (size_t i = 0; i < n; i++) deferred += state[i].how == PENDRES_BASIN_DEFERRED;
-  if (deferred == 0) return PENDRES_OK;
-  size_t *index = malloc(deferred * sizeof *index);
-  pendres_basin_state *rest = malloc(deferred * sizeof *rest);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (index == NULL || rest == NULL) goto done;
-  for (size_t i = 0; i < n; i++)
-    if (state[i].how == PENDRES_BASIN_DEFERRED) index[k++] = offset + i;
-  status = pendres_basin_states(ctx, b->set, &b->grid, k, index, rest);
-  for (size_t i = 0; i < k && status == PENDRES_OK; i++) state[index[i] - offset] = rest[i];
-done:
-  free(index);
-  free(rest);
-  return status;
+  return s->index != NULL ? s->index[point] : point;
 }
 
 static void name_state(const basins *b, size_t index, char *text, size_t size)
@@ -87,344 +67,278 @@ static void name_state(const basins *b, size_t index, char *text, size_t size)
            b->grid.v[index % b->grid.nv]);
 }
 
-/* Begin n states, of which number `first` is the first. */
-static void begin_states(const basins *b, size_t first, size_t n, farm_record *out)
+static void name_point(const scene_points *p, size_t point, char *text, size_t size)
 {
-  char name[80], more[40] = "";
-  name_state(b, first, name, sizeof name);
-  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
-  farm_point(out, n, "%s%s", name, more);
+  const states *s = p->arg;
+  name_state(s->b, number_of(s, point), text, size);
 }
 
-/* Integrate states by their numbers. Where the budget ends them, either half is tried, down to
-   single states. */
-static pendres_status find_states(const basins *b, size_t n, const size_t *index,
-                                  pendres_context *ctx, farm_record *out,
-                                  pendres_basin_state *state)
+/* What the budget has ended. */
+static void leave_out(const scene_points *p, size_t point, void *row)
 {
-  const size_t half = n / 2;
-  begin_states(b, index[0], n, out);
-  pendres_status status = pendres_basin_states(ctx, b->set, &b->grid, n, index, state);
-  if (!farm_gave_up(out, status)) return status;
-  if (half == 0) {
-    farm_lost(out, NULL, 0);
-    *state = (pendres_basin_state){.settling_periods = BASINS_GIVEN_UP,
-                                   .attractor = PENDRES_ATTRACTOR_UNKNOWN,
-                                   .label = PENDRES_LABEL_UNRESOLVED};
-    return PENDRES_OK;
-  }
-  status = find_states(b, half, index, ctx, out, state);
-  if (status != PENDRES_OK) return status;
-  return find_states(b, n - half, index + half, ctx, out, state + half);
+  (void)p;
+  (void)point;
+  *(pendres_basin_state *)row = (pendres_basin_state){.settling_periods = BASINS_GIVEN_UP,
+                                                      .attractor = PENDRES_ATTRACTOR_UNKNOWN,
+                                                      .label = PENDRES_LABEL_UNRESOLVED};
 }
 
-/* Integrate n states from number `first` on, and leave out those that use up their budget. */
-static pendres_status find_apart(const basins *b, size_t first, size_t n, pendres_context *ctx,
-                                 farm_record *out, pendres_basin_state *state)
+static int check(const scene_points *p, const void *row)
 {
-  size_t *index = malloc(n * sizeof *index);
+  const states *s = p->arg;
+  return scene_check_basin_state(row, pendres_attractors_count(s->b->set));
+}
+
+/* By their numbers. */
+static pendres_status find_states(const scene_some *some)
+{
+  const states *s = some->of->arg;
+  const basins *b = s->b;
+  if (s->index != NULL)
+    return pendres_basin_states(some->ctx, b->set, &b->grid, some->n, s->index + some->first,
+                                some->rows);
+  size_t *index = malloc(some->n * sizeof *index);
   if (index == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n; i++) index[i] = first + i;
-  const pendres_status status = find_states(b, n, index, ctx, out, state);
+  for (size_t i = 0; i < some->n; i++) index[i] = some->first + i;
+  const pendres_status status =
+    pendres_basin_states(some->ctx, b->set, &b->grid, some->n, index, some->rows);
   free(index);
   return status;
 }
 
-/* Unresolved states are remembered, so that attractors are looked for where they go; but not those
-   that take too long. */
-static void note_lost(const pendres_basin_state *state, size_t index, part *p)
+/* ---- whole grids ---- */
+
+/* Finish those that had been deferred. */
+static pendres_status finish_rows(const scene_some *some)
 {
-  if (state->attractor != PENDRES_ATTRACTOR_UNKNOWN) return;
-  if (state->settling_periods == BASINS_GIVEN_UP) {
-    if (p->given_up < BASINS_NAMED) p->given_up_index[p->given_up] = index;
-    p->given_up++;
-    return;
+  const basins *b = ((const states *)some->of->arg)->b;
+  pendres_basin_state *state = some->rows;
+  size_t deferred = 0, k = 0;
+  for (size_t i = 0; i < some->n; i++) deferred += state[i].how == PENDRES_BASIN_DEFERRED;
+  if (deferred == 0) return PENDRES_OK;
+  size_t *index = malloc(deferred * sizeof *index);
+  pendres_basin_state *rest = malloc(deferred * sizeof *rest);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (index == NULL || rest == NULL) goto done;
+  for (size_t i = 0; i < some->n; i++)
+    if (state[i].how == PENDRES_BASIN_DEFERRED) index[k++] = some->first + i;
+  status = pendres_basin_states(some->ctx, b->set, &b->grid, k, index, rest);
+  for (size_t i = 0; i < k && status == PENDRES_OK; i++) state[index[i] - some->first] = rest[i];
+done:
+  free(index);
+  free(rest);
+  return status;
+}
+
+/* Whole rows or, where their budget has ended these, some states of them. */
+static pendres_status find_rows(const scene_some *some)
+{
+  const basins *b = ((const states *)some->of->arg)->b;
+  const size_t nv = b->grid.nv;
+  if (some->first % nv != 0 || some->n % nv != 0) return find_states(some);
+  const pendres_status status = pendres_basin_rows(some->ctx, b->set, &b->grid, some->first / nv,
+                                                   some->n / nv, some->rows);
+  return status == PENDRES_OK ? finish_rows(some) : status;
+}
+
+/* A state that the budget has ended; the first of them are kept to be told. */
+static void take_given_up(basins *b, size_t number)
+{
+  if (b->given_up < BASINS_NAMED) b->given_up_index[b->given_up] = number;
+  b->given_up++;
+  b->unresolved++;
+}
+
+/* Unresolved states are counted and, up to a number of them, remembered, so that attractors are
+   looked for where they go; but not those that take too long. */
+static void take_unresolved(basins *b, size_t first, size_t n, const pendres_basin_state *state,
+                            lost *to, size_t most)
+{
+  for (size_t i = 0; i < n; i++) {
+    if (state[i].attractor != PENDRES_ATTRACTOR_UNKNOWN) continue;
+    if (state[i].settling_periods == BASINS_GIVEN_UP) {
+      take_given_up(b, first + i);
+      continue;
+    }
+    b->unresolved++;
+    if (to->n < most) to->index[to->n++] = first + i;
   }
-  if (p->lost < LOST_A_TASK) p->lost_index[p->lost] = index;
-  p->lost++;
 }
 
-static pendres_status compute_rows(const void *arg, size_t task, pendres_context *ctx,
-                                   farm_record *out)
+static pendres_status collect_rows(const scene_points *p, size_t first, size_t n, const void *rows)
 {
-  const sweep *s = arg;
-  const basins *b = s->b;
-  const size_t first = task * s->rows, rows = rows_of(s, task), n = rows * b->grid.nv;
-  part *p = farm_record_resize(out, sizeof *p + n * sizeof(pendres_basin_state));
-  if (p == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_basin_state *state = (pendres_basin_state *)(p + 1);
-  begin_states(b, first * b->grid.nv, n, out);
-  pendres_status status =
-    pendres_basin_rows(ctx, b->set, &b->grid, first, rows, state);
-  if (status == PENDRES_OK) status = finish_rows(ctx, b, first * b->grid.nv, n, state);
-  if (farm_gave_up(out, status))
-    status = find_apart(b, first * b->grid.nv, n, ctx, out, state);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    note_lost(&state[i], first * b->grid.nv + i, p);
-  return status;
-}
-
-/* Count states that their budget has ended, and keep the first of them to be told. */
-static void take_given_up(basins *b, size_t n, const size_t *index)
-{
-  for (size_t k = 0; k < n && k < BASINS_NAMED && b->given_up + k < BASINS_NAMED; k++)
-    b->given_up_index[b->given_up + k] = index[k];
-  b->given_up += n;
-  b->unresolved += n;
-}
-
-/* Numbers of states that a record names; it names at most so many. */
-static int numbers_fit(const basins *b, size_t n, const size_t *index, size_t most)
-{
-  int good = 1;
-  for (size_t k = 0; k < n && k < most && good; k++) good = index[k] < b->grid.nx * b->grid.nv;
-  return good;
-}
-
-static int check_rows(const void *arg, size_t task, const farm_record *in)
-{
-  const sweep *s = arg;
-  const part *p = in->data;
-  const size_t n = rows_of(s, task) * s->b->grid.nv;
-  return in->size == sizeof *p + n * sizeof(pendres_basin_state) && p->lost <= n &&
-         p->given_up <= n && numbers_fit(s->b, p->lost, p->lost_index, LOST_A_TASK) &&
-         numbers_fit(s->b, p->given_up, p->given_up_index, BASINS_NAMED) &&
-         scene_check_basin_states(n, (const pendres_basin_state *)(p + 1),
-                                  pendres_attractors_count(s->b->set));
-}
-
-static pendres_status collect_rows(void *arg, size_t task, const farm_record *in)
-{
-  sweep *s = arg;
-  const part *p = in->data;
-  const pendres_basin_state *state = (const pendres_basin_state *)(p + 1);
-  const size_t rows = rows_of(s, task);
-  pendres_status status = basins_write_rows(s->b, task * s->rows, rows, state);
-  if (status == PENDRES_OK) status = pendres_basin_sums_add(s->b->sums, rows, state);
-  s->b->unresolved += p->lost;
-  take_given_up(s->b, p->given_up, p->given_up_index);
-  for (size_t k = 0; k < p->lost && k < LOST_A_TASK; k++) s->index[s->lost++] = p->lost_index[k];
-  return status;
+  states *s = p->arg;
+  const size_t nv = s->b->grid.nv;
+  basins_write_rows(s->b, first / nv, n / nv, rows);
+  take_unresolved(s->b, first, n, rows, &s->lost, s->lost.n + LOST_A_TASK);
+  const pendres_status status = pendres_basin_sums_add(s->b->sums, n / nv, rows);
+  return scene_going(s->b->run) ? status : s->b->run->status;
 }
 
 /* New sums for a new pass over the grid. */
-static pendres_status restart(basins *b)
+static void restart(basins *b)
 {
   pendres_basin_sums_free(b->sums);
   b->sums = NULL;
   b->unresolved = b->given_up = 0;
-  const pendres_status status =
-    pendres_basin_sums_create(&b->grid, pendres_attractors_count(b->set), &b->sums);
-  return status == PENDRES_OK ? status : scene_fail(b->run, status, "out of memory for statistics");
+  if (pendres_basin_sums_create(&b->grid, pendres_attractors_count(b->set), &b->sums) != PENDRES_OK)
+    scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for statistics");
 }
 
-/* Look for attractors that only unresolved states lead to. */
-static pendres_status extend(basins *b, size_t n, const size_t *index, size_t *grown)
+/* Look for attractors that only unresolved states lead to; how many there are. */
+static size_t extend(basins *b, const lost *l)
 {
-  *grown = 0;
-  if (n == 0) return PENDRES_OK;
-  pendres_context *ctx = scene_context(b->run);
-  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
-  return scene_asked(b->run, pendres_basin_extend(ctx, b->set, &b->grid, n, index, grown));
+  size_t grown = 0;
+  pendres_context *ctx = l->n > 0 && scene_going(b->run) ? scene_context(b->run) : NULL;
+  if (ctx != NULL)
+    scene_asked(b->run, pendres_basin_extend(ctx, b->set, &b->grid, l->n, l->index, &grown));
+  return grown;
 }
 
-static pendres_status sweep_once(basins *b, size_t *grown, int last)
+static size_t sweep_once(basins *b, int last)
 {
-  sweep s = {.b = b, .rows = 1 + STATES_A_TASK / b->grid.nv};
-  const size_t tasks = (b->grid.nx + s.rows - 1) / s.rows;
-  pendres_status status = restart(b);
-  *grown = 0;
-  if (status != PENDRES_OK) return status;
-  s.index = scene_array(b->run, tasks * LOST_A_TASK, sizeof *s.index);
-  if (s.index == NULL) return PENDRES_OUT_OF_MEMORY;
-  status = scene_compute(b->run, &(farm_stage){ .what = "groups of rows", .tasks = tasks,
-                                                .element = sizeof(pendres_basin_state),
-                                                .task = compute_rows, .check = check_rows,
-                                                .collect = collect_rows,
-                                                .arg = &s });
-  if (status == PENDRES_OK && !last) status = extend(b, s.lost, s.index, grown);
-  return status;
+  const size_t nv = b->grid.nv, rows = 1 + STATES_A_TASK / nv;
+  states s = {.b = b,
+              .points = {.n = b->grid.nx * nv, .chunk = rows * nv,
+                         .size = sizeof(pendres_basin_state), .compute = find_rows,
+                         .leave_out = leave_out, .check = check, .collect = collect_rows,
+                         .name = name_point, .unmarked = 1, .arg = &s}};
+  restart(b);
+  s.lost.index = scene_array(b->run, (b->grid.nx + rows - 1) / rows * LOST_A_TASK,
+                             sizeof *s.lost.index);
+  SCENE_COMPUTE(b->run, &s.points, "groups of rows", .element = sizeof(pendres_basin_state));
+  return last ? 0 : extend(b, &s.lost);
 }
 
 /* ---- refinement ---- */
 
-typedef struct slices {
-  const basins *b;
-  size_t n;
-  const size_t *index;
-  pendres_basin_state *state;
-} slices;
-
-static size_t slice_of(const slices *s, size_t task)
+/* Integrate states by number, on all threads if they are many; to be freed. */
+static pendres_basin_state *integrate(basins *b, size_t n, const size_t *index)
 {
-  const size_t left = s->n - task * SLICE;
-  return left < SLICE ? left : SLICE;
-}
-
-static pendres_status compute_slice(const void *arg, size_t task, pendres_context *ctx,
-                                    farm_record *out)
-{
-  const slices *s = arg;
-  const size_t n = slice_of(s, task);
-  pendres_basin_state *state = farm_record_resize(out, n * sizeof *state);
-  if (state == NULL) return PENDRES_OUT_OF_MEMORY;
-  return find_states(s->b, n, s->index + task * SLICE, ctx, out, state);
-}
-
-static int check_slice(const void *arg, size_t task, const farm_record *in)
-{
-  const slices *s = arg;
-  const size_t n = slice_of(s, task);
-  return in->size == n * sizeof *s->state &&
-         scene_check_basin_states(n, in->data, pendres_attractors_count(s->b->set));
-}
-
-static pendres_status collect_slice(void *arg, size_t task, const farm_record *in)
-{
-  const slices *s = arg;
-  memcpy(s->state + task * SLICE, in->data, slice_of(s, task) * sizeof *s->state);
-  return PENDRES_OK;
-}
-
-/* Integrate states by number, on all threads if they are many. */
-static pendres_status integrate(basins *b, size_t n, const size_t *index,
-                                pendres_basin_state **state)
-{
-  *state = calloc(n + 1, sizeof **state);
-  if (*state == NULL)
-    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
-  slices s = {.b = b, .n = n, .index = index, .state = *state};
-  if (n > SMALL)
-    return scene_compute(b->run, &(farm_stage){ .what = "slices", .tasks = (n + SLICE - 1) / SLICE,
-                                                .task = compute_slice, .check = check_slice,
-                                                .collect = collect_slice,
-                                                .arg = &s });
-  pendres_context *ctx = scene_context(b->run);
-  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
-  return scene_asked(b->run, pendres_basin_states(ctx, b->set, &b->grid, n, index, *state));
-}
-
-static pendres_status follow_plan(basins *b, pendres_basin_plan *p)
-{
-  pendres_status status = PENDRES_OK;
-  for (size_t n = 1; n > 0 && status == PENDRES_OK;) {
-    const size_t *index = NULL;
-    pendres_basin_state *state = NULL;
-    status = pendres_basin_plan_next(p, &n, &index);
-    if (status != PENDRES_OK || n == 0) break;
-    status = integrate(b, n, index, &state);
-    if (status == PENDRES_OK) status = pendres_basin_plan_accept(p, state);
-    free(state);
+  states s = {.b = b, .index = index,
+              .points = {.n = n, .chunk = SLICE, .size = sizeof(pendres_basin_state),
+                         .compute = find_states, .leave_out = leave_out, .check = check,
+                         .name = name_point, .unmarked = 1, .arg = &s}};
+  pendres_basin_state *state = s.points.rows = calloc(n + 1, sizeof *state);
+  if (state == NULL) scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
+  if (n > SMALL) {
+    SCENE_COMPUTE(b->run, &s.points, "slices", .last = 0);
+    return state;
   }
-  return status;
+  pendres_context *ctx = scene_context(b->run);
+  if (ctx != NULL)
+    scene_asked(b->run, pendres_basin_states(ctx, b->set, &b->grid, n, index, state));
+  return state;
 }
 
-/* Verify a sample of the states that were filled in; wrong ones are corrected, and so are their
-   surroundings. */
-static pendres_status verify_once(basins *b, pendres_basin_plan *p, size_t sample, uint64_t seed,
-                                  size_t *drawn, size_t *missed)
+/* Of what was asked of a plan: whether it goes on. */
+static int planned(basins *b, pendres_status status)
+{
+  if (status != PENDRES_OK)
+    scene_fail(b->run, status, "refinement: %s", pendres_status_message(status));
+  return scene_going(b->run);
+}
+
+static void follow_plan(basins *b, pendres_basin_plan *p)
 {
   const size_t *index = NULL;
-  pendres_basin_state *state = NULL;
-  *drawn = *missed = 0;
-  pendres_status status = pendres_basin_plan_sample(p, sample, seed, drawn, &index);
-  if (status == PENDRES_OK) status = integrate(b, *drawn, index, &state);
-  if (status == PENDRES_OK) status = pendres_basin_plan_verify(p, state, missed);
+  size_t n;
+  while (scene_going(b->run) && planned(b, pendres_basin_plan_next(p, &n, &index)) && n > 0) {
+    pendres_basin_state *state = integrate(b, n, index);
+    if (scene_going(b->run)) planned(b, pendres_basin_plan_accept(p, state));
+    free(state);
+  }
+}
+
+/* Verify a sample of n of the states that were filled in; wrong ones are corrected, and so are
+   their surroundings. How many were wrong. */
+static size_t verify_once(basins *b, pendres_basin_plan *p, size_t n, uint64_t seed, size_t *drawn)
+{
+  const size_t *index = NULL;
+  size_t missed = 0;
+  *drawn = 0;
+  if (!planned(b, pendres_basin_plan_sample(p, n, seed, drawn, &index))) return 0;
+  pendres_basin_state *state = integrate(b, *drawn, index);
+  if (scene_going(b->run)) planned(b, pendres_basin_plan_verify(p, state, &missed));
   free(state);
   b->verified += *drawn;
-  b->missed += *missed;
-  return status == PENDRES_OK ? follow_plan(b, p) : status;
+  b->missed += missed;
+  follow_plan(b, p);
+  return missed;
 }
 
 /* Verify samples until one is clean. Each that is not makes the plan's lattice finer, so that this
    comes to an end. */
-static pendres_status verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
+static void verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
 {
   const size_t all = b->grid.nx * b->grid.nv / SAMPLED;
   const double sample = (double)(all > LEAST_SAMPLE ? all : LEAST_SAMPLE);
   const size_t n = (size_t)ceil(sample * (double)rows / (double)b->grid.nx);
   size_t drawn = 0, missed = 1;
-  pendres_status status = PENDRES_OK;
-  for (uint64_t seed = 1; missed > 0 && status == PENDRES_OK; seed++)
-    status = verify_once(b, p, n, seed, &drawn, &missed);
+  for (uint64_t seed = 1; missed > 0 && scene_going(b->run); seed++)
+    missed = verify_once(b, p, n, seed, &drawn);
   b->clean += drawn;
   b->filled += pendres_basin_plan_filled(p);
-  return status;
 }
 
-/* Compute rows first .. first + rows - 1 by a plan; index[0 .. *lost) are some unresolved
-   states. */
-static pendres_status refine_band(basins *b, size_t first, size_t rows, size_t *lost, size_t *index)
+/* Compute rows first .. first + rows - 1 by a plan. */
+static void refine_band(basins *b, size_t first, size_t rows, lost *to)
 {
   pendres_basin_plan *p = NULL;
   const size_t n = rows * b->grid.nv;
-  pendres_basin_state *state = NULL;
-  pendres_status status = pendres_basin_plan_create(&b->grid, first, rows, 0, &p);
-  if (status == PENDRES_OK) status = follow_plan(b, p);
-  if (status == PENDRES_OK) status = verify_plan(b, p, rows);
-  if (status != PENDRES_OK) goto done;
+  if (!scene_going(b->run) || !planned(b, pendres_basin_plan_create(&b->grid, first, rows, 0, &p)))
+    return;
+  follow_plan(b, p);
+  verify_plan(b, p, rows);
   b->integrated += pendres_basin_plan_integrated(p);
-  state = malloc(n * sizeof *state);
-  status = state != NULL ? pendres_basin_plan_states(p, state) : PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK) status = basins_write_rows(b, first, rows, state);
-  if (status == PENDRES_OK) status = pendres_basin_sums_add(b->sums, rows, state);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const size_t number = first * b->grid.nv + i;
-    if (state[i].attractor != PENDRES_ATTRACTOR_UNKNOWN) continue;
-    if (state[i].settling_periods == BASINS_GIVEN_UP) {
-      take_given_up(b, 1, &number);
-      continue;
-    }
-    b->unresolved++;
-    if (*lost < LOST_A_TASK) index[(*lost)++] = number;
+  pendres_basin_state *state = malloc(n * sizeof *state);
+  if (planned(b, state != NULL ? pendres_basin_plan_states(p, state) : PENDRES_OUT_OF_MEMORY)) {
+    basins_write_rows(b, first, rows, state);
+    planned(b, pendres_basin_sums_add(b->sums, rows, state));
+    take_unresolved(b, first * b->grid.nv, n, state, to, LOST_A_TASK);
   }
-done:
-  if (status != PENDRES_OK)
-    (void)scene_fail(b->run, status, "refinement: %s", pendres_status_message(status));
   pendres_basin_plan_free(p);
   free(state);
-  return status;
 }
 
-static pendres_status refine_once(basins *b, size_t *grown, int last)
+static size_t refine_once(basins *b, int last)
 {
-  const size_t band = 1 + (BAND_STATES - 1) / b->grid.nv;
-  size_t index[LOST_A_TASK], lost = 0;
-  pendres_status status = restart(b);
-  *grown = 0;
+  const size_t band = 1 + (BAND_STATES - 1) / b->grid.nv, nx = b->grid.nx;
+  size_t index[LOST_A_TASK];
+  lost some = {0, index};
+  restart(b);
   b->integrated = b->verified = b->missed = b->filled = b->clean = 0;
-  for (size_t i = 0; i < b->grid.nx && status == PENDRES_OK; i += band)
-    status = refine_band(b, i, b->grid.nx - i < band ? b->grid.nx - i : band, &lost, index);
-  if (status == PENDRES_OK)
-    status = pendres_basin_sums_suspect(b->sums, pendres_basin_plan_suspected(b->filled, b->clean));
-  if (status == PENDRES_OK && !last) status = extend(b, lost, index, grown);
-  return status;
+  for (size_t i = 0; i < nx; i += band)
+    refine_band(b, i, nx - i < band ? nx - i : band, &some);
+  if (scene_going(b->run))
+    planned(b, pendres_basin_sums_suspect(b->sums,
+                                          pendres_basin_plan_suspected(b->filled, b->clean)));
+  return last ? 0 : extend(b, &some);
 }
 
 /* ---- the scene ---- */
 
 /* The line v = 0. */
-static pendres_status compute_cut(basins *b)
+static void compute_cut(basins *b)
 {
   static const double rest = 0.0;
   basins line = *b;
   size_t *index = scene_array(b->run, b->grid.nx, sizeof *index);
   line.grid.nv = 1;
   line.grid.v = &rest;
-  if (index == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (index == NULL) return;
   for (size_t i = 0; i < b->grid.nx; i++) index[i] = i;
-  const pendres_status status = integrate(&line, b->grid.nx, index, &b->cut);
-  return status;
+  b->cut = integrate(&line, b->grid.nx, index);
 }
 
-static pendres_status find_attractors(basins *b)
+static void find_attractors(basins *b)
 {
   char why[SCENE_TOLD];
   pendres_context *ctx = scene_context(b->run);
-  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (ctx == NULL) return;
   if (scene_settling_too_long(b->d, &b->pendulum, 1.0, why, sizeof why))
-    return scene_fail(b->run, PENDRES_NOT_CONVERGED, "%s", why);
-  return scene_asked(b->run, pendres_basin_attractors(ctx, &b->pendulum, &b->grid, &b->set));
+    scene_fail(b->run, PENDRES_NOT_CONVERGED, "%s", why);
+  else scene_asked(b->run, pendres_basin_attractors(ctx, &b->pendulum, &b->grid, &b->set));
 }
 
 /* Tell how many states stayed without an attractor, and what may help. */
@@ -451,23 +365,20 @@ static pendres_status run_scene(scene_run *run)
                        .x = d->axis[DECK_AXIS_X].value, .v = d->axis[DECK_AXIS_V].value,
                        .by = strcmp(d->basins.by, "well") == 0 ? PENDRES_BASIN_BY_WELL
                                                                : PENDRES_BASIN_BY_ATTRACTOR}};
-  size_t grown = 1;
-  pendres_status status = find_attractors(&b);
-  if (status == PENDRES_OK) status = basins_define(&b);
-  for (int pass = 0; grown > 0 && status == PENDRES_OK; pass++) {
-    const int last = pass == MOST_EXTENSIONS;
-    status = d->basins.refine ? refine_once(&b, &grown, last) : sweep_once(&b, &grown, last);
-  }
-  if (status == PENDRES_OK) status = compute_cut(&b);
-  if (status == PENDRES_OK) status = basins_write_results(&b);
-  if (status == PENDRES_OK) basins_write_clouds(run, b.set);
-  if (status == PENDRES_OK) status = run->status;
+  find_attractors(&b);
+  basins_define(&b);
+  for (size_t pass = 0, grown = 1; grown > 0 && scene_going(run); pass++)
+    grown = d->basins.refine ? refine_once(&b, pass == MOST_EXTENSIONS)
+                             : sweep_once(&b, pass == MOST_EXTENSIONS);
+  compute_cut(&b);
+  basins_write_results(&b);
+  basins_write_clouds(run, b.set);
   run->failed_points += b.unresolved;
   if (b.unresolved > 0) tell_unresolved(&b);
   pendres_attractors_free(b.set);
   pendres_basin_sums_free(b.sums);
   free(b.cut);
-  return status;
+  return run->status;
 }
 
 const scene_kind scene_basins = {

@@ -39,24 +39,23 @@ typedef struct basins {
 } basins;
 
 /* Define the variables of all states, in the group of the grid. */
-pendres_status basins_define(basins *b);
+void basins_define(basins *b);
 
 /* Write whole rows; type errors and the like are the store's. */
-pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
-                                 const pendres_basin_state *state);
+void basins_write_rows(basins *b, size_t first, size_t rows, const pendres_basin_state *state);
 
 /* Everything that is not a state of the grid. */
-pendres_status basins_write_results(basins *b);
+void basins_write_results(basins *b);
 
 /* Write how many of the states go to each of the attractors, and to each of their wells. */
-pendres_status basins_write_wells(basins *b, size_t attractors);
+void basins_write_wells(basins *b, size_t attractors);
 
 /* Print a line where attractors have more than one well. */
 void basins_print_wells(const basins *b, FILE *out);
 
 /* Find and write the stable manifold of the orbit between the first attractor and its neighbour,
    if any; b->curve says what was found. */
-pendres_status basins_write_boundary(basins *b);
+void basins_write_boundary(basins *b);
 
 /*
  * Compute and write the clouds around all attractors of the set at the deck's temperatures, and

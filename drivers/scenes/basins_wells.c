@@ -1,8 +1,7 @@
 /* basins_wells.c -- states by attractor and by well, shares by well; see basins.h. */
 #include "scenes/basins.h"
-#include "scenes/columns.h"
 
-#include <stdlib.h>
+#include <string.h>
 
 /* Of each attractor: its states, and its wells. */
 typedef struct count {
@@ -16,23 +15,17 @@ static const scene_column of_attractors[] = {
    .value = offsetof(count, wells)},
 };
 
-static pendres_status write_counts(basins *b, size_t attractors, size_t n,
-                                   const pendres_basin_well *wells)
+static void write_counts(basins *b, size_t attractors, size_t n, const pendres_basin_well *wells)
 {
-  size_t *states = calloc(attractors + 1, sizeof *states);
-  count *rows = calloc(attractors + 1, sizeof *rows);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (states == NULL || rows == NULL) goto done;
-  status = pendres_basin_sums_counts(b->sums, states);
+  size_t *states = scene_array(b->run, attractors, sizeof *states);
+  count *rows = scene_array(b->run, attractors, sizeof *rows);
+  if (rows == NULL) return;
+  scene_asked(b->run, pendres_basin_sums_counts(b->sums, states));
   for (size_t i = 0; i < attractors; i++) rows[i].states = states[i];
   for (size_t i = 0; i < n; i++) rows[wells[i].attractor].wells++;
   const scene_table table = {.dimensions = {"attractor"}, .n = attractors, .stride = sizeof *rows,
                              .rows = rows};
-  if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_attractors);
-done:
-  free(states);
-  free(rows);
-  return status;
+  SCENE_WRITE(b->run, &table, of_attractors);
 }
 
 /* Of each attractor and well: the states that settle there, and their share of the window. */
@@ -42,6 +35,11 @@ typedef struct well {
   double fraction, fraction_error;
 } well;
 
+static int ends_are_wells(const deck *d)
+{
+  return strcmp(d->basins.by, "well") == 0;
+}
+
 static const scene_column of_wells[] = {
   {.name = "attractor", .long_name = "number of the attractor", .type = SCENE_NUMBER,
    .value = offsetof(well, attractor)},
@@ -49,50 +47,35 @@ static const scene_column of_wells[] = {
    .type = SCENE_NUMBER, .value = offsetof(well, number)},
   {.name = "states", .long_name = "states of the grid that settle there", .type = SCENE_COUNT,
    .value = offsetof(well, states)},
+  /* Of boundaries between wells. */
+  {.name = "fraction", .long_name = "share of the window that settles there",
+   .when = ends_are_wells, .value = offsetof(well, fraction),
+   .error = offsetof(well, fraction_error)},
 };
 
-/* Of boundaries between wells. */
-static const scene_column of_shares = {
-  .name = "fraction", .long_name = "share of the window that settles there",
-  .value = offsetof(well, fraction), .error = offsetof(well, fraction_error)};
-
-static pendres_status make_wells(const basins *b, size_t n, const pendres_basin_well *wells,
-                                 well *rows)
+static void write_each(basins *b, size_t n, const pendres_basin_well *wells)
 {
-  double *share = calloc(2 * n + 1, sizeof *share);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (share != NULL) status = pendres_basin_sums_well_shares(b->sums, share, share + n);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states, share[i],
-                     share[n + i]};
-  free(share);
-  return status;
-}
-
-static pendres_status write_each(basins *b, size_t n, const pendres_basin_well *wells)
-{
+  double *share = scene_array(b->run, 2 * n, sizeof *share);
   well *rows = scene_array(b->run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
                              .stride = sizeof *rows, .rows = rows};
-  pendres_status status =
-    rows != NULL ? make_wells(b, n, wells, rows) : PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK)
-    status = scene_numbering(b->run, "basin_well", n,
-                             "well of an attractor, by attractor, then by well");
-  if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_wells);
-  if (status == PENDRES_OK && b->grid.by == PENDRES_BASIN_BY_WELL)
-    status = scene_columns_write(b->run, &table, 1, &of_shares);
-  return status;
+  if (rows == NULL) return;
+  scene_asked(b->run, pendres_basin_sums_well_shares(b->sums, share, share + n));
+  for (size_t i = 0; i < n; i++)
+    rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states, share[i],
+                     share[n + i]};
+  scene_numbering(b->run, "basin_well", n, "well of an attractor, by attractor, then by well");
+  SCENE_WRITE(b->run, &table, of_wells);
 }
 
-pendres_status basins_write_wells(basins *b, size_t attractors)
+void basins_write_wells(basins *b, size_t attractors)
 {
   const pendres_basin_well *wells = NULL;
   size_t n = 0;
-  pendres_status status = pendres_basin_sums_wells(b->sums, &n, &wells);
-  if (status == PENDRES_OK) status = write_counts(b, attractors, n, wells);
-  if (status == PENDRES_OK) status = write_each(b, n, wells);
-  return status;
+  if (!scene_going(b->run)) return;
+  scene_asked(b->run, pendres_basin_sums_wells(b->sums, &n, &wells));
+  write_counts(b, attractors, n, wells);
+  write_each(b, n, wells);
 }
 
 void basins_print_wells(const basins *b, FILE *out)

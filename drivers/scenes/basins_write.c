@@ -60,54 +60,49 @@ static scene_variables variables_of(basins *b)
   return (scene_variables){BASINS_VARIABLES, b->column, b->variable};
 }
 
-pendres_status basins_define(basins *b)
+void basins_define(basins *b)
 {
   const scene_table table = state_table("", "v", 0, NULL);
   const scene_variables of = variables_of(b);
-  pendres_status status = scene_dimension(b->run, "", DECK_AXIS_X);
-  if (status == PENDRES_OK) status = scene_dimension(b->run, "", DECK_AXIS_V);
   memcpy(b->column, of_states, sizeof of_states);
   /* Where a force may drive pendulums to infinity, the first two columns have a value for that. */
   if (b->d->pendulum.force == PENDRES_FORCE_POLYNOMIAL) {
     b->column[0].names = scene_fate_names;
     b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
   }
-  return status == PENDRES_OK ? scene_columns_define(b->run, &table, &of) : status;
+  scene_dimension(b->run, "", DECK_AXIS_X);
+  scene_dimension(b->run, "", DECK_AXIS_V);
+  scene_columns_define(b->run, &table, &of);
 }
 
-pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
-                                 const pendres_basin_state *state)
+void basins_write_rows(basins *b, size_t first, size_t rows, const pendres_basin_state *state)
 {
   enum { ROWS = 256 };
   const size_t nv = b->grid.nv;
-  pendres_status status = PENDRES_OK;
   const scene_variables of = variables_of(b);
   state_row *some = calloc((rows < ROWS ? rows : ROWS) * nv + 1, sizeof *some);
-  if (some == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < rows && status == PENDRES_OK; i += ROWS) {
+  if (some == NULL) scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu rows", rows);
+  for (size_t i = 0; i < rows && scene_going(b->run); i += ROWS) {
     const size_t n = rows - i < ROWS ? rows - i : ROWS;
     const scene_table table = state_table("", "v", n * nv, some);
     state_rows(n * nv, state + i * nv, some);
-    status = scene_columns_write_rows(b->run, &table, first + i, n, &of);
+    scene_columns_write_rows(b->run, &table, first + i, n, &of);
   }
   free(some);
-  return status;
 }
 
-static pendres_status write_cut(basins *b)
+static void write_cut(basins *b)
 {
   const size_t n = b->grid.nx;
-  pendres_status status = scene_dimension(b->run, "cut", DECK_AXIS_X);
-  if (status != PENDRES_OK) return status;
   state_row *rows = scene_array(b->run, n, sizeof *rows);
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   const scene_table table = state_table("cut", NULL, n, rows);
+  if (rows == NULL) return;
   state_rows(n, b->cut, rows);
-  status = SCENE_WRITE(b->run, &table, b->column);
-  if (status != PENDRES_OK) return status;
-  status = pendres_store_attribute(b->run->store, "cut", NULL, "description",
-                                        "the line v = 0");
-  return scene_stored(b->run, status);
+  scene_dimension(b->run, "cut", DECK_AXIS_X);
+  SCENE_WRITE(b->run, &table, b->column);
+  if (scene_going(b->run))
+    scene_stored(b->run, pendres_store_attribute(b->run->store, "cut", NULL, "description",
+                                                      "the line v = 0"));
 }
 
 /* ---- attractors ---------------------------------------------------------------------------- */
@@ -159,29 +154,26 @@ static void make_rows(const basins *b, const double *fraction, const double *err
   }
 }
 
-static pendres_status write_attractors(basins *b, size_t n, const row *rows)
+static void write_attractors(basins *b, size_t n, const row *rows)
 {
   const scene_table table = {.dimensions = {"attractor"}, .n = n, .stride = sizeof *rows,
                              .rows = rows};
-  pendres_status status =
-    scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
-  if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_attractors);
   const scene_table orbits = {.dimensions = {"attractor"}, .prefix = "attractor", .n = n,
                               .stride = sizeof *rows, .rows = rows};
-  if (status == PENDRES_OK)
-    status = scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
-  if (status == PENDRES_OK) status = basins_write_wells(b, n);
-  return scene_stored(b->run, status);
+  scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
+  SCENE_WRITE(b->run, &table, of_attractors);
+  scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
+  basins_write_wells(b, n);
 }
 
 /* ---- statistics ---------------------------------------------------------------------------- */
 
-static pendres_status look_closer(basins *b, pendres_basin_statistics *s)
+static void look_closer(basins *b, pendres_basin_statistics *s)
 {
   pendres_context *ctx = scene_context(b->run);
-  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
-  return scene_asked(b->run, pendres_basin_statistics_refine(ctx, b->set, &b->grid, s,
-                                                             &b->random_states));
+  if (ctx != NULL)
+    scene_asked(b->run, pendres_basin_statistics_refine(ctx, b->set, &b->grid, s,
+                                                        &b->random_states));
 }
 
 #define STATISTIC(label, field, words)                                          \
@@ -200,7 +192,7 @@ static const scene_column of_statistics[] = {
 static const scene_column of_distances =
   STATISTIC(uncertain_fraction, uncertain, "share of states with an unlike one so far off");
 
-static pendres_status write_statistics(basins *b, const pendres_basin_statistics *s)
+static void write_statistics(basins *b, const pendres_basin_statistics *s)
 {
   static const scene_column random = {
     .name = "uncertainty_random_states", .type = SCENE_COUNT,
@@ -209,15 +201,13 @@ static pendres_status write_statistics(basins *b, const pendres_basin_statistics
   const scene_table states = {.n = 1, .stride = sizeof b->random_states, .rows = &b->random_states};
   const scene_table distances = {.dimensions = {"distance"}, .n = (size_t)s->scales,
                                  .stride = sizeof s->uncertain[0], .rows = s};
-  pendres_status status = SCENE_WRITE(b->run, &whole, of_statistics);
-  if (status == PENDRES_OK) status = scene_columns_write(b->run, &states, 1, &random);
-  if (status != PENDRES_OK || s->scales == 0) return status;
-  status = pendres_store_dimension(
-    b->run->store,
-    &(pendres_store_spec){.name = "distance", .long_name = "distance in initial velocity"},
-    (uint64_t)s->scales, s->distance);
-  return status == PENDRES_OK ? scene_columns_write(b->run, &distances, 1, &of_distances)
-                              : scene_stored(b->run, status);
+  const pendres_store_spec distance = {.name = "distance",
+                                       .long_name = "distance in initial velocity"};
+  SCENE_WRITE(b->run, &whole, of_statistics);
+  scene_columns_write(b->run, &states, 1, &random);
+  if (s->scales == 0) return;
+  scene_put_dimension(b->run, &distance, s->distance, distances.n);
+  scene_columns_write(b->run, &distances, 1, &of_distances);
 }
 
 /* How many states there are of each kind. */
@@ -252,14 +242,13 @@ static const scene_column of_escapes[] = {
    .error = offsetof(pendres_basin_statistics, escape_fraction_error)},
 };
 
-static pendres_status write_escapes(basins *b, const pendres_basin_statistics *s)
+static void write_escapes(basins *b, const pendres_basin_statistics *s)
 {
   const scene_table table = {.n = 1, .stride = sizeof *s, .rows = s};
-  if (b->d->pendulum.force != PENDRES_FORCE_POLYNOMIAL) return PENDRES_OK;
-  return SCENE_WRITE(b->run, &table, of_escapes);
+  if (b->d->pendulum.force == PENDRES_FORCE_POLYNOMIAL) SCENE_WRITE(b->run, &table, of_escapes);
 }
 
-static pendres_status write_counts(basins *b)
+static void write_counts(basins *b)
 {
   const counts of = {
     .unresolved = b->unresolved, .uncertain = b->uncertain, .integrated = b->integrated,
@@ -267,9 +256,8 @@ static pendres_status write_counts(basins *b)
     .missed = b->missed,
     .suspected = (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean))};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
-  const pendres_status status = SCENE_WRITE(b->run, &table, of_counts);
-  return status == PENDRES_OK && b->d->basins.refine ? SCENE_WRITE(b->run, &table, of_refinement)
-                                                     : status;
+  SCENE_WRITE(b->run, &table, of_counts);
+  if (b->d->basins.refine) SCENE_WRITE(b->run, &table, of_refinement);
 }
 
 /* ---- what the paper says ------------------------------------------------------------------- */
@@ -286,19 +274,19 @@ static double share_between(const basins *b, double low, double high, pendres_la
   return all > 0 ? (double)there / (double)all : NAN;
 }
 
-static pendres_status write_paper(basins *b)
+static void write_paper(basins *b)
 {
   const pendres_pendulum *p = &b->pendulum;
   if (fabs(p->damping - 0.12) > 1e-12 || fabs(p->drive_amplitude - 0.2) > 1e-12 ||
-      fabs(p->drive_frequency - 0.25 * PENDRES_PI) > 1e-12)
-    return PENDRES_OK;
+      fabs(p->drive_frequency - 0.25 * PENDRES_PI) > 1e-12 || !scene_going(b->run))
+    return;
   const scene_printed values[] = {
     {.name = "attractors", .printed = 2.0, .computed = (double)pendres_attractors_count(b->set)},
     {.name = "share_sa_x_0.2pi_to_1.1pi", .printed = 1.0,
      .computed = share_between(b, 0.2 * PENDRES_PI, 1.1 * PENDRES_PI, PENDRES_LABEL_SA)},
     {.name = "share_la_x_-0.3pi_to_0", .printed = 1.0,
      .computed = share_between(b, -0.3 * PENDRES_PI, 0.0, PENDRES_LABEL_LA)}};
-  return scene_write_paper(b->run, 3, values);
+  scene_write_paper(b->run, 3, values);
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
@@ -352,7 +340,6 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, size
 {
   FILE *out = b->run->table;
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
-  if (out == NULL) return;
   SCENE_PRINT(out, &table, n, cells, NULL);
   if (s->escaped > 0)
     fprintf(out, "%-13s%72s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
@@ -372,42 +359,28 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, size
   if (b->curve != NULL) fprintf(out, "boundary as a curve: %s\n", b->curve);
 }
 
-static pendres_status write_results(basins *b, pendres_basin_statistics *s, size_t n,
-                                    const row *rows)
+void basins_write_results(basins *b)
 {
-  const int statistics = b->d->basins.statistics;
-  pendres_status status = statistics ? look_closer(b, s) : PENDRES_OK;
-  if (status == PENDRES_OK) status = write_attractors(b, n, rows);
-  if (status == PENDRES_OK) status = write_cut(b);
-  if (status == PENDRES_OK) status = write_counts(b);
-  if (status == PENDRES_OK) status = write_escapes(b, s);
-  if (status == PENDRES_OK && statistics) status = write_statistics(b, s);
-  if (status == PENDRES_OK && b->d->basins.boundary) status = basins_write_boundary(b);
-  return status == PENDRES_OK ? write_paper(b) : status;
-}
-
-pendres_status basins_write_results(basins *b)
-{
+  if (!scene_going(b->run)) return;
   const size_t n = pendres_attractors_count(b->set);
+  const int statistics = b->d->basins.statistics;
   pendres_basin_statistics s;
-  double *fraction = malloc((2 * n + 1) * sizeof *fraction);
-  row *rows = malloc((n + 1) * sizeof *rows);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (fraction == NULL || rows == NULL) {
-    (void)scene_fail(b->run, status, "out of memory for attractors");
-    goto done;
-  }
-  status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
-  if (status != PENDRES_OK) {
-    (void)scene_fail(b->run, status, "there are no states");
-    goto done;
+  double *fraction = scene_array(b->run, 2 * n, sizeof *fraction);
+  row *rows = scene_array(b->run, n, sizeof *rows);
+  if (rows == NULL) return;
+  if (pendres_basin_sums_result(b->sums, &s, fraction, fraction + n) != PENDRES_OK) {
+    scene_fail(b->run, PENDRES_INVALID_ARGUMENT, "there are no states");
+    return;
   }
   b->uncertain = s.uncertain_states;
   make_rows(b, fraction, fraction + n, rows);
-  status = write_results(b, &s, n, rows);
-  if (status == PENDRES_OK) print_table(b, &s, n, rows);
-done:
-  free(fraction);
-  free(rows);
-  return status;
+  if (statistics) look_closer(b, &s);
+  write_attractors(b, n, rows);
+  write_cut(b);
+  write_counts(b);
+  write_escapes(b, &s);
+  if (statistics) write_statistics(b, &s);
+  if (b->d->basins.boundary) basins_write_boundary(b);
+  write_paper(b);
+  if (scene_prints(b->run)) print_table(b, &s, n, rows);
 }

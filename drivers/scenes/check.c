@@ -46,15 +46,11 @@ int scene_check_resonance(const pendres_resonance *r, pendres_status outcome)
          scene_check_response(&r->response);
 }
 
-int scene_check_basin_states(size_t n, const pendres_basin_state *state, size_t attractors)
+int scene_check_basin_state(const pendres_basin_state *state, size_t attractors)
 {
-  int good = 1;
-  for (size_t i = 0; i < n && good; i++) {
-    const int number = state[i].attractor;
-    good = (number == PENDRES_ATTRACTOR_UNKNOWN || number == PENDRES_ATTRACTOR_ESCAPED ||
-            (number >= 0 && (size_t)number < attractors)) &&
-           scene_check_code(state[i].label, PENDRES_LABEL_COUNT) &&
-           scene_check_code(state[i].how, PENDRES_BASIN_HOW_COUNT);
-  }
-  return good;
+  const int number = state->attractor;
+  return (number == PENDRES_ATTRACTOR_UNKNOWN || number == PENDRES_ATTRACTOR_ESCAPED ||
+          (number >= 0 && (size_t)number < attractors)) &&
+         scene_check_code(state->label, PENDRES_LABEL_COUNT) &&
+         scene_check_code(state->how, PENDRES_BASIN_HOW_COUNT);
 }

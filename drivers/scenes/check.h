@@ -21,7 +21,7 @@ int scene_check_attractor(const pendres_attractor *a); /* closed or not */
 int scene_check_response(const pendres_response *r);
 int scene_check_resonance(const pendres_resonance *r, pendres_status outcome);
 
-/* n states of a grid; attractors: in their set. */
-int scene_check_basin_states(size_t n, const pendres_basin_state *state, size_t attractors);
+/* attractors: in the set that the state of a grid names one of. */
+int scene_check_basin_state(const pendres_basin_state *state, size_t attractors);
 
 #endif

@@ -124,7 +124,8 @@ static scene_failure attempt(work *w, size_t first, size_t n, void *rows, char w
     if (n == 1) farm_lost(w->out, words, SCENE_TOLD);
     return SCENE_FAILURE_OUT_OF_TIME;
   }
-  const scene_failure reason = scene_failure_of(*status);
+  const scene_failure reason =
+    w->p->unmarked ? SCENE_FAILURE_NONE : scene_failure_of(*status);
   if (reason != SCENE_FAILURE_NONE)
     snprintf(words, SCENE_TOLD, "%s", pendres_context_message(w->ctx));
   return reason;
@@ -146,7 +147,7 @@ static pendres_status find(work *w, size_t first, size_t n, char *rows)
   }
   scene_columns_blank(w->p->column_count, w->p->columns, rows);
   if (w->p->leave_out != NULL) w->p->leave_out(w->p, first, rows);
-  add_mark(&w->marks, first, reason, w->p->words == NULL ? words : NULL);
+  if (!w->p->unmarked) add_mark(&w->marks, first, reason, w->p->words == NULL ? words : NULL);
   return PENDRES_OK;
 }
 
@@ -185,7 +186,7 @@ static int check(const void *arg, size_t task, const farm_record *in)
   mark m;
   if (in->size < bytes || (in->size - bytes) % sizeof m != 0) return 0;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
-    if (m.point < t.first || m.point >= t.first + t.n || m.reason < 0 ||
+    if (p->unmarked || m.point < t.first || m.point >= t.first + t.n || m.reason < 0 ||
         m.reason >= SCENE_FAILURE_COUNT || memchr(m.words, '\0', sizeof m.words) == NULL)
       return 0;
   int good = 1;
@@ -220,9 +221,9 @@ pendres_status scene_points_compute(scene_run *run, const farm_stage *stage, siz
     scene_points *p = points[k];
     if (p->collect == NULL && p->large != NULL)
       scene_temporary_create(run, p->n, p->size, SCENE_TEMPORARY_MEMORY, p->large);
-    else if (p->collect == NULL)
+    else if (p->collect == NULL && p->rows == NULL)
       p->rows = scene_array(run, p->n, p->size);
-    scene_failures_create(run, p->n, &p->failed);
+    if (!p->unmarked) scene_failures_create(run, p->n, &p->failed);
     whole.tasks += tasks_of(p);
   }
   whole.record_size = points[0]->size;

@@ -64,7 +64,11 @@ struct scene_points {
      function may be NULL. */
   const char *(*words)(scene_failure reason);
 
-  /* What has come of it: the run's. */
+  /* Not 0: records say what became of their points: nothing is marked, and none is left out but by
+     the budget. What fails otherwise fails as a whole. */
+  int unmarked;
+
+  /* What has come of it: the run's, but for rows that the scene has set before. */
   void *rows;               /* [n] */
   scene_failures failed;    /* [n] */
 };
