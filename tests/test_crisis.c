@@ -1,12 +1,17 @@
 /*
- * test_crisis.c -- where chaos ends: in a crisis, at a value with an error.
+ * test_crisis.c -- where chaos ends: in a crisis, where doublings accumulate, or where an orbit is
+ * born.
  *
- * What is true is told by pendulums that a plain Runge-Kutta integration of order four follows, in
- * code of its own: before the crisis none of them leaves the chaos, beyond it all of them do.
+ * What is true of the crisis is told by pendulums that a plain Runge-Kutta integration of order
+ * four follows, in code of its own: before it none of them leaves the chaos, beyond it all of them
+ * do. The place where doublings accumulate is that of the same cascade, followed from its other
+ * end; a fold is where the reference's orbits, in extended precision, end.
  */
 #include <stdlib.h>
 
+#include <pendres/cascade.h>
 #include <pendres/hysteresis.h>
+#include <pendres/reference.h>
 
 #include "context_fixture.h"
 
@@ -94,10 +99,76 @@ static void chaos_ends_and_pendulums_escape(void **state)
   pendres_hysteresis_free(h);
 }
 
+static const pendres_pendulum rocking = {.damping = 0.088115518405680743,
+                                         .drive_amplitude = 0.97236988314086892};
+
+static pendres_hysteresis *from_to(pendres_context *ctx, double from, double to)
+{
+  const double value[] = {from, to};
+  pendres_hysteresis *h = NULL;
+  check_ok(pendres_hysteresis_follow(ctx, &rocking, &(pendres_state){-0.8, -0.2},
+                                     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2, value},
+                                     &h));
+  assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label, PENDRES_LABEL_CHAOTIC);
+  return h;
+}
+
+/* Upwards chaos ends in a cascade, which is gone through backwards. */
+static void chaos_ends_where_doublings_accumulate(void **state)
+{
+  pendres_cascade c;
+  pendres_hysteresis *h = from_to(*state, 0.7875, 0.83);
+  const pendres_orbit *o = &pendres_hysteresis_get(h, 1)->attractor.orbit;
+  check_ok(pendres_cascade_find(*state, o, PENDRES_DRIVE_FREQUENCY, 0.7875, &c));
+  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  assert_true(j->kind == PENDRES_JUMP_FLIP && j->from == PENDRES_LABEL_CHAOTIC && j->certain);
+  assert_true(j->to_period == 64 && j->value_error < 1e-8);
+  check_near(j->value, c.limit, j->value_error + c.limit_error);
+  /* From 64 periods to one. */
+  assert_int_equal(pendres_hysteresis_jumps(h), 7);
+  for (size_t k = 1; k < 7; k++) {
+    j = pendres_hysteresis_jump(h, k);
+    assert_true(j->kind == PENDRES_JUMP_FLIP && j->gradual);
+    assert_int_equal(j->to_period, 64 >> k);
+    check_near(j->value, c.value[6 - k], j->value_error + c.value_error[6 - k]);
+  }
+  pendres_hysteresis_free(h);
+}
+
+/* Downwards it ends in a window, in which orbits of three periods have doubled when they are seen:
+   the fold of these is the end, and the doubling comes after it. */
+static void chaos_ends_in_a_window(void **state)
+{
+  pendres_reference_cycle cycle;
+  pendres_hysteresis *h = from_to(*state, 0.643, 0.6423);
+  const pendres_orbit *o = &pendres_hysteresis_get(h, 1)->attractor.orbit;
+  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  assert_true(j->kind == PENDRES_JUMP_FOLD && j->to_period == 3 && j->value_error < 1e-9);
+  assert_int_equal(pendres_hysteresis_jump(h, 1)->kind, PENDRES_JUMP_FLIP);
+  /* The reference's orbit is there until the fold, and not behind it. */
+  pendres_pendulum p = o->pendulum;
+  long double y = o->x - 1.57079632679489661923L, v = o->v;
+  for (int k = 0; k <= 40; k++) {
+    p.drive_frequency = j->value + (o->pendulum.drive_frequency - j->value) *
+                                     (k < 40 ? pow(0.6, k) : 0.0) - 1e-9;
+    check_ok(pendres_reference_orbit(&p, y, v, 3, o->winding * 3 / o->period, &cycle));
+    y = cycle.y;
+    v = cycle.v;
+  }
+  p.drive_frequency = j->value + 1e-9;
+  const pendres_status beyond =
+    pendres_reference_orbit(&p, y, v, 3, o->winding * 3 / o->period, &cycle);
+  assert_true(beyond != PENDRES_OK || fabs((double)(cycle.y - y)) > 0.01);
+  pendres_hysteresis_free(h);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(chaos_ends_and_pendulums_escape),
+    cmocka_unit_test(chaos_ends_where_doublings_accumulate),
+    cmocka_unit_test(chaos_ends_in_a_window),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }

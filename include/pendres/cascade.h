@@ -32,7 +32,7 @@ typedef struct pendres_cascade {
   double value_error[PENDRES_CASCADE_DOUBLINGS]; /**< its error */
   double x[PENDRES_CASCADE_DOUBLINGS];   /**< a Poincaré point of it, ... */
   double v[PENDRES_CASCADE_DOUBLINGS];   /**< ... and the velocity there */
-  double limit;       /**< where they accumulate; NaN with less than four doublings */
+  double limit;       /**< where they accumulate; NaN with less than three doublings */
   double limit_error; /**< its error */
   double ratio;       /**< of the last two distances, which tends to Feigenbaum's; NaN with less
                            than four doublings, as three do not tell how far off it is */

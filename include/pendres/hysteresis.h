@@ -20,14 +20,17 @@
  *
  * From a chaotic state the pendulum is settled anew at each value, starting from its present state.
  * If it has come to a periodic orbit, or has escaped, the interval is halved until the value at
- * which it first does so is found. If the orbit is born there, in a window of the chaos, and most
- * trials go to it just behind its birth, from states of the chaos just before it, its birth is
- * where the chaos ends. If it is there on both sides, or if the pendulum escapes, the chaos ends
- * in a crisis. Next to a crisis chaos lasts long before it ends: the error includes how far beyond
- * it chaos may have been taken to last, from the lives of 32 pendulums at two distances. The orbit
- * is then followed. If orbits and chaos have alternated four times in one interval, the end of
- * chaos is only known to lie in the rest of it. A pendulum that has escaped to infinity does not
- * return on the rest of the path. Chaos that becomes wider or narrower without an end is no jump.
+ * which it first does so is found. If the orbit, or one that it is born from by doublings or a
+ * loss of symmetry, is born there, in a window of the chaos, and most trials go to it just behind
+ * its birth, from states of the chaos just before it, its birth is where the chaos ends. If its
+ * period doubles again and again towards the chaos, that ends where the doublings accumulate
+ * (cascade.h), and the pendulum goes through them backwards. If the orbit is there on both sides,
+ * or if the pendulum escapes, the chaos ends in a crisis. Next to a crisis chaos lasts long before
+ * it ends: the error includes how far beyond it chaos may have been taken to last, from the lives
+ * of 32 pendulums at two distances. The orbit is then followed. If orbits and chaos have alternated
+ * four times in one interval, the end of chaos is only known to lie in the rest of it. A pendulum
+ * that has escaped to infinity does not return on the rest of the path. Chaos that becomes wider or
+ * narrower without an end is no jump.
  *
  * An orbit whose computation stops, after so many points or in too short steps, is followed anew
  * from where that was, or, where this leads no further, settled at the next value. If that is
@@ -119,7 +122,8 @@ typedef struct pendres_hysteresis_point {
  * How a state ends. PENDRES_JUMP_FOLD: the orbit meets an unstable one, and both vanish, or such a
  * pair is born and takes the state's place: a rotation on a circle locks to the drive, chaos ends
  * in a window;
- * PENDRES_JUMP_FLIP: period doubling; PENDRES_JUMP_SYMMETRY: loss of mirror symmetry;
+ * PENDRES_JUMP_FLIP: period doubling or, of chaos, the place where doublings accumulate;
+ * PENDRES_JUMP_SYMMETRY: loss of mirror symmetry;
  * PENDRES_JUMP_OTHER: it ends within the error of the value, for a reason that is not known;
  * PENDRES_JUMP_BRANCH_POINT: the orbit meets another branch and exchanges its stability with that
  * (transcritical); PENDRES_JUMP_CRISIS: a chaotic attractor meets an unstable orbit, or its stable

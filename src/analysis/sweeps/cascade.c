@@ -1,6 +1,7 @@
 /* cascade.c -- doublings of a period, one after another; see cascade.h. */
-#include <pendres/cascade.h>
+#include "analysis/sweeps/cascade.h"
 
+#include <limits.h>
 #include <math.h>
 
 #include "engine/context_internal.h"
@@ -34,11 +35,12 @@ static void finish(pendres_cascade *c)
 {
   const int last = c->doublings - 1;
   c->limit = c->limit_error = c->ratio = c->ratio_error = NAN;
-  if (c->doublings < 4) return;
+  if (c->doublings < 3) return;
   double off = 0.0;
   for (int i = last - 2; i <= last; i++) off = fmax(off, c->value_error[i]);
   c->limit = extrapolate(c, last);
   c->limit_error = fabs(c->limit - extrapolate(c, last - 1)) + 2.0 * off;
+  if (c->doublings < 4) return;
   c->ratio = ratio_at(c, last);
   c->ratio_error = fabs(c->ratio - ratio_at(c, last - 1)) +
                    4.0 * c->ratio * off / fabs(c->value[last] - c->value[last - 1]);
@@ -53,20 +55,42 @@ static void note(const pendres_bifurcation *b, pendres_cascade *c)
   c->value_error[c->doublings++] = b->value_error;
 }
 
-static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
-                             pendres_parameter parameter, double limit, pendres_cascade *out)
+/* The orbit half way between the last two doublings, on the stretch between them. */
+static pendres_status orbit_before(pendres_context *ctx, const pendres_stretch *s,
+                                   const pendres_cascade *c, pendres_orbit *last)
+{
+  const int n = c->doublings;
+  int found = 0;
+  if (n < 2) return PENDRES_OK;
+  const double middle = 0.5 * (c->value[n - 2] + c->value[n - 1]);
+  const pendres_status status = pendres_stretch_orbits(ctx, s, 1, &middle, last, &found);
+  if (!found) last->period = 0;
+  return status;
+}
+
+pendres_status pendres_cascade_follow(pendres_context *ctx, const pendres_cascade_way *way,
+                                      pendres_cascade *out, pendres_orbit *last)
 {
   pendres_stretch s = pendres_stretch_none;
-  pendres_status status = pendres_stretch_from(ctx, orbit, parameter, limit, &s);
+  *out = (pendres_cascade){.doublings = 0};
+  if (last != NULL) last->period = 0;
+  pendres_status status =
+    pendres_stretch_from(ctx, way->orbit, way->parameter, way->limit, &s);
   for (int fork = 0; fork < MOST_FORKS && status == PENDRES_OK; fork++) {
     const pendres_bifurcation end = s.bifurcation;
+    const int doubles = end.kind == PENDRES_PERIOD_DOUBLING;
     if (s.end != PENDRES_STRETCH_BIFURCATION || end.kind == PENDRES_FOLD) break;
-    if (end.kind == PENDRES_PERIOD_DOUBLING) note(&end, out);
-    if (out->doublings == PENDRES_CASCADE_DOUBLINGS) break;
+    if (doubles) note(&end, out);
+    if (out->doublings == PENDRES_CASCADE_DOUBLINGS ||
+        (doubles && end.orbit.period > way->longest / 2)) {
+      if (last != NULL) status = orbit_before(ctx, &s, out, last);
+      break;
+    }
     pendres_stretch_free(&s);
-    status = pendres_stretch_born(ctx, &end, limit, &s);
+    status = pendres_stretch_born(ctx, &end, way->limit, &s);
   }
   pendres_stretch_free(&s);
+  finish(out);
   return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
 }
 
@@ -82,8 +106,8 @@ static pendres_status cascade_find(pendres_context *ctx, const pendres_orbit *or
   if (why == NULL && !orbit->stable) why = "the orbit must be stable";
   if (why == NULL && !isfinite(limit)) why = "the limit must be finite";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cascade: %s", why);
-  const pendres_status status = follow(ctx, orbit, parameter, limit, out);
-  finish(out);
+  const pendres_cascade_way way = {orbit, parameter, limit, INT_MAX};
+  const pendres_status status = pendres_cascade_follow(ctx, &way, out, NULL);
   if (status == PENDRES_OK && out->doublings == 0)
     return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
                                 "the orbit does not double its period in the range");

@@ -6,12 +6,15 @@
 #include <pendres/strobe.h>
 
 #include "continuation/parameter.h"
+#include "analysis/sweeps/cascade.h"
 #include "analysis/sweeps/stretch.h"
 
 enum {
   HALVINGS = 8,    /* of the distance of two values between which chaos ends */
   LIVES = 32,      /* pendulums whose lives in chaos that ends are averaged */
   APART = 8,       /* periods after which chaos has lost its memory, for their starts */
+  MOST_BIRTHS = 8, /* of an orbit from another, one after the other */
+  SHORT = 16,      /* period of orbits of a cascade that pendulums settle on soon */
   FURTHER = 4      /* lives are measured so far from the end, and so much farther still, in what
                       halving has left of the interval */
 };
@@ -79,15 +82,28 @@ static pendres_status spread(const search *w, const pendres_settled *from, int n
   return status;
 }
 
-/* Whether the pendulum stays in the old state just before an orbit's birth, and most trials from
-   there go to that orbit just behind it. Sets share and certain of the jump. */
-static pendres_status try_beside(const search *w, const pendres_stretch *s, int direction,
-                                 pendres_jump *jump, int *born)
+/* Where a state may end in another that is born there. */
+typedef struct place {
+  pendres_jump_kind kind;
+  double value, error;
+  double before, behind; /* just before it, and where the orbit is just behind it, ... */
+  int period;            /* ... with its period */
+  int earlier;           /* the orbit that the pendulum was seen on has bifurcated since */
+  pendres_orbit late;    /* of an accumulation: one after many doublings; else of no period */
+} place;
+
+/* A pendulum on an orbit. */
+static pendres_settled settled_on(const pendres_orbit *o)
 {
-  const double small = direction * beside * pendres_parameter_scale(w->parameter);
-  const pendres_orbit *first = &pendres_stretch_last(s)->orbit;
-  const pendres_pendulum p = pendulum_at(w, s->end_value - small);
-  const pendres_pendulum q = pendulum_at(w, s->end_value + small);
+  return (pendres_settled){.pendulum = o->pendulum, .attractor = pendres_settled_orbit(o),
+                           .x = o->x, .v = o->v};
+}
+
+/* Whether the pendulum stays in the old state just before an orbit's birth, and most trials from
+   there go to that orbit just behind it. Sets the jump, and w->state, if it is born there. */
+static pendres_status try_beside(search *w, const place *at, pendres_jump *jump, int *born)
+{
+  const pendres_pendulum p = pendulum_at(w, at->before), q = pendulum_at(w, at->behind);
   pendres_settled before, behind;
   pendres_jump there = {.share = NAN};
   double x[PENDRES_HYSTERESIS_TRIALS], v[PENDRES_HYSTERESIS_TRIALS];
@@ -100,44 +116,105 @@ static pendres_status try_beside(const search *w, const pendres_stretch *s, int 
   if (status == PENDRES_OK) status = pendres_jump_try_from(w->ctx, &q, x, v, &behind, &there);
   if (status != PENDRES_OK) return status;
   *born = pendres_settled_closed(&behind.attractor) &&
-          behind.attractor.orbit.period == first->period;
+          behind.attractor.orbit.period == at->period;
   if (!*born) return status;
+  jump->kind = at->kind;
+  jump->value = at->value;
+  jump->value_error = at->error;
   jump->share = there.share;
   jump->certain = there.certain;
+  if (at->earlier) *w->state = at->late.period > 0 ? settled_on(&at->late) : behind;
   return status;
+}
+
+/* The distance at which a value between those of the search is looked at from both sides; 0: it is
+   not between them. */
+static double room(const search *w, double value)
+{
+  const double to = value_of(w), small = beside * pendres_parameter_scale(w->parameter);
+  if (!((value - w->from) * (to - value) > 0.0)) return 0.0;
+  return fmin(small, 0.5 * fmin(fabs(value - w->from), fabs(to - value)));
+}
+
+/*
+ * Chaos may end where doublings accumulate, which the pendulum then goes through backwards. Beyond
+ * their limit it comes to orbits of ever shorter periods; the first that sweeps follow is taken.
+ * Trials tell whether it comes there, on an orbit on which they settle soon.
+ */
+static pendres_status accumulation(const search *w, const pendres_orbit *orbit, place *out,
+                                   int *found)
+{
+  const pendres_cascade_way way = {orbit, w->parameter, w->from, PENDRES_HYSTERESIS_PERIOD};
+  pendres_cascade c;
+  pendres_orbit last;
+  int k = 0;
+  const pendres_status status = pendres_cascade_follow(w->ctx, &way, &c, &last);
+  *found = status == PENDRES_OK && last.period > 0 && room(w, c.limit) > c.limit_error;
+  if (!*found) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
+  while (k + 2 < c.doublings && 4 * c.period[k] <= SHORT) k++;
+  *out = (place){.kind = PENDRES_JUMP_FLIP, .value = c.limit, .error = c.limit_error,
+                 .before = c.limit - (value_of(w) > w->from ? 1 : -1) * room(w, c.limit),
+                 .behind = 0.5 * (c.value[k] + c.value[k + 1]), .period = 2 * c.period[k],
+                 .earlier = 1, .late = last};
+  return status;
+}
+
+/* Where an orbit begins that was born between the values, by a fold or as one of a cascade. */
+static pendres_status beginning(const search *w, const pendres_stretch *s, int earlier, place *out,
+                                int *found)
+{
+  const pendres_special kind = s->bifurcation.kind;
+  const double off = (value_of(w) > w->from ? 1 : -1) * room(w, s->end_value);
+  *found = 0;
+  if (s->end != PENDRES_STRETCH_BIFURCATION) return PENDRES_OK;
+  if (kind == PENDRES_PERIOD_DOUBLING || kind == PENDRES_SYMMETRY_BREAKING)
+    return accumulation(w, &pendres_stretch_last(s)->orbit, out, found);
+  *found = off != 0.0;
+  *out = (place){.kind = kind_of(kind), .value = s->end_value, .error = s->end_error,
+                 .before = s->end_value - off, .behind = s->end_value + off,
+                 .period = pendres_stretch_last(s)->orbit.period, .earlier = earlier};
+  return PENDRES_OK;
 }
 
 /* What there is to know of an orbit between two values: nothing, that it is born there and ends the
    old state, or that it is there at both. */
 typedef enum birth { BIRTH_NONE, BIRTH_FOUND, BIRTH_EARLIER } birth;
 
+/* The stretch of the orbit that the pendulum has gone to, back to the old state; where that was
+   born of another by doubling or a loss of symmetry, of the other, and so on. */
+static pendres_status go_back(const search *w, pendres_stretch *s, int *births)
+{
+  *births = 0;
+  pendres_status status =
+    pendres_stretch_from(w->ctx, &w->state->attractor.orbit, w->parameter, w->from, s);
+  while (status == PENDRES_OK && s->end == PENDRES_STRETCH_BIRTH && *births < MOST_BIRTHS) {
+    const pendres_orbit parent = s->bifurcation.orbit;
+    ++*births;
+    pendres_stretch_free(s);
+    status = pendres_stretch_from(w->ctx, &parent, w->parameter, w->from, s);
+  }
+  return status;
+}
+
 /*
- * Whether the orbit that the pendulum has gone to is born between the values, and the pendulum goes
- * to it there.
+ * Whether the orbit that the pendulum has gone to, or one that it is born from, is born between the
+ * values, and the pendulum goes to that there.
  */
 static pendres_status try_birth(search *w, pendres_jump *jump, birth *found)
 {
-  const double to = value_of(w), small = beside * pendres_parameter_scale(w->parameter);
   pendres_stretch s = pendres_stretch_none;
+  place at;
+  int there = 0, births = 0, born = 0;
   *found = BIRTH_NONE;
   if (!pendres_settled_closed(&w->state->attractor) ||
       w->state->attractor.orbit.period > PENDRES_HYSTERESIS_PERIOD)
     return PENDRES_OK;
-  pendres_status status =
-    pendres_stretch_from(w->ctx, &w->state->attractor.orbit, w->parameter, w->from, &s);
+  pendres_status status = go_back(w, &s, &births);
   if (status == PENDRES_OK && s.end == PENDRES_STRETCH_LIMIT) *found = BIRTH_EARLIER;
-  if (status == PENDRES_OK && s.end == PENDRES_STRETCH_BIFURCATION &&
-      fabs(to - s.end_value) > small && fabs(w->from - s.end_value) > small) {
-    int born = 0;
-    status = try_beside(w, &s, to > w->from ? 1 : -1, jump, &born);
-    if (status == PENDRES_OK && born) {
-      *found = BIRTH_FOUND;
-      jump->kind = kind_of(s.bifurcation.kind);
-      jump->value = s.end_value;
-      jump->value_error = s.end_error;
-    }
-  }
+  if (status == PENDRES_OK) status = beginning(w, &s, births > 0, &at, &there);
   pendres_stretch_free(&s);
+  if (status == PENDRES_OK && there) status = try_beside(w, &at, jump, &born);
+  if (status == PENDRES_OK && born) *found = BIRTH_FOUND;
   return status;
 }
 

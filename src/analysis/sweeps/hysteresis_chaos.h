@@ -13,10 +13,10 @@ int pendres_chaos_ends(const pendres_attractor *old, const pendres_attractor *th
 
 /*
  * A pendulum was in a state that is not followed at one value of a parameter, and has left it at
- * another value, that of state->pendulum. If it is on an orbit that is born between the two, and
- * goes to it just after its birth but not just before, its birth is where the old state ends.
- * Otherwise the interval is halved, since the pendulum may have gone to another orbit first, say to
- * one of a higher period if the parameter enters a cascade of doublings from its chaotic end.
+ * another value, that of state->pendulum. If it is on an orbit that is born between the two, or was
+ * born of one that is, and goes to it just after its birth but not just before, its birth is where
+ * the old state ends; so is the place where the doublings of its period accumulate. Otherwise the
+ * interval is halved, since the pendulum may have gone to another orbit first.
  * *state becomes the first state that it goes to, at a value just after the end. Windows of orbits
  * that the halving does not meet are not found. A chaotic state that ends while the other state is
  * there on both sides ends in a crisis; the error then includes what the time leaves open for which

@@ -27,7 +27,8 @@ enum { FEW_POINTS = 48, MOST_POINTS = 2000, ENOUGH = 8 };
 /* Values that differ by less, in the parameter's scale, are those of one place. */
 static const double same_value = 1e-8;
 /* A point this close to a bifurcation does not tell what there is before or behind that: it may be
-   on either of two branches that meet there. */
+   on either of two branches that meet there. For orbits of period one; all of a late branch of a
+   cascade may be as close. */
 static const double next_to = 1e-4;
 
 void pendres_stretch_free(pendres_stretch *s)
@@ -107,7 +108,7 @@ static const pendres_bifurcation *coming(const pendres_stretch *s, size_t k)
 static int beside(const pendres_stretch *s, const pendres_branch_point *p,
                   const pendres_bifurcation *at)
 {
-  return at != NULL && distance(p, s->parameter, at->value, &at->orbit) < next_to;
+  return at != NULL && distance(p, s->parameter, at->value, &at->orbit) < next_to / p->orbit.period;
 }
 
 /* How far a stretch that ends before point number k may reach beyond its last point: as far as the
