@@ -23,14 +23,14 @@ layers()
 }
 
 # Doors: the headers of a folder that other folders may include.
-src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h base/turns.h
+src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h
   model/forces.h model/model.h model/parameter.h model/units.h
   engine/accuracy.h engine/context_internal.h engine/door.h engine/coordinates.h engine/rank.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
-  orbits/orbit_reading.h orbits/orbit_sample.h
-  orbits/settle.h orbits/settle_lanes.h orbits/small_end.h orbits/smooth.h
+  orbits/orbit_reading.h orbits/orbit_series.h
+  orbits/settle.h orbits/settle_lanes.h orbits/smooth.h
   noise/langevin_moving.h noise/noise_common.h continuation/equations.h continuation/parameter.h
   continuation/branch.h continuation/follow.h
   continuation/sets.h continuation/units.h

@@ -21,7 +21,7 @@ more='
   kernels.c:accelerate 8    kernels.c:derive 8    kernels.c:rhs_terms 7
   kernels_langevin.c:force 7    kernels_langevin.c:kick_by 8    kernels_langevin.c:sample 7
   # The type is that of CVODE.
-  method_cvode_bdf.c:jacobian 8
+  method_cvode.c:jacobian 8
 '
 
 # FILE:LINE: what is wrong with the functions of some files, which begin and end with a brace in

@@ -13,7 +13,6 @@
 #include "orbits/recurrence.h"
 #include "states_fixture.h"
 
-static const double pi = 3.14159265358979323846;
 
 enum { SIDE = 8, STATES = SIDE * SIDE };
 

@@ -2,6 +2,7 @@
  * test_response.c -- the mean response of an ensemble against members integrated one by one, by a
  * classical Runge-Kutta method that shares nothing with the library, and averaged sample by sample.
  */
+#include "analysis/resonance/response_members.h"
 #include "check.h"
 
 #include <stdlib.h>
@@ -9,12 +10,10 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "analysis/resonance/response_internal.h"
 
 #include "analysis/resonance/response_loop.h"
 #include "states_fixture.h"
 
-static const double pi = 3.14159265358979323846;
 
 enum {
   MEMBERS = 20,

@@ -15,7 +15,6 @@
 #include "golden.h"
 #include "orbits/trapping_ring.h"
 
-static const double pi = 3.14159265358979323846;
 
 static int setup(void **state)
 {

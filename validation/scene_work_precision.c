@@ -2,8 +2,8 @@
  * scene_work_precision.c -- speed against error, of the library's methods and of a peer.
  *
  * Every method and tolerance advances the same pendulums by 100 drive periods; their errors then
- * are known from extended precision (work_unit.h). benchmark.h says how each is run and timed: one
- * after another, so that the one that is timed runs alone.
+ * are known from extended precision. benchmark.h says how each is run and timed: one after another,
+ * so that the one that is timed runs alone.
  */
 #include <math.h>
 #include <stdlib.h>

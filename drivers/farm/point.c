@@ -1,5 +1,5 @@
-/* point.c -- the point that a task works on; see point.h and farm_point(). */
-#include "farm/point.h"
+/* point.c -- the point that a task works on; see pool_internal.h and farm_point(). */
+#include "farm/pool_internal.h"
 
 #include <stdarg.h>
 #include <stdio.h>

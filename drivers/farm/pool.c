@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "farm/dispatch.h"
-#include "farm/point.h"
 #include "system/clock.h"
 
 /* Whether a task's record is there: in memory; in the journal alone, from this run or from an

@@ -1,6 +1,7 @@
 /*
  * pool_internal.h -- the tasks of a stage while they are computed, on threads and on other ranks:
- * pool.c knows which are done, dispatch.c hands them to other ranks.
+ * pool.c knows which are done, dispatch.c hands them to other ranks, point.c has the point that a
+ * task works on: what it is called, and its budget of time.
  */
 #ifndef POOL_INTERNAL_H
 #define POOL_INTERNAL_H
@@ -78,5 +79,20 @@ int pool_take(pool *c, size_t *task);
 
 /* Note a task's end; takes over the record's data. */
 void pool_finish(pool *c, size_t task, pendres_status status, farm_record *record);
+
+/*
+ * point.c: the clock of a point, and when it is costly: beside the mean of the points that the
+ * stage has finished. A point is what a user knows: the parameters of one result. Time is that of
+ * the processor, of the thread that computes, so that a machine which others use too does not end
+ * points. All the same the same budget may end a point on one machine and not on another: what is
+ * computed with a budget is reproduced only where none was ended.
+ */
+
+/* Is the point under way to be given up? Asked now and then by the thread that computes it, `now`
+   being its milliseconds; tells the user of a costly point, once. */
+int point_over(farm_watch *w, long long now);
+
+/* Nothing is under way any more; what was is part of the mean from now on. */
+void point_end(farm_watch *w);
 
 #endif

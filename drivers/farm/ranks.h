@@ -8,6 +8,7 @@
 #define RANKS_H
 
 #include <stddef.h>
+#include <stdlib.h>
 
 enum { RANKS_WORDS = 256 };
 
@@ -48,5 +49,18 @@ int ranks_receive(int tag, ranks_parcel *out);
    microseconds: a sleep costs up to 25 microseconds of a processor that pendulums could have. *idle
    counts them, from 0. */
 void ranks_nap(int *idle, long most);
+
+/* How many processes a launcher has started together; 1: no launcher, or a single one. */
+static inline long ranks_started(void)
+{
+  static const char *const names[] = { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE",
+                                       "SLURM_STEP_NUM_TASKS" };
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    const char *text = getenv(names[i]);
+    const long n = text != NULL ? strtol(text, NULL, 10) : 0;
+    if (n > 1) return n;
+  }
+  return 1;
+}
 
 #endif

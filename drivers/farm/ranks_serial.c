@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "farm/ranks_started.h"
 
 int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS])
 {

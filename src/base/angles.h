@@ -1,9 +1,17 @@
-/* angles.h -- a turn, half of it and a quarter, in radians. */
+/* angles.h -- a turn, half of it and a quarter, in radians; differences of angles. */
 #ifndef PENDRES_ANGLES_H
 #define PENDRES_ANGLES_H
+
+#include <math.h>
 
 #include <pendres/pendulum.h>
 
 static const double two_pi = 2.0 * PENDRES_PI, pi = PENDRES_PI, half_pi = 0.5 * PENDRES_PI;
+
+/* A difference of angles without the whole turns in it: half a turn at most, either way. */
+static inline double pendres_less_turns(double difference, double turn)
+{
+  return difference - turn * rint(difference / turn);
+}
 
 #endif

@@ -1,4 +1,4 @@
-/* names.c -- what values are called; see pendres/names.h. */
+/* names.c -- what values are called, and what status codes say; see pendres/names.h. */
 #include <stddef.h>
 #include <string.h>
 
@@ -67,4 +67,15 @@ int pendres_name_find(pendres_names list, const char *name)
   for (int i = 0; i < MOST_NAMES && lists[list].name[i] != NULL; i++)
     if (strcmp(name, lists[list].name[i]) == 0) return value_of(list, i);
   return -1;
+}
+
+const char *pendres_status_message(pendres_status status)
+{
+  static const char *const message[] = {
+#define STATUS_TEXT(name, text) text,
+    PENDRES_STATUS_LIST(STATUS_TEXT)
+#undef STATUS_TEXT
+  };
+  if ((unsigned)status >= PENDRES_STATUS_COUNT) return "unknown status";
+  return message[status];
 }

@@ -9,7 +9,7 @@
 #include "engine/accuracy.h"
 #include "engine/compat.h"
 #include "engine/flow.h"
-#include "engine/steps_memo.h"
+#include "engine/steps.h"
 #include "engine/tables.h"
 
 enum { DEFAULT_LANES = 512, MOST_LANES = 4096, MOST_STEPS = 1000000 };

@@ -22,7 +22,7 @@ typedef enum pendres_flow_kind {
   PENDRES_FLOW_KINDS
 } pendres_flow_kind;
 
-struct pendres_steps_memo; /* steps_memo.h */
+struct pendres_steps_memo; /* steps.h */
 typedef struct pendres_flow pendres_flow; /* flow.h */
 
 struct pendres_context {

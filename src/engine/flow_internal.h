@@ -7,10 +7,12 @@
 #ifndef PENDRES_FLOW_INTERNAL_H
 #define PENDRES_FLOW_INTERNAL_H
 
-#include "engine/flow_drive.h"
+#include <stddef.h>
+
 #include "engine/lanes.h"
 #include "engine/lanes_replay.h"
 #include "engine/lanes_shape.h"
+#include "engine/tables.h"
 
 /* Arrays of coefficients, an entry a lane. */
 enum {
@@ -38,6 +40,31 @@ enum {
   TANGENT_W = 2, /* two, */
   TANGENT_KEEP = 4
 };
+
+/* The drive at the right-hand sides of a flow: the exact phase of each stage, and the drive's
+   cosine there, remembered from period to period. */
+typedef struct pendres_flow_drive {
+  int steps;                               /* a period; 0: adaptive */
+  int stages;
+  double node[PENDRES_TABLES_MOST_STAGES]; /* of the stages of a step */
+  double *theta, *cosine; /* at the right-hand sides of a period, in their order, which is the same
+                             every period */
+  size_t size, next;
+} pendres_flow_drive;
+
+/* The exact phase of the stage at which ARKODE's clock shows theta. */
+double pendres_flow_drive_phase(const pendres_flow_drive *drive, double theta);
+
+/* cos(theta) at the next right-hand side of a period. */
+double pendres_flow_drive_cosine(pendres_flow_drive *drive, double theta);
+
+/* Begin a period. */
+void pendres_flow_drive_rewind(pendres_flow_drive *drive);
+
+/* Make room for `steps` steps per period. */
+int pendres_flow_drive_resize(pendres_flow_drive *drive, int steps);
+
+void pendres_flow_drive_free(pendres_flow_drive *drive);
 
 struct pendres_flow {
   pendres_lanes_shape shape;

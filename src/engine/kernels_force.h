@@ -7,10 +7,44 @@
 #ifndef PENDRES_KERNELS_FORCE_H
 #define PENDRES_KERNELS_FORCE_H
 
-#include "engine/force_polynomial.h"
+#include <pendres/pendulum.h>
+
 #include "engine/kernels_vector.h"
 #include "model/forces.h"
 #include "model/model.h"
+
+/* ---- Polynomials ----------------------------------------------------------------------------- */
+
+/* y[v] = f(y[v]) of `count` vectors; a[i]: coefficients a_(i+1) of all lanes, from `lane` on. */
+PENDRES_VECTOR_INLINE void pendres_polynomial_forces(int count, const double *const *a,
+                                                     size_t lane, pendres_vector *y)
+{
+  enum { LAST = PENDRES_FORCE_COEFFICIENTS - 1 };
+  pendres_vector t[PENDRES_VECTOR_GROUP];
+  PENDRES_VECTOR_EACH t[v] = pendres_vector_load(a[LAST] + lane + v * PENDRES_VECTOR_LANES);
+#pragma GCC unroll 8
+  for (int i = LAST - 1; i >= 0; i--)
+    PENDRES_VECTOR_EACH t[v] = pendres_vector_fma(
+      t[v], y[v], pendres_vector_load(a[i] + lane + v * PENDRES_VECTOR_LANES));
+  PENDRES_VECTOR_EACH y[v] = t[v] * y[v];
+}
+
+/* f of one lane, the same, and its derivative by y. */
+PENDRES_VECTOR_INLINE void pendres_polynomial_force(const double *const *a, size_t lane, double y,
+                                                    double *force, double *slope)
+{
+  enum { LAST = PENDRES_FORCE_COEFFICIENTS - 1 };
+  double t = a[LAST][lane], by = 0.0;
+#pragma GCC unroll 8
+  for (int i = LAST - 1; i >= 0; i--) {
+    by = __builtin_fma(by, y, t);
+    t = __builtin_fma(t, y, a[i][lane]);
+  }
+  *force = t * y;
+  *slope = __builtin_fma(by, y, t);
+}
+
+/* ---- All forces ------------------------------------------------------------------------------ */
 
 /* f of a lane by a force's own header, and its derivative; power[c]: coefficient number c + 1 of
    all lanes. */

@@ -1,6 +1,6 @@
 /*
- * method.h -- how lanes are advanced: each method is a constant struct of functions in a file of
- * its own, method_NAME.c, and a line of the list below.
+ * method.h -- how lanes are advanced: each method is a constant struct of functions in a file
+ * method_NAME.c, and a line of the list below.
  *
  * Owns: lanes that are being integrated, and the list.
  */
@@ -72,7 +72,7 @@ typedef struct pendres_method_functions {
 PENDRES_METHODS(PENDRES_METHOD_DECLARE)
 #undef PENDRES_METHOD_DECLARE
 
-/* A context's method. */
+/* A context's method (strobe_run.c). */
 const pendres_method_functions *pendres_method_of(const pendres_context *ctx);
 
 #endif

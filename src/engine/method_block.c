@@ -1,10 +1,10 @@
-/* method_block.c -- lanes of a block, retired and refilled at the strobe; see method_block.h. */
-#include "engine/method_block.h"
-
+/* method_block.c -- blocks on ARKODE, whose lanes are retired and refilled at the strobe. */
 #include <stdlib.h>
 
+#include "engine/context_internal.h"
 #include "engine/flow.h"
 #include "engine/coordinates.h"
+#include "engine/method.h"
 #include "engine/rank.h"
 
 typedef struct block {
@@ -87,8 +87,13 @@ static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
   return PENDRES_OK;
 }
 
-pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow *flow, int fixed,
-                                        const pendres_strobe_job *job)
+/*
+ * Run lanes as pendres_method_functions says, in a block of states: with each lane's own steps if
+ * they are fixed. Lanes with the same number of steps share blocks; a lane that is done is replaced
+ * immediately. Errors are propagated if steps are fixed and the first lane has `added` > 0.
+ */
+static pendres_status run_block(pendres_context *ctx, pendres_flow *flow, int fixed,
+                                const pendres_strobe_job *job)
 {
   const size_t n = job->n;
   const pendres_strobe_lane *lanes = job->lanes;
@@ -124,3 +129,40 @@ done:
   free(b.slot);
   return status;
 }
+
+/* ---- block_fixed: fixed steps, reset every period; the default ------------------------------ */
+
+static pendres_status run_fixed(pendres_context *ctx, const pendres_strobe_job *job)
+{
+  pendres_flow *flow = NULL;
+  const pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow);
+  return status == PENDRES_OK ? run_block(ctx, flow, 1, job) : status;
+}
+
+const pendres_method_functions pendres_method_block_fixed = {.fixed_steps = 1, .run = run_fixed};
+
+/* ---- block_adaptive ------------------------------------------------------------------------- */
+
+/* Adaptive steps go on from the step before: in a block that is made anew for each run, nothing
+   depends on what the context did before. */
+static pendres_status run_adaptive(pendres_context *ctx, const pendres_strobe_job *job)
+{
+  pendres_flow *flow = NULL;
+  double longest = 0.0;
+  pendres_status status = pendres_context_flow_adaptive(ctx, job->tolerance, &flow);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < job->n; i++) {
+    const double own = job->lanes[pendres_strobe_which(job, i)].longest;
+    if (longest == 0.0 || (own > 0.0 && own < longest)) longest = own;
+  }
+  status = pendres_flow_set_longest_step(flow, longest);
+  if (status == PENDRES_OK) status = run_block(ctx, flow, 0, job);
+  ctx->cost.rhs_evaluations += pendres_flow_evaluations(flow);
+  ctx->cost.steps += pendres_flow_steps(flow);
+  for (size_t i = 0; i < job->n; i++)
+    job->lanes[pendres_strobe_which(job, i)].taken += pendres_flow_steps(flow) / (double)job->n;
+  pendres_flow_free(flow);
+  return status;
+}
+
+const pendres_method_functions pendres_method_block_adaptive = {.run = run_adaptive};

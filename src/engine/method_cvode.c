@@ -1,15 +1,29 @@
-/* method_cvode.c -- what the CVODE methods share; see method_cvode.h. */
-#include "engine/method_cvode.h"
-
+/* method_cvode.c -- one CVODE problem a pendulum; methods differ in how the corrector is solved. */
+#include <math.h>
 #include <stdlib.h>
 
 #include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "engine/compat.h"
+#include "engine/method_one.h"
+#include "model/model.h"
 
-pendres_cvode *pendres_cvode_open(pendres_one *b, int multistep)
+/* What b->memory points to. */
+typedef struct problem {
+  void *cvode;
+  SUNNonlinearSolver fixed_point;
+  SUNMatrix matrix;
+  SUNLinearSolver linear;
+} problem;
+
+/* CVODE by a linear multistep method, CV_ADAMS or CV_BDF; NULL on failure. */
+static problem *open_cvode(pendres_one *b, int multistep)
 {
-  pendres_cvode *c = calloc(1, sizeof *c);
+  problem *c = calloc(1, sizeof *c);
   b->memory = c;
   if (c == NULL) return NULL;
   c->cvode = CVodeCreate(multistep, b->ctx->sun);
@@ -24,22 +38,22 @@ pendres_cvode *pendres_cvode_open(pendres_one *b, int multistep)
 
 /* Not stopped at the strobes: shortening a step there costs a multistep method its history, and
    CVODE's own interpolant is as accurate as its steps. */
-int pendres_cvode_advance(pendres_one *b, double theta)
+static int advance(pendres_one *b, double theta)
 {
-  const pendres_cvode *c = b->memory;
+  const problem *c = b->memory;
   sunrealtype reached = 0.0;
   return CVode(c->cvode, theta, b->state, &reached, CV_NORMAL);
 }
 
-int pendres_cvode_steps(const pendres_one *b, long *steps)
+static int steps(const pendres_one *b, long *steps)
 {
-  const pendres_cvode *c = b->memory;
+  const problem *c = b->memory;
   return c->cvode != NULL ? CVodeGetNumSteps(c->cvode, steps) : -1;
 }
 
-void pendres_cvode_close(pendres_one *b)
+static void close(pendres_one *b)
 {
-  pendres_cvode *c = b->memory;
+  problem *c = b->memory;
   if (c == NULL) return;
   if (c->cvode != NULL) CVodeFree(&c->cvode);
   if (c->fixed_point != NULL) (void)SUNNonlinSolFree(c->fixed_point);
@@ -48,3 +62,61 @@ void pendres_cvode_close(pendres_one *b)
   free(c);
   b->memory = NULL;
 }
+
+/* ---- cvode_adams: Adams' method by fixed-point iteration ------------------------------------ */
+
+static int open_adams(pendres_one *b)
+{
+  problem *c = open_cvode(b, CV_ADAMS);
+  if (c == NULL) return -1;
+  c->fixed_point = SUNNonlinSol_FixedPoint(b->state, 0, b->ctx->sun);
+  return c->fixed_point == NULL || CVodeSetNonlinearSolver(c->cvode, c->fixed_point) != 0;
+}
+
+static pendres_status run_adams(pendres_context *ctx, const pendres_strobe_job *job)
+{
+  static const pendres_one_solver solver = {open_adams, advance, pendres_one_read,
+                                            steps, close};
+  return pendres_one_run(ctx, job, &solver);
+}
+
+const pendres_method_functions pendres_method_cvode_adams = {
+  .running_clock = 1, .run = run_adams};
+
+/* ---- cvode_bdf: BDF by Newton with the exact Jacobian --------------------------------------- */
+
+static int jacobian(sunrealtype theta, N_Vector state, N_Vector f, SUNMatrix j, void *arg,
+                    N_Vector t1, N_Vector t2, N_Vector t3)
+{
+  const pendres_one *b = arg;
+  const double omega = b->p->drive_frequency;
+  double force, by_y;
+  pendres_model_force(b->p, N_VGetArrayPointer(state)[0], &force, &by_y);
+  by_y *= 1.0 + b->p->parametric_amplitude * cos(theta);
+  (void)f, (void)t1, (void)t2, (void)t3;
+  SM_ELEMENT_D(j, 0, 0) = 0.0;
+  SM_ELEMENT_D(j, 0, 1) = 1.0;
+  SM_ELEMENT_D(j, 1, 0) = -by_y / (omega * omega);
+  SM_ELEMENT_D(j, 1, 1) = -b->p->damping / omega;
+  return 0;
+}
+
+static int open_bdf(pendres_one *b)
+{
+  problem *c = open_cvode(b, CV_BDF);
+  if (c == NULL) return -1;
+  c->matrix = SUNDenseMatrix(2, 2, b->ctx->sun);
+  c->linear = c->matrix != NULL ? SUNLinSol_Dense(b->state, c->matrix, b->ctx->sun) : NULL;
+  return c->linear == NULL || CVodeSetLinearSolver(c->cvode, c->linear, c->matrix) != 0 ||
+         CVodeSetJacFn(c->cvode, jacobian) != 0;
+}
+
+static pendres_status run_bdf(pendres_context *ctx, const pendres_strobe_job *job)
+{
+  static const pendres_one_solver solver = {open_bdf, advance, pendres_one_read,
+                                            steps, close};
+  return pendres_one_run(ctx, job, &solver);
+}
+
+const pendres_method_functions pendres_method_cvode_bdf = {
+  .running_clock = 1, .run = run_bdf};

@@ -7,10 +7,10 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/flow.h"
 #include "engine/coordinates.h"
-#include "engine/steps_memo.h"
 #include "engine/tables.h"
 
 enum {
@@ -63,23 +63,30 @@ static double lattice_or_none_upper(int index)
   return index >= 0 ? lattice_upper(index, drive_least, drive_ratio) : 0.0;
 }
 
-static pendres_steps_cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
+/* A cell of the lattice: indices of damping, frequency, drive, speed, tolerance, torque (-1: none),
+   and parametric drive (likewise); and the force itself. */
+typedef struct cell {
+  int damping, frequency, drive, speed, tolerance, torque, parametric;
+  pendres_force force;
+  double coefficients[PENDRES_FORCE_COEFFICIENTS];
+} cell;
+
+static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 {
-  pendres_steps_cell c = {.damping = lattice(p->damping, damping_least, damping_ratio),
-                .frequency = lattice(p->drive_frequency, frequency_least, frequency_ratio),
-                .drive = lattice(fabs(p->drive_amplitude), drive_least, drive_ratio),
-                .speed = lattice(speed, speed_least, speed_ratio),
-                .tolerance = lattice(tolerance, 1e-18, 1.25),
-                .torque = lattice_or_none(p->torque),
-                .parametric = lattice_or_none(p->parametric_amplitude),
-                .force = p->force};
+  cell c = {.damping = lattice(p->damping, damping_least, damping_ratio),
+            .frequency = lattice(p->drive_frequency, frequency_least, frequency_ratio),
+            .drive = lattice(fabs(p->drive_amplitude), drive_least, drive_ratio),
+            .speed = lattice(speed, speed_least, speed_ratio),
+            .tolerance = lattice(tolerance, 1e-18, 1.25),
+            .torque = lattice_or_none(p->torque),
+            .parametric = lattice_or_none(p->parametric_amplitude),
+            .force = p->force};
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) c.coefficients[i] = p->force_coefficients[i];
   return c;
 }
 
 /* The corner of the cell that needs the most steps: a long period, strong drive, high speed. */
-static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *speed,
-                     double *tolerance)
+static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *tolerance)
 {
   *p = (pendres_pendulum){
     .damping = lattice_upper(c->damping, damping_least, damping_ratio),
@@ -277,7 +284,7 @@ static int shaken(const pendres_pendulum *p)
 }
 
 /* PENDRES_TOLERANCE_UNREACHABLE, without words: MOST_STEPS are too few. */
-static pendres_status probe(pendres_context *ctx, const pendres_steps_cell *c, int *steps)
+static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
 {
   probed of;
   const pendres_pendulum *const p = &of.pendulum;
@@ -313,8 +320,7 @@ static pendres_status probe(pendres_context *ctx, const pendres_steps_cell *c, i
 }
 
 /* Why a pendulum needs too many steps: the friction's stability, a fast start, or the drive. */
-static pendres_status too_many(pendres_context *ctx, const pendres_steps_cell *c,
-                               const pendres_pendulum *p,
+static pendres_status too_many(pendres_context *ctx, const cell *c, const pendres_pendulum *p,
                                double speed)
 {
   pendres_pendulum worst;
@@ -333,6 +339,61 @@ static pendres_status too_many(pendres_context *ctx, const pendres_steps_cell *c
     p->damping, p->drive_amplitude, p->drive_frequency, speed, why, MOST_STEPS);
 }
 
+/* ---- The steps that were chosen for cells ---------------------------------------------------- */
+
+typedef struct entry {
+  cell of;
+  int steps;
+} entry;
+
+struct pendres_steps_memo {
+  entry *entries;
+  size_t used, size;
+};
+
+pendres_status pendres_steps_memo_create(pendres_steps_memo **out)
+{
+  *out = calloc(1, sizeof **out);
+  return *out != NULL ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
+}
+
+void pendres_steps_memo_free(pendres_steps_memo *memo)
+{
+  if (memo == NULL) return;
+  free(memo->entries);
+  free(memo);
+}
+
+static int same(const cell *a, const cell *b)
+{
+  int equal = a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
+              a->speed == b->speed && a->tolerance == b->tolerance && a->torque == b->torque &&
+              a->parametric == b->parametric && a->force == b->force;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS && equal; i++)
+    equal = a->coefficients[i] == b->coefficients[i];
+  return equal;
+}
+
+/* The steps of a cell, 0 if they are not known. */
+static int find_steps(const pendres_steps_memo *memo, const cell *c)
+{
+  /* The latest cells first: neighbours in a list of pendulums share a cell. */
+  for (size_t i = memo->used; i-- > 0;)
+    if (same(&memo->entries[i].of, c)) return memo->entries[i].steps;
+  return 0;
+}
+
+static pendres_status keep_steps(pendres_steps_memo *memo, const cell *c, int steps)
+{
+  entry *entries = pendres_grow(memo->entries, memo->used, &memo->size, sizeof *entries);
+  if (entries == NULL) return PENDRES_OUT_OF_MEMORY;
+  memo->entries = entries;
+  memo->entries[memo->used++] = (entry){.of = *c, .steps = steps};
+  return PENDRES_OK;
+}
+
+/* ---- The choice ------------------------------------------------------------------------------ */
+
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                     double tolerance, int *steps)
 {
@@ -340,8 +401,8 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
     *steps = ctx->options.steps_per_period;
     return PENDRES_OK;
   }
-  const pendres_steps_cell key = cell_of(p, speed, tolerance);
-  int chosen = pendres_steps_memo_find(ctx->steps, &key);
+  const cell key = cell_of(p, speed, tolerance);
+  int chosen = find_steps(ctx->steps, &key);
   if (chosen > 0) {
     *steps = chosen;
     return PENDRES_OK;
@@ -349,7 +410,7 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
   pendres_status status = probe(ctx, &key, &chosen);
   if (status == PENDRES_TOLERANCE_UNREACHABLE) return too_many(ctx, &key, p, speed);
   if (status != PENDRES_OK) return status;
-  status = pendres_steps_memo_add(ctx->steps, &key, chosen);
+  status = keep_steps(ctx->steps, &key, chosen);
   if (status != PENDRES_OK)
     return pendres_context_fail(ctx, status, "out of memory for the step memo");
   *steps = chosen;

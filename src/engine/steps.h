@@ -11,6 +11,7 @@
 
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
+#include <pendres/status.h>
 
 /* Steps a period are chosen from a ladder whose rungs are a factor of about 1.12 apart: the rung at
    or above n. */
@@ -34,5 +35,11 @@ double pendres_steps_turning_speed(const pendres_pendulum *p);
  */
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                     double tolerance, int *steps);
+
+/* The steps that were chosen for cells of the lattice. */
+typedef struct pendres_steps_memo pendres_steps_memo;
+
+pendres_status pendres_steps_memo_create(pendres_steps_memo **out);
+void pendres_steps_memo_free(pendres_steps_memo *memo);
 
 #endif

@@ -6,6 +6,16 @@
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 
+#define PLACE(value, name) [value] = &pendres_method_##name,
+static const pendres_method_functions *const methods[PENDRES_METHOD_COUNT] = {
+  PENDRES_METHODS(PLACE)};
+#undef PLACE
+
+const pendres_method_functions *pendres_method_of(const pendres_context *ctx)
+{
+  return methods[ctx->options.method];
+}
+
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v)
 {
   const pendres_coordinates s = pendres_coordinates_in(p, x, v);

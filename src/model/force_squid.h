@@ -14,7 +14,6 @@
 #include <math.h>
 
 #include "base/sine.h"
-#include "model/force.h"
 
 /* A spring that pushes, a1 < 0, is stronger than the junction's sine and `need` where |a1| z is
    larger than 1 + need. */

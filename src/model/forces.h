@@ -27,6 +27,11 @@
 #ifndef PENDRES_FORCES_H
 #define PENDRES_FORCES_H
 
+#include <pendres/pendulum.h>
+
+/* Part of the kernels' loops, at every width of a vector. */
+#define PENDRES_FORCE_INLINE static inline __attribute__((always_inline))
+
 #include "model/force_squid.h"
 
 /* The functions of a force of the list, which is known where they are compiled into a loop. */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/angles.h"
-#include "noise/langevin_window.h"
+#include "noise/langevin_internal.h"
 #include "noise/noise_common.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, GROWTH = 64, TRIALS = 12, ORDER = 4 };

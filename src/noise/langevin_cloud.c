@@ -6,7 +6,6 @@
 
 #include "base/angles.h"
 #include "base/student.h"
-#include "noise/langevin_window.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 

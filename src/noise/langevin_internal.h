@@ -7,6 +7,7 @@
 #include <pendres/langevin.h>
 
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "noise/langevin_block.h"
 
 /* The steps a drive period that a caller asks for, or the context's, or the default. */
@@ -36,5 +37,28 @@ pendres_langevin_answer pendres_langevin_show(pendres_context *ctx,
 /* Fail if an angle in the block is too large to be known, or not a number. */
 pendres_status pendres_langevin_check_ends(pendres_context *ctx, const pendres_langevin_block *b,
                                            size_t first);
+
+/* How the caller's functions see trajectories that are behind the door. */
+
+/* Between a function of the caller's and the trajectories of a stretch. */
+typedef struct pendres_noise_window {
+  pendres_door *door;
+  const pendres_langevin_observer *observer;
+  const pendres_langevin_request *request;
+  pendres_langevin_observer through;
+  double *memory; /* the door's */
+  size_t room;
+} pendres_noise_window;
+
+/* The observer of a stretch, for one of all trajectories in the caller's units; NULL for NULL. */
+const pendres_langevin_observer *pendres_noise_observer(pendres_door *d,
+                                                        const pendres_langevin_observer *observer,
+                                                        pendres_noise_window *window);
+
+/* A request behind the door, in *inside, whose function `leave` is called in the caller's units. */
+const pendres_langevin_request *pendres_noise_request(pendres_door *d,
+                                                      const pendres_langevin_request *request,
+                                                      pendres_noise_window *window,
+                                                      pendres_langevin_request *inside);
 
 #endif

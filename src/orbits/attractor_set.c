@@ -162,3 +162,141 @@ pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_att
   c->cover[c->covers++] = cover;
   return PENDRES_OK;
 }
+
+/* ---- Physical order ------------------------------------------------------------------------- */
+
+enum { KEYS = 3 };
+
+/* An attractor on its way to its place. Attractors of one group agree in all earlier keys. */
+typedef struct placed {
+  int group;
+  double key;
+  int number; /* the old one */
+} placed;
+
+static int by_group_and_key(const void *a, const void *b)
+{
+  const placed *p = a, *q = b;
+  if (p->group != q->group) return p->group < q->group ? -1 : 1;
+  return (p->key > q->key) - (p->key < q->key);
+}
+
+static const pendres_cover *cover_of(const pendres_attractor_set *c, int attractor)
+{
+  for (size_t i = 0; i < c->covers; i++)
+    if (c->cover[i]->attractor == attractor) return c->cover[i];
+  return NULL;
+}
+
+/*
+ * An attractor's key number k, and *same: how far apart two such keys may be by rounding alone. The
+ * amplitudes of mirror images, for one, differ by rounding, which must not decide their order.
+ */
+static double key_of(const pendres_attractor_set *c, int attractor, int k, double *same)
+{
+  static const double rounding[KEYS] = {1e-7, 1e-6, 0.0};
+  const pendres_attractor *a = &c->attractors[attractor];
+  const pendres_cover *cover = cover_of(c, attractor);
+  const double orbit[KEYS] = {a->orbit.amplitude, a->orbit.x, a->orbit.v};
+  const double chaos[KEYS] = {cover != NULL ? cover->mean_w : 0.0,
+                              cover != NULL ? cover->mean_y : 0.0, a->lyapunov};
+  const double key = cover != NULL ? chaos[k] : orbit[k];
+  *same = cover != NULL ? 0.0 : rounding[k];
+  return isnan(key) ? INFINITY : key; /* last, and not in everybody's way */
+}
+
+/* Give a group of their own to attractors that are further from their neighbour than rounding. */
+static void part(const pendres_attractor_set *c, placed *p, int k)
+{
+  int group = 0, before = 0; /* the new group, and the old one of the attractor before */
+  for (size_t i = 0; i < c->count; i++) {
+    const int old = p[i].group;
+    double same;
+    (void)key_of(c, p[i].number, k, &same);
+    if (i > 0 && (old != before || p[i].key - p[i - 1].key > same)) group++;
+    before = old;
+    p[i].group = group;
+  }
+}
+
+int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order)
+{
+  double same;
+  placed *p = malloc((c->count + 1) * sizeof *p);
+  if (p == NULL) return -1;
+  for (size_t i = 0; i < c->count; i++)
+    p[i] = (placed){.group = cover_of(c, (int)i) != NULL, .number = (int)i};
+  for (int k = 0; k < KEYS; k++) {
+    for (size_t i = 0; i < c->count; i++) p[i].key = key_of(c, p[i].number, k, &same);
+    qsort(p, c->count, sizeof *p, by_group_and_key);
+    part(c, p, k);
+  }
+  for (size_t i = 0; i < c->count; i++) order[i] = p[i].number;
+  free(p);
+  return 0;
+}
+
+/* ---- Mirror images -------------------------------------------------------------------------- */
+
+/* Harmonics of mirror images agree to this, and those of two other orbits of a pendulum do not. */
+static const double same_harmonics = 1e-6;
+enum { HARMONICS = 5 /* that are compared */ };
+
+/* y(t) -> 2 c - y(t + half a drive period) changes the sign of even harmonics, and moves the mean
+   to the other side of the centre; of an angle there are centres everywhere. */
+int pendres_attractor_set_are_images(const pendres_orbit *a, const pendres_orbit *b)
+{
+  if (a->period != b->period || a->winding != -b->winding) return 0;
+  if (!(fabs(a->amplitude - b->amplitude) <= same_harmonics)) return 0;
+  const double middle = 0.5 * (a->mean_angle + b->mean_angle);
+  if (pendres_model_of(a->pendulum.force)->period == 0.0 &&
+      !(fabs(middle - pendres_model_centre(&a->pendulum, middle)) <= same_harmonics))
+    return 0;
+  for (int m = 1; m <= HARMONICS; m++) {
+    const double sign = m % 2 == 0 ? -1.0 : 1.0;
+    if (!(hypot(a->cosine[m - 1] - sign * b->cosine[m - 1],
+                a->sine[m - 1] - sign * b->sine[m - 1]) <= same_harmonics))
+      return 0;
+  }
+  return 1;
+}
+
+static void raise_to(double difference, double *a, double *b)
+{
+  if (*a < difference) *a = difference;
+  if (*b < difference) *b = difference;
+}
+
+/* Two values that are the same by symmetry. */
+static void compare_values(double value, double other, double *error, double *other_error)
+{
+  const double difference = fabs(value - other);
+  if (difference > *error + *other_error) raise_to(difference, error, other_error);
+}
+
+static void compare(pendres_attractor *a, pendres_attractor *b)
+{
+  pendres_orbit *o = &a->orbit, *p = &b->orbit;
+  const pendres_orbit_row *row;
+  double apart = 0.0;
+  for (int k = 0; k < 2; k++)
+    apart = fmax(apart, hypot(o->multiplier_re[k] - p->multiplier_re[k],
+                              fabs(o->multiplier_im[k]) - fabs(p->multiplier_im[k])));
+  compare_values(apart, 0.0, &o->multiplier_error, &p->multiplier_error);
+  for (size_t k = 0; (row = pendres_orbit_row_get(k)) != NULL; k++)
+    if (row->image && row->shown.error != PENDRES_ORBIT_EXACT)
+      compare_values(*pendres_orbit_row_value(row, o), *pendres_orbit_row_value(row, p),
+                     pendres_orbit_row_error(row, o), pendres_orbit_row_error(row, p));
+  compare_values(a->lyapunov, b->lyapunov, &a->lyapunov_error, &b->lyapunov_error);
+}
+
+void pendres_attractor_set_compare_images(pendres_attractor_set *c)
+{
+  if (!pendres_pendulum_symmetric(&c->pendulum)) return;
+  for (size_t i = 0; i < c->count; i++)
+    for (size_t j = i + 1; j < c->count; j++) {
+      pendres_attractor *a = &c->attractors[i], *b = &c->attractors[j];
+      if (a->label == PENDRES_LABEL_CHAOTIC || b->label == PENDRES_LABEL_CHAOTIC) continue;
+      if (pendres_attractor_set_are_images(&a->orbit, &b->orbit)) compare(a, b);
+    }
+}

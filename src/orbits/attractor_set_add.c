@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "base/angles.h"
-#include "base/turns.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 #include "model/model.h"

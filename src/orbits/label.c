@@ -67,3 +67,12 @@ pendres_label pendres_label_of(const pendres_label_states *s, const pendres_labe
            ? PENDRES_LABEL_SA
            : PENDRES_LABEL_LA;
 }
+
+pendres_label_border pendres_small_end_from(const pendres_small_end *end,
+                                            const pendres_pendulum *pendulum)
+{
+  const double past = pendres_parameter_get(end->parameter, pendulum) - end->value;
+  return (pendres_label_border){.distinct = end->known,
+                                .beyond = (end->falling ? -past : past) > 0.0,
+                                .amplitude = end->amplitude};
+}

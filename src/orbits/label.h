@@ -8,12 +8,14 @@
  * such fold. Where folds are not known, as for a single set of parameters, an equivalent rule for
  * the weak drives of the paper is used: SA has a phase lag of less than pi/3, LA of more.
  *
- * Owns: that definition. No integration here.
+ * Owns: that definition, and how the fold, found once for a line of points in one parameter,
+ * determines the label of a single state at a point. No integration here.
  */
 #ifndef PENDRES_LABEL_H
 #define PENDRES_LABEL_H
 
 #include <pendres/attractor.h>
+#include <pendres/continuation.h>
 
 enum { PENDRES_LABEL_STATES = 16 };
 
@@ -43,5 +45,19 @@ size_t pendres_label_extreme(const pendres_label_states *states, int most);
 /* The label of a closed orbit among the states. border: NULL where folds are not known. */
 pendres_label pendres_label_of(const pendres_label_states *states,
                                const pendres_label_border *border, const pendres_orbit *orbit);
+
+/* The fold at which SA ends along a line of points in one parameter. */
+typedef struct pendres_small_end {
+  int known;                   /* 0: there is no such fold, and no distinction */
+  pendres_parameter parameter; /* that changes along the line */
+  double value;                /* of the parameter, at the fold */
+  double amplitude;            /* of the orbit there */
+  int falling;                 /* nonzero: SA ends as the parameter decreases, not as it increases:
+                                  with stiffening forces, whose resonance bends upwards */
+} pendres_small_end;
+
+/* The fold relative to an orbit with these parameters. */
+pendres_label_border pendres_small_end_from(const pendres_small_end *end,
+                                            const pendres_pendulum *pendulum);
 
 #endif

@@ -1,10 +1,10 @@
 /* orbit_prime.c -- the prime period of orbits; see orbit_prime.h. */
+#include "base/angles.h"
 #include "orbits/orbit_prime.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/turns.h"
 #include "engine/coordinates.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"

@@ -1,5 +1,4 @@
 /* orbit_sample.c -- points along a closed orbit, with their errors; see orbit.h. */
-#include "orbits/orbit_sample.h"
 
 #include <float.h>
 #include <math.h>
@@ -13,6 +12,7 @@
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
+#include "orbits/orbit_series.h"
 
 /* The Fourier series of an orbit from some number of steps a period, and its memory. */
 typedef struct curve {

@@ -13,6 +13,7 @@
 #include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_fft_real.h>
 
+#include <pendres/orbit.h>
 #include <pendres/status.h>
 
 /*
@@ -57,5 +58,13 @@ pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
 
 /* What harmonics beyond the last may add to a value: as much as the highest ones that are known. */
 double pendres_orbit_series_tail(const pendres_orbit_series *s);
+
+/*
+ * Add the harmonics of the angle, averaged over the orbit's drive cycles and times share, to those
+ * of a series. The orbit is integrated with the number of steps with which it was found. The mean
+ * of the series stays as it is.
+ */
+pendres_status pendres_orbit_add_harmonics(pendres_context *ctx, const pendres_orbit *orbit,
+                                           double share, pendres_orbit_series *sum);
 
 #endif

@@ -1,9 +1,9 @@
 /* recurrence.c -- strobe points that come back to where they were; see recurrence.h. */
+#include "base/angles.h"
 #include "orbits/recurrence.h"
 
 #include <math.h>
 
-#include "base/turns.h"
 
 enum { SHORT_PERIOD = 32, LONGEST_PERIOD = PENDRES_RECURRENCE_POINTS - 1 };
 

@@ -10,8 +10,6 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "orbits/linear.h"
-#include "orbits/settle_certain.h"
-#include "orbits/settle_search.h"
 #include "orbits/settle_lanes.h"
 #include "engine/steps.h"
 

@@ -1,5 +1,6 @@
 /*
- * settle_lanes.h -- running pendulums until they are inside a trapping ellipse.
+ * settle_lanes.h -- the parts of settling: running pendulums until they are inside a trapping
+ * ellipse, looking for what attracts the others, and making labels certain.
  *
  * Owns: the decision about a lane after each period, the budgets of periods, and the latest strobe
  * points of lanes that do not settle.
@@ -81,5 +82,50 @@ double pendres_settle_error_ratio(double worst);
 /* Run the lanes that are unresolved; those inside an ellipse are done before they begin. */
 pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                     pendres_settle_labelling *l);
+
+/* ---- settle_certain.c: labels that no error of the integration can change -------------------- */
+
+/* A batch that has been labelled; arrays are by the numbers of its pendulums. */
+typedef struct pendres_settle_labelled {
+  const pendres_settle_labelling *job; /* error_ratio must be kept; it and outcome may change */
+  size_t n;
+  const double *x, *v; /* the starts */
+  double accuracy;     /* error a period that they were run with */
+} pendres_settle_labelled;
+
+/*
+ * Make labels certain that are not: of pendulums whose propagated error is not small against what
+ * separates one outcome from another. They are integrated again from their starts, more and more
+ * exactly, down to rounding. Of the runs in which the error stayed below what separates outcomes,
+ * the most exact one decides about the label. Pendulums that are still uncertain after the most
+ * exact run, and those that reach no trapping ellipse in a further run, keep their latest label,
+ * which is not certain. A further run of a pendulum ends where its error has grown so large that no
+ * label can be certain.
+ *
+ * Where errors are not propagated, as with adaptive steps, labels are not changed but compared with
+ * those of fixed steps: those that agree with a certain one are certain.
+ */
+pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l);
+
+/* ---- settle_search.c: what attracts pendulums that are in no known ellipse ---------------------- */
+
+/* A batch with pendulums that are unresolved. */
+typedef struct pendres_settle_remaining {
+  size_t sets;
+  pendres_attractor_set *attractor_sets; /* may grow */
+  long *budget;                  /* periods of each set, all of which are spent; is raised */
+  size_t n;
+  const size_t *set;             /* of each pendulum, those of a set side by side */
+  const double *x, *v;              /* where they began, */
+  const pendres_strobe_lane *lanes; /* and where they are */
+  pendres_outcome *outcome;
+} pendres_settle_remaining;
+
+/*
+ * Each round is twice as long as the one before: pendulums are integrated further, orbits that they
+ * have come close to are refined, in every other round chaos is searched for, and pendulums are
+ * labelled again. Those that have not settled when the last budget is spent stay unresolved.
+ */
+pendres_status pendres_settle_search(pendres_context *ctx, const pendres_settle_remaining *q);
 
 #endif

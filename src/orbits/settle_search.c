@@ -1,6 +1,6 @@
 /* settle_search.c -- what attracts pendulums that are in no known trapping ellipse; see
-   settle_search.h. */
-#include "orbits/settle_search.h"
+   settle_lanes.h. */
+#include "orbits/settle_lanes.h"
 
 #include <stdlib.h>
 
@@ -8,6 +8,7 @@
 #include "model/model.h"
 #include "orbits/chaos.h"
 #include "orbits/recurrence.h"
+#include "orbits/settle_lanes.h"
 
 enum {
   MOST_GUESSES = 8,  /* orbits that are searched for at a time in one parameter set */

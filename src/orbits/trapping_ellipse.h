@@ -9,7 +9,7 @@
 #ifndef PENDRES_TRAPPING_ELLIPSE_H
 #define PENDRES_TRAPPING_ELLIPSE_H
 
-#include "base/turns.h"
+#include "base/angles.h"
 
 typedef struct pendres_trapping_ellipse {
   double y, w;      /* centre: a Poincaré point of the orbit; y as in orbit.h, mean in well 0 */

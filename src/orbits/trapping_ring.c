@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
-#include "base/turns.h"
 #include "engine/context_internal.h"
 
 /* Neighbours on a ring may drift apart by this many radii. Further apart they do not tell what

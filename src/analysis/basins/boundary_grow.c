@@ -7,7 +7,6 @@
 
 #include "base/angles.h"
 #include "base/grow.h"
-#include "base/turns.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 #include "engine/strobe_run.h"

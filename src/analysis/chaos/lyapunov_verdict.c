@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
-#include "base/turns.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"

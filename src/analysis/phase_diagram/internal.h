@@ -1,11 +1,56 @@
 /*
- * internal.h -- what a phase diagram holds: phase_diagram.c has its lines and points,
- * curves.c its curves.
+ * internal.h -- what a phase diagram holds: phase_diagram.c has its lines and points, curves.c its
+ * curves, record.c the results of a line and their form as plain bytes.
  */
 #ifndef PENDRES_PHASE_INTERNAL_H
 #define PENDRES_PHASE_INTERNAL_H
 
-#include "analysis/phase_diagram/record.h"
+#include <stdint.h>
+
+#include <pendres/phase_diagram.h>
+
+/* The place of a point that has no results. */
+#define PENDRES_PHASE_NOWHERE SIZE_MAX
+
+/* What became of a point. */
+typedef struct pendres_phase_mark {
+  pendres_status outcome;
+  char *message; /* NULL: none */
+} pendres_phase_mark;
+
+/* PENDRES_OUT_OF_MEMORY, or PENDRES_OK; the message is copied. */
+pendres_status pendres_phase_mark_set(pendres_phase_mark *mark, pendres_status outcome,
+                                      const char *message);
+void pendres_phase_mark_free(pendres_phase_mark *mark);
+
+typedef struct pendres_phase_done {
+  size_t values;               /* points of the line */
+  size_t count;                /* those that have results */
+  pendres_phase_point *points; /* [values], the first `count` set */
+  size_t *place;               /* [values] where it stands in points */
+  pendres_phase_mark *mark;    /* [values] */
+  pendres_branches *branches;
+} pendres_phase_done;
+
+/* A line without results. Free it in any case. */
+pendres_status pendres_phase_done_create(size_t values, pendres_phase_done *out);
+pendres_status pendres_phase_done_copy(const pendres_phase_done *from, pendres_phase_done *to);
+void pendres_phase_done_free(pendres_phase_done *line);
+
+/* Plain bytes; NULL: out of memory. To be freed by pendres_phase_record_free(). */
+struct pendres_phase_record {
+  size_t size;
+  char bytes[];
+};
+pendres_phase_record *pendres_phase_record_create(size_t size);
+
+/* A record to be freed by pendres_phase_record_free(). */
+pendres_status pendres_phase_done_pack(const pendres_phase_done *line, pendres_phase_record **out);
+
+/* PENDRES_INVALID_ARGUMENT: the bytes are no record of a line of so many values. On failure there
+   is nothing to be freed. */
+pendres_status pendres_phase_done_unpack(size_t values, size_t size, const void *bytes,
+                                         pendres_phase_done *out);
 
 /* What was followed of a family of bifurcations; all NULL and zero before. */
 typedef struct pendres_phase_family {
@@ -29,7 +74,7 @@ struct pendres_phase_diagram {
   pendres_phase_mark curves_mark;
   pendres_cusp cusp;
   int has_cusp;
-  int falling;                 /* SA ends as the lines' parameter falls, see small_end.h */
+  int falling;                 /* SA ends as the lines' parameter falls, see label.h */
 };
 
 /* Whether a failure is caused by the parameters, and not by the machine or the caller: the rest of

@@ -6,7 +6,8 @@
 
 #include <pendres/phase_diagram.h>
 
-#include "orbits/small_end.h"
+#include "orbits/label.h"
+
 
 /* Whether an orbit, stable or not, lies on the sheets of SA, of LA, or of the unstable state
    between them: it has one drive period, no winding, and is its own mirror image where there is

@@ -1,13 +1,14 @@
 /*
- * record.c -- lines of a phase diagram as plain bytes; see record.h.
+ * record.c -- lines of a phase diagram as plain bytes; see internal.h.
  *
  * A record is a head, the place of every point, the points that have results, the branches, and
  * of every point its outcome and its message with the zero at its end.
  */
-#include "analysis/phase_diagram/record.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#include "analysis/phase_diagram/internal.h"
 
 typedef struct head {
   size_t values, count, branches; /* points; those that have results; bytes */

@@ -11,7 +11,6 @@
 #include "model/model.h"
 #include "orbits/attractor_internal.h"
 #include "orbits/orbit_measure.h"
-#include "analysis/resonance/response_internal.h"
 #include "analysis/resonance/response_loop.h"
 #include "analysis/resonance/response_members.h"
 #include "orbits/settle.h"

@@ -6,7 +6,7 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-#include "orbits/orbit_sample.h"
+#include "orbits/orbit_series.h"
 
 int pendres_response_has_loop(const pendres_attractor *a)
 {

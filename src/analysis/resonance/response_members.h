@@ -6,6 +6,8 @@
 
 #include <pendres/response.h>
 
+#include "orbits/attractor_set.h"
+
 /*
  * As pendres_response_compute(). where[n * members], unless it is NULL, receives the state that
  * each member is on, as a number in its response's state[]; -1: none of those.
@@ -17,5 +19,14 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
 
 /* NULL if the pendulum and the ensemble's starts are valid, or what is wrong with them. */
 const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_ensemble *e);
+
+/*
+ * The response of n members, whose outcomes number the attractors of c: means over all members, and
+ * a list of the attractors that most members are on. where[n], which may be NULL, receives the
+ * listed attractor that each member is on; -1: none of these.
+ */
+pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_attractor_set *c,
+                                          size_t n, const pendres_outcome *outcome,
+                                          signed char *where, pendres_response *r);
 
 #endif

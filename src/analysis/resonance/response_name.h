@@ -6,7 +6,8 @@
 
 #include <pendres/response.h>
 
-#include "orbits/small_end.h"
+#include "orbits/label.h"
+
 
 /* Whether a response has a state that could have a name and has none. */
 int pendres_response_nameless(const pendres_response *response);

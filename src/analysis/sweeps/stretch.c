@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/turns.h"
+#include "base/angles.h"
 #include "continuation/branch.h"
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
