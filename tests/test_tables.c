@@ -123,7 +123,7 @@ static int misses(const weights *w, int nodes, long double *worst)
   return count;
 }
 
-static void check_order(const pendres_tables_method *m, const double *b, int order)
+static void check_order(int table, const pendres_tables_method *m, const double *b, int order)
 {
   static weights w;
   weigh(m, b, &w);
@@ -131,7 +131,8 @@ static void check_order(const pendres_tables_method *m, const double *b, int ord
     long double worst;
     const int count = misses(&w, n, &worst);
     if (count == 0) continue;
-    print_error("%s: %d conditions of order %d missed, by up to %.2Lg\n", m->name, count, n, worst);
+    print_error("%s: %d conditions of order %d missed, by up to %.2Lg\n",
+                pendres_name_get(PENDRES_NAMES_TABLE, table), count, n, worst);
     fail();
   }
 }
@@ -149,7 +150,7 @@ static void test_order_conditions(void **state)
   for (int table = 0; table < PENDRES_TABLE_COUNT; table++) {
     const pendres_tables_method *m = method_at(table);
     if (m == NULL) continue;
-    check_order(m, m->b, m->order);
+    check_order(table, m, m->b, m->order);
     seen++;
   }
   assert_int_equal(seen, PENDRES_TABLE_COUNT - 2); /* not the default's alias, not ARKODE's own */
@@ -160,7 +161,7 @@ static void test_embedded_order_conditions(void **state)
   (void)state;
   for (int table = 0; table < PENDRES_TABLE_COUNT; table++) {
     const pendres_tables_method *m = method_at(table);
-    if (m != NULL) check_order(m, m->d, m->embedded_order);
+    if (m != NULL) check_order(table, m, m->d, m->embedded_order);
   }
 }
 

@@ -1,10 +1,10 @@
 /* settle_certain.c -- making labels certain; see settle_lanes.h. */
+#include "orbits/settle_lanes.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "orbits/settle_lanes.h"
 
 /* The error a period of the most exact run: rounding in some hundred steps is as large. */
 static const double most_exact = 1e-14;

@@ -107,7 +107,7 @@ typedef struct pendres_settle_labelled {
  */
 pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l);
 
-/* ---- settle_search.c: what attracts pendulums that are in no known ellipse ---------------------- */
+/* ---- settle_search.c: what attracts pendulums that are in no known ellipse ------------------- */
 
 /* A batch with pendulums that are unresolved. */
 typedef struct pendres_settle_remaining {

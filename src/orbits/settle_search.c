@@ -8,7 +8,6 @@
 #include "model/model.h"
 #include "orbits/chaos.h"
 #include "orbits/recurrence.h"
-#include "orbits/settle_lanes.h"
 
 enum {
   MOST_GUESSES = 8,  /* orbits that are searched for at a time in one parameter set */
