@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/turns.h"
+#include "base/angles.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
