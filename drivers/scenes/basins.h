@@ -11,6 +11,7 @@
 #include "scenes/check.h"
 #include "scenes/columns.h"
 #include "scenes/failed.h"
+#include "scenes/paper.h"
 
 enum {
   BASINS_VARIABLES = 6,      /* of every state */

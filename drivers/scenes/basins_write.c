@@ -280,7 +280,7 @@ static void write_paper(basins *b)
   if (fabs(p->damping - 0.12) > 1e-12 || fabs(p->drive_amplitude - 0.2) > 1e-12 ||
       fabs(p->drive_frequency - 0.25 * PENDRES_PI) > 1e-12 || !scene_going(b->run))
     return;
-  const scene_printed values[] = {
+  scene_printed values[] = {
     {.name = "attractors", .printed = 2.0, .computed = (double)pendres_attractors_count(b->set)},
     {.name = "share_sa_x_0.2pi_to_1.1pi", .printed = 1.0,
      .computed = share_between(b, 0.2 * PENDRES_PI, 1.1 * PENDRES_PI, PENDRES_LABEL_SA)},

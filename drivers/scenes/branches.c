@@ -7,7 +7,6 @@
  * pi/2.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include <pendres/free.h>
 
@@ -109,25 +108,18 @@ static size_t take_points(const scene_lines *l, row *rows)
   return n;
 }
 
-static pendres_status write_branches(const scene_lines *l)
+static void write_branches(const scene_lines *l)
 {
   const size_t n = take_points(l, NULL);
   row *rows = scene_array(l->run, n, sizeof *rows);
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (rows == NULL) return;
   (void)take_points(l, rows);
   const scene_table table = {.dimensions = {"point"}, .prefix = "branch", .inner = "multiplier",
                              .n = n, .stride = sizeof *rows, .rows = rows};
-  pendres_status status =
-    scene_numbering(l->run, "point", n, "number of the point, in order along each branch");
-  if (status == PENDRES_OK)
-    status = scene_numbering(l->run, "multiplier", 2,
-                             "Floquet multiplier, the larger modulus first");
-  if (status == PENDRES_OK)
-    status = scene_lines_write_places(l, &table, NULL, sizeof of_points / sizeof *of_points,
-                                      of_points);
-  if (status == PENDRES_OK)
-    status = scene_columns_write_orbits(l->run, &table, offsetof(row, of));
-  return status;
+  scene_numbering(l->run, "point", n, "number of the point, in order along each branch");
+  scene_numbering(l->run, "multiplier", 2, "Floquet multiplier, the larger modulus first");
+  scene_lines_write_places(l, &table, NULL, sizeof of_points / sizeof *of_points, of_points);
+  scene_columns_write_orbits(l->run, &table, offsetof(row, of));
 }
 
 /* ---- backbones ----------------------------------------------------------------------------- */
@@ -173,70 +165,48 @@ static pendres_status find_backbone(pendres_context *ctx, const pendres_pendulum
   return status;
 }
 
-static pendres_status put_backbone(const scene_lines *l, const double *damping,
-                                   const backbone_row *rows)
-{
-  const scene_table table = {.dimensions = {"backbone_damping"}, .prefix = "backbone",
-                             .n = BACKBONE, .stride = sizeof *rows, .rows = rows};
-  const pendres_status status =
-    pendres_store_dimension(
-      l->run->store,
-      &(pendres_store_spec){.name = "backbone_damping", .long_name = "friction coefficient"},
-      BACKBONE, damping);
-  if (status != PENDRES_OK) return scene_stored(l->run, status);
-  return SCENE_WRITE(l->run, &table, of_backbone);
-}
-
-static pendres_status write_backbone(const scene_lines *l)
+static void write_backbone(const scene_lines *l)
 {
   pendres_pendulum p[BACKBONE];
-  pendres_status outcome[BACKBONE], status = PENDRES_OUT_OF_MEMORY;
+  pendres_status outcome[BACKBONE];
   double error[BACKBONE], damping[BACKBONE];
   backbone_row rows[BACKBONE];
-  pendres_context *ctx = farm_context(l->run->farm);
-  pendres_orbit *orbit = calloc(BACKBONE, sizeof *orbit);
-  if (ctx == NULL || orbit == NULL) {
-    (void)scene_fail(l->run, status, "out of memory for the backbone");
-    goto done;
-  }
+  const scene_table table = {.dimensions = {"backbone_damping"}, .prefix = "backbone",
+                             .n = BACKBONE, .stride = sizeof *rows, .rows = rows};
+  const pendres_store_spec along = {.name = "backbone_damping",
+                                    .long_name = "friction coefficient"};
+  pendres_context *ctx = scene_context(l->run);
+  pendres_orbit *orbit = scene_array(l->run, BACKBONE, sizeof *orbit);
+  if (orbit == NULL) return;
   backbone_dampings(l, p, damping);
-  status = find_backbone(ctx, p, orbit, error, outcome);
-  if (status != PENDRES_OK) {
-    (void)scene_fail(l->run, status, "%s", pendres_context_message(ctx));
-    goto done;
-  }
+  if (scene_asked(l->run, find_backbone(ctx, p, orbit, error, outcome)) != PENDRES_OK) return;
   for (int i = 0; i < BACKBONE; i++) {
     const pendres_orbit *o = &orbit[i];
     const int has = outcome[i] == PENDRES_OK || outcome[i] == PENDRES_TOLERANCE_UNREACHABLE;
-    rows[i] = has ? (backbone_row){o->pendulum.drive_frequency, error[i], o->amplitude,
-                                   o->amplitude_error, o->loop_area, o->loop_area_error}
-                  : (backbone_row){NAN, NAN, NAN, NAN, NAN, NAN};
+    rows[i] = (backbone_row){o->pendulum.drive_frequency, error[i], o->amplitude,
+                             o->amplitude_error, o->loop_area, o->loop_area_error};
+    if (!has) SCENE_BLANK(of_backbone, &rows[i]);
   }
-  status = put_backbone(l, damping, rows);
-done:
-  free(orbit);
-  return status;
+  scene_put_dimension(l->run, &along, damping, BACKBONE);
+  SCENE_WRITE(l->run, &table, of_backbone);
 }
 
 /* The free pendulum, without damping and drive: exact. */
-static pendres_status write_free(scene_run *run)
+static void write_free(scene_run *run)
 {
   double amplitude[FREE], frequency[FREE], error[FREE];
   const pendres_store_spec spec = {.name = "free_frequency", .dimensions = {"free_amplitude"},
                                    .long_name = "frequency of the undamped, undriven pendulum",
                                    .units = "1"};
+  const pendres_store_spec along = {.name = "free_amplitude", .units = "rad",
+                                    .long_name = "amplitude of the free pendulum"};
   for (int i = 0; i < FREE; i++) {
     amplitude[i] = 0.02 * (i + 1);
     frequency[i] = pendres_free_frequency(amplitude[i]);
     error[i] = 2e-15 * frequency[i]; /* some units in the last place */
   }
-  pendres_status status = pendres_store_dimension(
-    run->store,
-    &(pendres_store_spec){.name = "free_amplitude", .long_name = "amplitude of the free pendulum",
-                          .units = "rad"}, FREE, amplitude);
-  if (status == PENDRES_OK)
-    status = pendres_store_put(run->store, &spec, frequency, error, FREE);
-  return scene_stored(run, status);
+  scene_put_dimension(run, &along, amplitude, FREE);
+  scene_put(run, &spec, frequency, error, FREE);
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
@@ -291,7 +261,7 @@ static size_t take_parts(const scene_lines *l, part *rows)
   return count;
 }
 
-static pendres_status print_table(FILE *out, const scene_lines *l)
+static void print_table(FILE *out, const scene_lines *l)
 {
   char line[64], from[96];
   const scene_cell cells[] = {
@@ -310,7 +280,7 @@ static pendres_status print_table(FILE *out, const scene_lines *l)
   const size_t n = take_parts(l, NULL);
   part *rows = scene_array(l->run, n, sizeof *rows);
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (rows == NULL) return;
   (void)take_parts(l, rows);
   char across[DECK_NAME], along[DECK_NAME];
   snprintf(line, sizeof line, "%-15s  ", scene_spaced(l->grid.across, across));
@@ -318,36 +288,33 @@ static pendres_status print_table(FILE *out, const scene_lines *l)
            scene_spaced(l->grid.options.parameter, along));
   SCENE_PRINT(out, &table, n, cells, NULL);
   scene_lines_print(l, out);
-  return PENDRES_OK;
 }
 
-static pendres_status write_results(const scene_lines *l)
+static void write_results(const scene_lines *l)
 {
-  pendres_status status = scene_lines_write(l, sizeof columns / sizeof *columns, columns);
-  if (status == PENDRES_OK) status = scene_lines_write_doubtful(l);
-  if (status == PENDRES_OK && scene_rotations_are(l)) status = scene_rotations_write(l);
-  if (status == PENDRES_OK) status = write_branches(l);
-  if (status == PENDRES_OK) status = scene_lines_write_doubts(l);
-  if (status == PENDRES_OK) status = scene_curves_write(l);
+  scene_run *run = l->run;
+  const int plain = deck_is_plain(run->deck);
+  scene_lines_write(l, sizeof columns / sizeof *columns, columns);
+  if (scene_rotations_are(l)) scene_rotations_write(l);
+  write_branches(l);
+  scene_lines_write_doubts(l);
+  scene_curves_write(l);
   /* The backbone is one over damping, at one drive amplitude, of the plain pendulum as is the free
      one. */
-  const int plain = deck_is_plain(l->run->deck);
-  if (status == PENDRES_OK && plain && l->axis[0] == DECK_AXIS_DAMPING &&
-      l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
-    status = write_backbone(l);
-  if (status == PENDRES_OK && plain) status = write_free(l->run);
-  if (status == PENDRES_OK) status = scene_curves_write_paper(l);
-  return status;
+  if (plain && l->axis[0] == DECK_AXIS_DAMPING && l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
+    write_backbone(l);
+  if (plain) write_free(run);
+  scene_curves_write_paper(l);
 }
 
 static pendres_status run_scene(scene_run *run)
 {
   scene_lines l;
-  pendres_status status = scene_lines_compute(run, 0.0, &l);
-  if (status == PENDRES_OK) status = write_results(&l);
-  if (status == PENDRES_OK && run->table != NULL) status = print_table(run->table, &l);
+  scene_lines_compute(run, 0.0, &l);
+  if (scene_going(run)) write_results(&l);
+  if (scene_prints(run)) print_table(run->table, &l);
   scene_lines_free(&l);
-  return status;
+  return run->status;
 }
 
 const scene_kind scene_branches = {

@@ -2,7 +2,6 @@
 #include "scenes/curves.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* Which branch ends at a fold. */
 static const char *endings(int value)
@@ -67,7 +66,7 @@ static row row_of(const scene_lines *l, const pendres_orbit *o, const double err
                .period = o->period};
 }
 
-static pendres_status write_table(const scene_lines *l, const char *dimension, size_t n,
+static void write_table(const scene_lines *l, const char *dimension, size_t n,
                                   const row *rows)
 {
   const scene_table table = {.dimensions = {dimension}, .prefix = dimension, .n = n,
@@ -75,13 +74,9 @@ static pendres_status write_table(const scene_lines *l, const char *dimension, s
   const scene_column *rest = dimension[0] == 'b' ? of_bifurcations
                              : dimension[1] == 'o' ? of_folds
                                                    : of_flips;
-  pendres_status status = scene_numbering(l->run, dimension, n, "number of the point");
-  if (status == PENDRES_OK)
-    status = scene_lines_write_places(l, &table, "there", sizeof columns / sizeof *columns,
-                                      columns);
-  return status == PENDRES_OK
-           ? scene_columns_write(l->run, &table, rest == of_bifurcations ? 3 : 2, rest)
-           : status;
+  scene_numbering(l->run, dimension, n, "number of the point");
+  scene_lines_write_places(l, &table, "there", sizeof columns / sizeof *columns, columns);
+  scene_columns_write(l->run, &table, rest == of_bifurcations ? 3 : 2, rest);
 }
 
 /* All points of the curves of folds, or of the others. */
@@ -105,50 +100,43 @@ static size_t take_curves(const scene_lines *l, int folds, row *rows)
   return n;
 }
 
-static pendres_status write_curves(const scene_lines *l, int folds)
+static void write_curves(const scene_lines *l, int folds)
 {
   const size_t n = take_curves(l, folds, NULL);
   row *rows = scene_array(l->run, n, sizeof *rows);
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  (void)take_curves(l, folds, rows);
-  const pendres_status status = write_table(l, folds ? "fold" : "flip", n, rows);
-  return status;
+  if (rows != NULL) (void)take_curves(l, folds, rows);
+  write_table(l, folds ? "fold" : "flip", n, rows);
 }
 
 /* The bifurcations met along the lines. */
-static pendres_status write_bifurcations(const scene_lines *l)
+static void write_bifurcations(const scene_lines *l)
 {
   size_t n = 0;
   const pendres_bifurcation *b = pendres_phase_diagram_bifurcations(l->diagram, &n);
   row *rows = scene_array(l->run, n, sizeof *rows);
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = 0; rows != NULL && i < n; i++) {
     rows[i] = row_of(l, &b[i].orbit, (const double[2]){b[i].value_error, 0.0}, b[i].kind,
                      b[i].curvature);
     rows[i].curvature_error = b[i].curvature_error;
   }
-  const pendres_status status = write_table(l, "bifurcation", n, rows);
-  return status;
+  write_table(l, "bifurcation", n, rows);
 }
 
 /* ---- the cusp ------------------------------------------------------------------------------ */
 
-static pendres_status put_scalar(const scene_lines *l, const char *name, const char *long_name,
-                                 const char *units, const double value[2])
+static void put_scalar(const scene_lines *l, const char *name, const char *long_name,
+                       const char *units, const double value[2])
 {
   const pendres_store_spec spec = {.name = name, .long_name = long_name, .units = units};
-  const pendres_status status =
-    pendres_store_put(l->run->store, &spec, &value[0], &value[1], 1);
-  return scene_stored(l->run, status);
+  scene_put(l->run, &spec, &value[0], &value[1], 1);
 }
 
-static pendres_status write_cusp(const scene_lines *l)
+static void write_cusp(const scene_lines *l)
 {
   const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
   const scene_place place =
     c != NULL ? scene_lines_place(l, &c->orbit.pendulum, c->value_error) : (scene_place){0};
-  pendres_status status = PENDRES_OK;
-  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED && status == PENDRES_OK; k++) {
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++) {
     const pendres_parameter of = (pendres_parameter)k;
     const double value[2] = {c != NULL ? place.value[k] : NAN, c != NULL ? place.error[k] : NAN};
     char name[2 * DECK_NAME], words[2 * DECK_NAME], spaced[DECK_NAME];
@@ -156,34 +144,30 @@ static pendres_status write_cusp(const scene_lines *l)
     (void)snprintf(name, sizeof name, "cusp_%s", scene_column_name(of));
     (void)snprintf(words, sizeof words, "%s %s", scene_spaced(of, spaced),
                    of == PENDRES_DAMPING ? "at which SA and LA become one" : "there");
-    status = put_scalar(l, name, words, "1", value);
+    put_scalar(l, name, words, "1", value);
   }
   const double amplitude[2] = {c != NULL ? c->orbit.amplitude : NAN,
                                c != NULL ? c->orbit.amplitude_error : NAN};
-  return status == PENDRES_OK ? put_scalar(l, "cusp_amplitude", "amplitude of the orbit there",
-                                           "rad", amplitude)
-                              : status;
+  put_scalar(l, "cusp_amplitude", "amplitude of the orbit there", "rad", amplitude);
 }
 
-static pendres_status write_failed(const scene_lines *l)
+static void write_failed(const scene_lines *l)
 {
   pendres_store_spec spec = {.name = "curves_failed",
                              .long_name = "why the curves of bifurcations are not whole"};
   const int8_t reason =
     (int8_t)scene_failure_of(pendres_phase_diagram_curves_outcome(l->diagram, NULL));
   scene_failure_flags(&spec);
-  const pendres_status status = pendres_store_put(l->run->store, &spec, &reason, NULL, 1);
-  return scene_stored(l->run, status);
+  scene_put(l->run, &spec, &reason, NULL, 1);
 }
 
-pendres_status scene_curves_write(const scene_lines *l)
+void scene_curves_write(const scene_lines *l)
 {
-  pendres_status status = write_curves(l, 1);
-  if (status == PENDRES_OK) status = write_curves(l, 0);
-  if (status == PENDRES_OK) status = write_bifurcations(l);
-  if (status == PENDRES_OK) status = write_cusp(l);
-  if (status == PENDRES_OK) status = write_failed(l);
-  return status;
+  write_curves(l, 1);
+  write_curves(l, 0);
+  write_bifurcations(l);
+  write_cusp(l);
+  write_failed(l);
 }
 
 /* ---- the paper ----------------------------------------------------------------------------- */
@@ -196,13 +180,13 @@ static size_t line_at(const scene_lines *l, double damping)
   return i;
 }
 
-pendres_status scene_curves_write_paper(const scene_lines *l)
+void scene_curves_write_paper(const scene_lines *l)
 {
   scene_printed values[4];
   size_t n = 0;
   if (l->axis[0] != DECK_AXIS_DAMPING || l->axis[1] != DECK_AXIS_DRIVE_FREQUENCY ||
       !deck_is_plain(l->run->deck))
-    return PENDRES_OK;
+    return;
   const double f0 = l->grid.pendulum.drive_amplitude;
   const int main_case = fabs(f0 - 0.2) < 1e-9, inset = fabs(f0 - 0.1) < 1e-9;
   const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
@@ -220,5 +204,5 @@ pendres_status scene_curves_write_paper(const scene_lines *l)
   if (main_case && sa != NULL)
     values[n++] = (scene_printed){.name = "la_only_above_frequency_damping_0_13",
                                   .printed = 0.85, .computed = sa->value, .error = sa->value_error};
-  return n > 0 ? scene_write_paper(l->run, n, values) : PENDRES_OK;
+  scene_write_paper(l->run, n, values);
 }

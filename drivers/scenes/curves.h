@@ -10,9 +10,9 @@
 #include "scenes/lines.h"
 
 /* Write the dimensions `fold`, `flip` and `bifurcation` with their arrays, and the cusp. */
-pendres_status scene_curves_write(const scene_lines *l);
+void scene_curves_write(const scene_lines *l);
 
 /* What the paper prints on these, where the deck has it. */
-pendres_status scene_curves_write_paper(const scene_lines *l);
+void scene_curves_write_paper(const scene_lines *l);
 
 #endif

@@ -183,22 +183,18 @@ static pendres_status take_family(void *arg, size_t task, const farm_record *in)
 
 /* Follow curves through the bifurcations of all lines, and complete the lines by them, until
    nothing new is found. */
-static pendres_status follow_curves(scene_lines *l)
+static void follow_curves(scene_lines *l)
 {
-  for (;;) {
-    farm_stage curves = {.what = "families of curves", .cheap = 1, .record_size = 1,
-                         .task = follow_family, .check = check, .collect = take_family,
-                         .arg = l};
-    pendres_status status = pendres_phase_diagram_find_families(l->diagram, &curves.tasks);
-    if (status != PENDRES_OK) return scene_fail(l->run, status, "out of memory for bifurcations");
-    if (curves.tasks == 0) return PENDRES_OK;
-    status = scene_compute(l->run, &curves);
-    if (status == PENDRES_OK)
-      status = scene_compute(l->run, &(farm_stage){.what = "lines", .tasks = l->grid.lines,
-                                                   .task = complete, .check = check,
-                                                   .collect = collect,
-                                                   .arg = l});
-    if (status != PENDRES_OK) return status;
+  farm_stage curves = {.what = "families of curves", .cheap = 1, .record_size = 1,
+                       .task = follow_family, .check = check, .collect = take_family, .arg = l};
+  const farm_stage lines = {.what = "lines", .tasks = l->grid.lines, .task = complete,
+                            .check = check, .collect = collect, .arg = l};
+  while (scene_going(l->run)) {
+    const pendres_status status = pendres_phase_diagram_find_families(l->diagram, &curves.tasks);
+    if (status != PENDRES_OK) scene_fail(l->run, status, "out of memory for bifurcations");
+    if (curves.tasks == 0) return;
+    scene_compute(l->run, &curves);
+    scene_compute(l->run, &lines);
   }
 }
 
@@ -255,52 +251,45 @@ static void judge_curves(scene_lines *l)
 
 /* ---- all of it ----------------------------------------------------------------------------- */
 
-pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
+void scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
 {
   *l = (scene_lines){.run = run};
   (void)deck_axes(run->deck, l->axis);
   l->grid = grid_of(run->deck, l->axis, spacing);
   l->n = l->grid.lines * l->grid.values;
-  l->points = malloc((l->n + 1) * sizeof *l->points);
-  pendres_status status = l->points != NULL ? scene_failures_create(run, l->n, &l->failed)
-                                            : PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK) status = pendres_phase_diagram_create(&l->grid, &l->diagram);
+  l->points = scene_array(run, l->n, sizeof *l->points);
+  scene_failures_create(run, l->n, &l->failed);
+  const pendres_status status = pendres_phase_diagram_create(&l->grid, &l->diagram);
   if (status != PENDRES_OK)
-    return scene_fail(run, status, "a diagram of %zu points: %s", l->n,
-                      pendres_status_message(status));
+    scene_fail(run, status, "a diagram of %zu points: %s", l->n, pendres_status_message(status));
+  if (!scene_going(run)) return;
   leave_out(l);
-  status = scene_compute(run, &(farm_stage){.what = "lines", .tasks = l->grid.lines,
-                                            .task = compute, .check = check, .collect = collect,
-                                            .arg = l});
-  if (status == PENDRES_OK) status = follow_curves(l);
-  if (status != PENDRES_OK) return status;
+  scene_compute(run, &(farm_stage){.what = "lines", .tasks = l->grid.lines, .task = compute,
+                                   .check = check, .collect = collect, .arg = l});
+  follow_curves(l);
+  if (!scene_going(run)) return;
   for (size_t i = 0; i < l->n; i++) l->points[i] = *pendres_phase_diagram_point(l->diagram, i);
   judge_curves(l);
   judge(l);
-  return PENDRES_OK;
 }
 
 void scene_lines_free(scene_lines *l)
 {
   pendres_phase_diagram_free(l->diagram);
-  free(l->points);
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-static scene_table table_of(const scene_lines *l)
+void scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns)
 {
-  return (scene_table){.dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])},
-                       .n = l->n, .stride = sizeof *l->points, .rows = l->points};
-}
-
-pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns)
-{
-  const scene_table table = table_of(l);
-  pendres_status status = PENDRES_OK;
-  for (int i = 0; i < 2 && status == PENDRES_OK; i++)
-    status = scene_dimension(l->run, "", l->axis[i]);
-  return status == PENDRES_OK ? scene_columns_write(l->run, &table, count, columns) : status;
+  static const scene_column uncertain = SCENE_UNCERTAIN(pendres_phase_point, uncertain);
+  const scene_table table = {
+    .dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])}, .n = l->n,
+    .stride = sizeof *l->points, .rows = l->points};
+  for (int i = 0; i < 2; i++) scene_dimension(l->run, "", l->axis[i]);
+  scene_columns_write(l->run, &table, count, columns);
+  scene_columns_write(l->run, &table, 1, &uncertain);
+  scene_failures_write(l->run, &l->failed, "failed", "point", 2, l->axis);
 }
 
 /* The error of a parameter: of the line's own [0], of that across the lines [1], or none. */
@@ -322,7 +311,7 @@ scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
   return place;
 }
 
-static pendres_status write_place(const scene_lines *l, const scene_table *table,
+static void write_place(const scene_lines *l, const scene_table *table,
                                   pendres_parameter parameter)
 {
   const size_t at = (size_t)parameter * sizeof(double);
@@ -330,36 +319,22 @@ static pendres_status write_place(const scene_lines *l, const scene_table *table
                                .long_name = pendres_parameter_of(parameter)->brief, .units = "1",
                                .value = offsetof(scene_place, value) + at,
                                .error = offsetof(scene_place, error) + at};
-  return scene_columns_write(l->run, table, 1, &column);
+  scene_columns_write(l->run, table, 1, &column);
 }
 
-pendres_status scene_lines_write_places(const scene_lines *l, const scene_table *table,
-                                        const char *words, size_t count,
-                                        const scene_column *columns)
+void scene_lines_write_places(const scene_lines *l, const scene_table *table, const char *words,
+                              size_t count, const scene_column *columns)
 {
   static const pendres_parameter always[] = {PENDRES_DAMPING, PENDRES_DRIVE_FREQUENCY};
   scene_table places = *table;
-  pendres_status status = PENDRES_OK;
   places.words = words;
-  for (size_t i = 0; i < 2 && status == PENDRES_OK; i++)
-    status = write_place(l, &places, always[i]);
-  if (status == PENDRES_OK) status = scene_columns_write(l->run, table, count, columns);
-  for (int i = 0; i < PENDRES_PARAMETER_FOLLOWED && status == PENDRES_OK; i++) {
+  for (size_t i = 0; i < 2; i++) write_place(l, &places, always[i]);
+  scene_columns_write(l->run, table, count, columns);
+  for (int i = 0; i < PENDRES_PARAMETER_FOLLOWED; i++) {
     const pendres_parameter parameter = (pendres_parameter)i;
     if (parameter != always[0] && parameter != always[1] && scene_lines_changes(l, parameter))
-      status = write_place(l, &places, parameter);
+      write_place(l, &places, parameter);
   }
-  return status;
-}
-
-pendres_status scene_lines_write_doubtful(const scene_lines *l)
-{
-  static const scene_column uncertain = SCENE_UNCERTAIN(pendres_phase_point, uncertain);
-  const scene_table table = table_of(l);
-  const pendres_status status = scene_columns_write(l->run, &table, 1, &uncertain);
-  return status == PENDRES_OK
-           ? scene_failures_write(l->run, &l->failed, "failed", "point", 2, l->axis)
-           : status;
 }
 
 /* Points that the branches' bifurcations do not explain; *first is one of them. */
@@ -380,7 +355,7 @@ static int32_t count_doubts(const scene_lines *l, const pendres_branch_point **f
   return doubts;
 }
 
-pendres_status scene_lines_write_doubts(const scene_lines *l)
+void scene_lines_write_doubts(const scene_lines *l)
 {
   const pendres_branch_point *first = NULL;
   const int32_t doubts = count_doubts(l, &first);
@@ -388,8 +363,7 @@ pendres_status scene_lines_write_doubts(const scene_lines *l)
     .name = "branch_doubts",
     .type = PENDRES_STORE_INT32,
     .long_name = "points of branches at which stability or turns and the bifurcations disagree"};
-  const pendres_status status = pendres_store_put(l->run->store, &spec, &doubts, NULL, 1);
-  return scene_stored(l->run, status);
+  scene_put(l->run, &spec, &doubts, NULL, 1);
 }
 
 void scene_lines_print(const scene_lines *l, FILE *out)

@@ -12,6 +12,7 @@
 
 #include "scenes/columns.h"
 #include "scenes/failed.h"
+#include "scenes/paper.h"
 
 typedef struct scene_lines {
   scene_run *run;
@@ -23,24 +24,22 @@ typedef struct scene_lines {
   scene_failures failed;       /* [lines][values] */
 } scene_lines;
 
-/* Compute the diagram. spacing: of the points of branches, see phase_diagram.h. Free l in any
-   case. */
-pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *l);
+/* Compute the diagram, which is there if the run goes on. spacing: of the points of branches, see
+   phase_diagram.h. Free l in any case. */
+void scene_lines_compute(scene_run *run, double spacing, scene_lines *l);
 
 void scene_lines_free(scene_lines *l);
 
-/* Define the dimensions of the points and write columns of pendres_phase_point. */
-pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns);
-
-/* Write which points failed, and how many members are uncertain: `failed`, `uncertain_members`. */
-pendres_status scene_lines_write_doubtful(const scene_lines *l);
+/* Define the dimensions of the points, and write columns of pendres_phase_point, how many members
+   are uncertain, and which points failed: `uncertain_members`, `failed`. */
+void scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns);
 
 /* Print lines of the short table: the cusp, if there is one, and what branches do that their
    bifurcations do not explain, if there is anything. */
 void scene_lines_print(const scene_lines *l, FILE *out);
 
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
-pendres_status scene_lines_write_doubts(const scene_lines *l);
+void scene_lines_write_doubts(const scene_lines *l);
 
 /* The parameters of an orbit with their errors, by number: how rows of such
    tables begin. */
@@ -55,9 +54,8 @@ scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
 /* Write a table whose rows begin with a scene_place: damping and drive frequency, the given
    columns, and the other parameters that are axes of the diagram. words (may be NULL) stand behind
    the long names of parameters. */
-pendres_status scene_lines_write_places(const scene_lines *l, const scene_table *table,
-                                        const char *words, size_t count,
-                                        const scene_column *columns);
+void scene_lines_write_places(const scene_lines *l, const scene_table *table, const char *words,
+                              size_t count, const scene_column *columns);
 
 /* The parameters of a point. */
 pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point);

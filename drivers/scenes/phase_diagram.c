@@ -43,14 +43,12 @@ static const scene_column columns[] = {
   SCENE_COLUMN(pendres_phase_point, mean_loop_area, "mean loop area of the ensemble", NULL),
 };
 
-static pendres_status write_results(const scene_lines *l)
+static void write_results(const scene_lines *l)
 {
-  pendres_status status = scene_lines_write(l, sizeof columns / sizeof *columns, columns);
-  if (status == PENDRES_OK) status = scene_lines_write_doubtful(l);
-  if (status == PENDRES_OK) status = scene_lines_write_doubts(l);
-  if (status == PENDRES_OK) status = scene_curves_write(l);
-  if (status == PENDRES_OK) status = scene_curves_write_paper(l);
-  return status;
+  scene_lines_write(l, sizeof columns / sizeof *columns, columns);
+  scene_lines_write_doubts(l);
+  scene_curves_write(l);
+  scene_curves_write_paper(l);
 }
 
 static void print_table(const scene_lines *l, FILE *out)
@@ -76,11 +74,11 @@ static pendres_status run_scene(scene_run *run)
   /* The branches themselves are not written: their points may be sparse. */
   static const double sparse = 0.1;
   scene_lines l;
-  pendres_status status = scene_lines_compute(run, sparse, &l);
-  if (status == PENDRES_OK) status = write_results(&l);
-  if (status == PENDRES_OK && run->table != NULL) print_table(&l, run->table);
+  scene_lines_compute(run, sparse, &l);
+  if (scene_going(run)) write_results(&l);
+  if (scene_prints(run)) print_table(&l, run->table);
   scene_lines_free(&l);
-  return status;
+  return run->status;
 }
 
 const scene_kind scene_phase_diagram = {

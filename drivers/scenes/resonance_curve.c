@@ -182,13 +182,17 @@ static pendres_status write_paper(scene_run *run, const curve *c)
     const pendres_status status = turning_point(run, c, &turn, &there);
     if (status != PENDRES_OK) return status;
     if (there)
-      values[n++] = (scene_printed){"damping_of_largest_frequency", printed_turns[k].top,
-                                    turn.damping, turn.damping_error};
+      values[n++] = (scene_printed){.name = "damping_of_largest_frequency",
+                                    .printed = printed_turns[k].top, .computed = turn.damping,
+                                    .error = turn.damping_error};
     if (break_off(c, &damping, &error))
-      values[n++] = (scene_printed){"damping_of_break", printed_turns[k].break_off, damping, error};
+      values[n++] = (scene_printed){.name = "damping_of_break",
+                                    .printed = printed_turns[k].break_off, .computed = damping,
+                                    .error = error};
   }
   n += scene_peak_printed(c->d, c->points.n, c->points.rows, values + n);
-  return n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
+  scene_write_paper(run, n, values);
+  return run->status;
 }
 
 static pendres_status run_scene(scene_run *run)

@@ -2,7 +2,6 @@
 #include "scenes/rotations.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include <pendres/rotation.h>
 
@@ -46,17 +45,15 @@ static row row_of(const pendres_pendulum *p)
   return out;
 }
 
-pendres_status scene_rotations_write(const scene_lines *l)
+void scene_rotations_write(const scene_lines *l)
 {
   row *rows = scene_array(l->run, l->n, sizeof *rows);
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < l->n; i++) {
+  for (size_t i = 0; rows != NULL && i < l->n; i++) {
     const pendres_pendulum p = scene_lines_pendulum(l, i);
     rows[i] = row_of(&p);
   }
   const scene_table table = {
     .dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])}, .prefix = "rotation",
     .n = l->n, .stride = sizeof *rows, .rows = rows};
-  const pendres_status status = SCENE_WRITE(l->run, &table, columns);
-  return status;
+  SCENE_WRITE(l->run, &table, columns);
 }

@@ -17,6 +17,6 @@ int scene_rotations_are(const scene_lines *l);
 
 /* Write period, mean velocity and multiplier of the rotation at every point, NaN where there is
    none, and the least torque that keeps one up. */
-pendres_status scene_rotations_write(const scene_lines *l);
+void scene_rotations_write(const scene_lines *l);
 
 #endif

@@ -237,16 +237,16 @@ double scene_fixed(const deck *d, deck_axis_id axis)
 }
 
 /* A parameter that the deck holds fixed; its name is added to those of coordinates. */
-static pendres_status write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
+static void write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
 {
   const deck *d = run->deck;
   const double value = scene_fixed(d, axis);
   const int coefficient = pendres_parameter_of(deck_axis_parameter(axis))->coefficient;
   pendres_store_spec spec = { .name = deck_axis_name(axis), .long_name = words_of(axis),
                               .units = units_of(axis) };
-  if (isnan(value)) return PENDRES_OK;
+  if (isnan(value)) return;
   /* In other scenes the temperature is a dimension, even with one value. */
-  if (axis == DECK_AXIS_TEMPERATURE && d->kind != DECK_HYSTERESIS) return PENDRES_OK;
+  if (axis == DECK_AXIS_TEMPERATURE && d->kind != DECK_HYSTERESIS) return;
   if (coefficient > 0) {
     spec.units = NULL; /* a power of the pendulum's own */
     spec.long_name = d->pendulum.force == PENDRES_FORCE_POLYNOMIAL
@@ -255,7 +255,13 @@ static pendres_status write_fixed(scene_run *run, deck_axis_id axis, char *coord
   }
   if (coordinates[0] != '\0') strcat(coordinates, " ");
   strcat(coordinates, spec.name);
-  return pendres_store_put(run->store, &spec, &value, NULL, 1);
+  scene_put(run, &spec, &value, NULL, 1);
+}
+
+static void put_attribute(scene_run *run, const char *name, const char *text)
+{
+  if (scene_going(run))
+    scene_stored(run, pendres_store_attribute(run->store, "", NULL, name, text));
 }
 
 pendres_status scene_write_identity(scene_run *run)
@@ -263,16 +269,12 @@ pendres_status scene_write_identity(scene_run *run)
   const deck *d = run->deck;
   char coordinates[DECK_AXIS_COUNT * DECK_NAME] = "";
   const char *slash = strrchr(d->name, '/');
-  pendres_status status =
-    pendres_store_attribute(run->store, "", NULL, "scene", deck_kind_name(d->kind));
-  if (status == PENDRES_OK)
-    status = pendres_store_attribute(run->store, "", NULL, "deck",
-                                          slash != NULL ? slash + 1 : d->name);
-  for (int i = 0; i <= DECK_AXIS_TEMPERATURE && status == PENDRES_OK; i++)
-    status = write_fixed(run, (deck_axis_id)i, coordinates);
-  if (status == PENDRES_OK && coordinates[0] != '\0')
-    status = pendres_store_attribute(run->store, "", NULL, "coordinates", coordinates);
-  return status == PENDRES_OK ? scene_define(run) : scene_stored(run, status);
+  put_attribute(run, "scene", deck_kind_name(d->kind));
+  put_attribute(run, "deck", slash != NULL ? slash + 1 : d->name);
+  for (int i = 0; i <= DECK_AXIS_TEMPERATURE; i++) write_fixed(run, (deck_axis_id)i, coordinates);
+  if (coordinates[0] != '\0') put_attribute(run, "coordinates", coordinates);
+  if (scene_going(run)) scene_define(run);
+  return run->status;
 }
 
 pendres_ensemble scene_ensemble(const deck *d)
@@ -299,54 +301,3 @@ pendres_sweep scene_sweep(const deck *d)
                                 d->axis[axis[i]].value };
   return s;
 }
-
-/* ---- the group `paper` --------------------------------------------------------------------- */
-
-enum { PAPER_PRINTED, PAPER_COMPUTED, PAPER_DIFFERENCE, PAPER_COUNT };
-
-static double paper_value(const scene_printed *v, int which)
-{
-  return which == PAPER_PRINTED    ? v->printed
-         : which == PAPER_COMPUTED ? v->computed
-                                   : v->computed - v->printed;
-}
-
-static pendres_status put_paper(pendres_store *store, size_t n, const scene_printed *values,
-                                int which, double *number, double *error)
-{
-  static const char *const names[PAPER_COUNT] = { "printed", "computed", "difference" };
-  static const char *const words[PAPER_COUNT] = { "value printed in the paper", "value of this run",
-                                                  "computed less printed" };
-  const pendres_store_spec spec = { .group = "paper", .name = names[which],
-                                    .dimensions = { "quantity" }, .long_name = words[which] };
-  for (size_t i = 0; i < n; i++) {
-    number[i] = paper_value(&values[i], which);
-    error[i] = values[i].error;
-  }
-  return pendres_store_put(store, &spec, number, which == PAPER_PRINTED ? NULL : error, n);
-}
-
-pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values)
-{
-  pendres_status status = PENDRES_OK;
-  if (n == 0) return status;
-  const char **name = malloc(n * sizeof *name);
-  double *number = malloc(2 * n * sizeof *number);
-  if (name == NULL || number == NULL) {
-    status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu printed values", n);
-    goto done;
-  }
-  for (size_t i = 0; i < n; i++) name[i] = values[i].name;
-  status = pendres_store_dimension(
-    run->store,
-    &(pendres_store_spec){.group = "paper", .name = "quantity", .type = PENDRES_STORE_STRING,
-                          .long_name = "quantity"}, n, name);
-  for (int which = 0; which < PAPER_COUNT && status == PENDRES_OK; which++)
-    status = put_paper(run->store, n, values, which, number, number + n);
-  (void)scene_stored(run, status);
-done:
-  free(name);
-  free(number);
-  return status;
-}
-

@@ -142,12 +142,4 @@ pendres_ensemble scene_ensemble(const deck *d);
 /* The deck's pendulums over its axes, slowest first. */
 pendres_sweep scene_sweep(const deck *d);
 
-/* The group `paper`: printed values beside computed ones. */
-typedef struct scene_printed {
-  const char *name;      /* of the quantity, e.g. "resonance_period_gamma_0.24" */
-  double printed;        /* by the paper */
-  double computed, error;
-} scene_printed;
-pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values);
-
 #endif
