@@ -33,10 +33,7 @@ static void forces_are_consistent(void **state)
     const pendres_model *model = pendres_model_of((pendres_force)force);
     pendres_pendulum p = {.drive_frequency = 1.0, .torque = 0.2, .force = (pendres_force)force};
     assert_non_null(model->name);
-    for (int k = 0; k < model->coefficients; k++) {
-      assert_non_null(model->coefficient_names[k]);
-      p.force_coefficients[k] = 0.3 - 0.1 * k;
-    }
+    for (int k = 0; k < model->coefficients; k++) p.force_coefficients[k] = 0.3 - 0.1 * k;
     check_ok(pendres_pendulum_check(&p, NULL));
     for (double x = -2.0; x <= 2.0; x += 0.25) {
       const double above = pendres_pendulum_energy(&p, x + h, 0.0);

@@ -85,8 +85,7 @@ typedef struct pendres_model {
   double origin;     /**< where y = x - origin is counted from: pi/2 for the pendulum, 0 for a
                           polynomial */
   int angle;         /**< 1: x is an angle, in rad; 0: a length in units of its own */
-  int coefficients;  /**< how many coefficients it has, 0 to PENDRES_FORCE_COEFFICIENTS */
-  const char *coefficient_names[PENDRES_FORCE_COEFFICIENTS]; /**< "a1", ...; NULL beyond */
+  int coefficients;  /**< how many coefficients it has, a1, ..., 0 to PENDRES_FORCE_COEFFICIENTS */
   pendres_force_outward *outward; /**< tells where pendulums begin to escape to infinity; NULL: none
                                        escape, or it is not known where */
   pendres_force_centre *centre;   /**< tells where it is odd; NULL: nowhere */

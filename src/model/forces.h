@@ -11,7 +11,7 @@
  *
  *   pendres_force_NAME_model      its name in decks, the period of y (2 pi or, where y and y + 2 pi
  *                                 are not the same, 0), origin, whether y is an angle (in rad),
- *                                 coefficients and their names, and, if pendulums may escape to
+ *                                 how many coefficients, and, if pendulums may escape to
  *                                 infinity, `outward`, which tells from where on they do for
  *                                 certain (pendulum.h); without it they are unresolved; `centre`
  *                                 tells where f less a torque is odd, if it may be

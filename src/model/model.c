@@ -71,7 +71,6 @@ static double polynomial_centre(const double *a, double torque, double near)
 
 static const pendres_model polynomial = {.name = "polynomial",
                                          .coefficients = PENDRES_FORCE_COEFFICIENTS,
-                                         .coefficient_names = {"a1", "a2", "a3", "a4", "a5"},
                                          .outward = polynomial_outward,
                                          .centre = polynomial_centre};
 
