@@ -17,7 +17,7 @@
 #include "figures.h"
 #include "noise/kernels_langevin.h"
 
-/* Many short runs: the best then is one that nobody else disturbed. */
+/* Many short runs: the fastest of them was not disturbed by other processes. */
 enum { LANES = 192, PERIODS = 40, REPEATS = 400 };
 
 static const double two_pi = 6.28318530717958647693;

@@ -16,7 +16,7 @@ enum {
 };
 
 /*
- * Call read(arg), which is to read a file of so many bytes, in a process of its own that says
+ * Call read(arg), which is to read a file of this size in bytes, in a process of its own that says
  * nothing on standard error and leaves the files of this run alone; its result, from 0 to 255, or
  * one of the above. What it writes to standard output it has to flush, and so has the caller
  * before. In a run with several threads only one that no other shares a lock with may call this.

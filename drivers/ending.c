@@ -33,7 +33,7 @@ extern const char __executable_start[], etext[];
 static void say(const char *words)
 {
   const ssize_t written = write(STDERR_FILENO, words, strlen(words));
-  (void)written; /* there is nobody left to tell */
+  (void)written; /* a failure here cannot be reported */
 }
 
 static void say_what_stands(void)

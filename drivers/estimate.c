@@ -102,7 +102,7 @@ static double estimate_output(const deck *d, const farm_trial *t)
   return size_of(d)->head + points_output(d, t) + strobe * strobes_of(d);
 }
 
-/* Bytes of memory on so many threads. */
+/* Bytes of memory with this number of threads. */
 static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 {
   double grid = size_of(d)->memory * points_of(d);

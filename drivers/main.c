@@ -140,7 +140,7 @@ static int await_decks(job *j)
   return j->decks != NULL ? DONE : FAILED;
 }
 
-/* What rank 0 has found, or that another rank cannot go on: it has told nobody. */
+/* What rank 0 has found, or that another rank cannot go on, of which it has not informed others. */
 static int agree(job *j, int code)
 {
   const int ready = together_ready(code == DONE || !together_helping());
@@ -494,7 +494,7 @@ int main(int argc, char **argv)
     return FAILED;
   }
   if (together_helping()) together_silence();
-  const int code = together_agree(run_program(argc, argv)); /* nobody ends before rank 0 */
+  const int code = together_agree(run_program(argc, argv)); /* no rank ends before rank 0 */
   ranks_end();
   return code;
 }

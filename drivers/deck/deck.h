@@ -131,7 +131,7 @@ typedef struct deck {
   char force[DECK_NAME];    /* a name of pendres_model_of() */
 
   deck_axis axis[DECK_AXIS_COUNT];
-  int64_t resolution;       /* each step of the ranges is divided into so many */
+  int64_t resolution;       /* number of parts into which each step of the ranges is divided */
   double search[2];         /* bounds of drive frequency in the search of a resonance */
   int search_given;         /* the deck says them */
 

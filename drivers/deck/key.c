@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Names in one list; nobody compares that many methods. */
+/* Names in one list, more than there are methods to compare. */
 enum { MAX_NAMES = 1000 };
 
 static void *field(deck *d, const deck_key *key)

@@ -5,7 +5,7 @@
  * follow a value is decided by looking ahead: `name =`, also with a subscript, starts the next
  * assignment; everything else that is not a separator is one more value. After an error the reader
  * goes on where the next name, group or line plausibly starts, and marks what it skipped as broken,
- * so that nobody complains about the absence of what merely could not be read.
+ * so that what could not be read is not also reported as missing.
  */
 #include "deck/namelist_lex.h"
 #include "system/grow.h"

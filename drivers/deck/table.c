@@ -386,7 +386,7 @@ _Static_assert(sizeof deck_table / sizeof *deck_table <= DECK_MAX_KEYS, "raise D
 
 int deck_table_has_range(const deck_key *key)
 {
-  /* Tolerances are given as a list, since nobody spaces them evenly. */
+  /* Tolerances are given as a list, since they are rarely evenly spaced. */
   return key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
 }
 

@@ -101,7 +101,7 @@ typedef struct deck_builder {
 } deck_builder;
 
 /* setting.c: */
-/* Parse all settings into an array of so many, in any case to be freed by deck_settings_free.
+/* Parse all settings into an array, which is in any case to be freed by deck_settings_free.
    Returns as namelist_parse does. */
 pendres_status deck_settings_parse(const char *const *text, size_t count, namelist **settings,
                                    namelist_errors *errors);

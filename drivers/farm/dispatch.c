@@ -8,7 +8,7 @@
 
 #include "farm/ranks.h"
 
-/* Tags: to rank 0, questions apart since somebody waits for an answer; from rank 0 to all threads
+/* Tags: to rank 0, requests apart since a thread waits for the answer; from rank 0 to all threads
    of a rank, and to thread number t of a rank. */
 enum { QUESTION, TO_ROOT, TO_ALL, TO_THREAD };
 
@@ -16,7 +16,7 @@ enum { QUESTION, TO_ROOT, TO_ALL, TO_THREAD };
    meanwhile, and where they wait for it. */
 enum { SELDOM = 10000, OFTEN = 1000 };
 
-/* Naps that end after some seconds, in which somebody may give back memory for a note. */
+/* Number of sleeps, some seconds together, in which memory for a message may become free. */
 enum { PATIENCE = 1000 };
 
 typedef enum kind {
@@ -111,7 +111,7 @@ static int answer(pool *c, const ranks_parcel *p)
   return 0;
 }
 
-/* Until all that was dealt has come back, and nobody here is at work. */
+/* Until all tasks that were sent out have come back, and no thread of this rank works. */
 static void *serve(void *arg)
 {
   pool *c = arg;

@@ -1,10 +1,10 @@
 /*
- * dispatch.h -- tasks dealt to the ranks of a run.
+ * dispatch.h -- the distribution of tasks among the ranks of a run.
  *
- * Owns: what ranks tell each other. All ranks run the same stages. Rank 0 knows which tasks are
- * done and has the journal; its own threads and those of the others ask it for tasks and hand it
- * their records. Records that later stages read are then sent to all ranks, which collect them as
- * rank 0 does. With one rank all of this is pool_take() and pool_finish().
+ * Owns: the messages between ranks. All ranks run the same stages. Rank 0 knows which tasks are
+ * done and has the journal; its own threads and those of the other ranks request tasks from it and
+ * return their records to it. Records that later stages read are then sent to all ranks, which
+ * collect them as rank 0 does. With one rank all of this is pool_take() and pool_finish().
  */
 #ifndef DISPATCH_H
 #define DISPATCH_H
@@ -22,10 +22,10 @@ void dispatch_finish(pool *c, size_t task, pendres_status status, farm_record *r
 /* A line for the user, from any rank. */
 void dispatch_tell(pool *c, const char *words);
 
-/* Before rank 0 collects a record: the others get it too, if they need it. */
+/* Called before rank 0 collects a record: it is sent to the others as well, if they need it. */
 void dispatch_share(pool *c, size_t task, const farm_record *record);
 
-/* What farm_run returns on another rank than 0. */
+/* What farm_run returns on ranks other than 0. */
 pendres_status dispatch_outcome(pool *c);
 
 #endif

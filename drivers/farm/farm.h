@@ -2,10 +2,10 @@
  * farm.h -- tasks on threads, each thread with its own context of the library.
  *
  * Owns: threads, contexts, records, progress and stopping. A task fills a record: plain bytes that
- * depend on its number, the deck and the code alone, never on its thread or on other tasks. Records
- * are collected in the order of tasks, and what is collected is a function of the records: then
- * results are the same bytes for any number of threads, and a record may as well come from
- * somewhere else.
+ * depend only on its number, the deck and the code, never on its thread or on other tasks. Records
+ * are collected in the order of tasks, and the results are a function of the records. They are
+ * therefore the same bytes for any number of threads, and a record may also come from elsewhere, as
+ * from a journal.
  */
 #ifndef FARM_H
 #define FARM_H
@@ -27,11 +27,11 @@ typedef struct farm farm;
 typedef struct farm_options {
   pendres_options library; /* of every context */
   int threads;             /* 0: as many as there are processors for this process */
-  int (*stop)(void *arg);  /* asked now and then; nonzero: stop. May be NULL */
+  int (*stop)(void *arg);  /* called now and then; nonzero: stop. May be NULL */
   void *stop_arg;
-  double budget;           /* processor seconds a point, see farm_point(); 0: as many as it takes */
-  progress *progress;      /* told of finished tasks; may be NULL. Not owned */
-  size_t run;              /* the same number in all ranks, another for each farm of a rank */
+  double budget;           /* processor seconds per point, see farm_point(); 0: no limit */
+  progress *progress;      /* is informed of finished tasks; may be NULL. Not owned */
+  size_t run;              /* the same number in all ranks, different for each farm of a rank */
 } farm_options;
 
 /* On failure *out is NULL. */
@@ -39,7 +39,7 @@ pendres_status farm_create(const farm_options *options, farm **out);
 /* NULL is allowed. */
 void farm_free(farm *f);
 
-/* Compute task number `task` with this thread's context, and fill its record: nothing else is to be
+/* Compute task number `task` with this thread's context, and fill its record. Nothing else may be
    written to, since several threads share arg. */
 typedef pendres_status farm_task(const void *arg, size_t task, pendres_context *ctx,
                                  farm_record *record);
@@ -50,24 +50,25 @@ typedef pendres_status farm_task(const void *arg, size_t task, pendres_context *
 typedef pendres_status farm_collect(void *arg, size_t task, const farm_record *record);
 
 /*
- * For a task to call: it begins `points` points at once, and what it has begun before is
- * finished; 0: something that is no point, has no budget, and is named alone.
- * By this name the user is told what is worked on, and which points are costly beside those before.
- * When they have taken so many times the budget of a point, the library is stopped, as by a signal:
- * a task for which farm_gave_up() then says yes goes on with farm_point() for the next, or for some
- * of the same, and calls farm_lost() for each point that it gives up, to be marked; words, which
- * may be NULL, say why.
- * Such a record is not kept in the journal, nor is what depends on it.
+ * Called by a task that begins `points` points together; what it has begun before is then finished.
+ * 0: something that is not a point and has no budget. The name tells the user what is being
+ * computed, and which points are costly compared with earlier ones.
+ *
+ * When the points have taken `points` times the budget of a point, the library is stopped, as by a
+ * signal. A task for which farm_gave_up() then returns nonzero continues with farm_point() for the
+ * next points, or for some of the same. It calls farm_lost() for each point that it gives up, which
+ * is to be marked; words, which may be NULL, receive the reason. Such a record is not kept in the
+ * journal, nor is what depends on it.
  */
 void farm_point(farm_record *record, size_t points, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 int farm_gave_up(const farm_record *record, pendres_status status);
 void farm_lost(farm_record *record, char *words, size_t size);
-/* The same where of the points begun together `lost` are given up, and the others are done. */
+/* The same where `lost` of the points begun together are given up, and the others are done. */
 void farm_lost_some(farm_record *record, size_t lost, char *words, size_t size);
 
-/* Can this be the record of a task, by its size and the ranges of all numbers in it that are used?
-   Records may come from a journal that others have written. 0: it is refused. */
+/* Whether this can be the record of a task, judged by its size and the ranges of all numbers in it
+   that are used: records may come from a journal that others have written. 0: it is refused. */
 typedef int farm_check(const void *arg, size_t task, const farm_record *record);
 
 /* Tasks of one kind. */
@@ -77,14 +78,14 @@ typedef struct farm_stage {
   size_t record_size;    /* bytes */
   size_t element;        /* bytes of the elements that end each record, as the states of a grid's
                             rows: trials count those that differ from the one before; 0: none */
-  int last;              /* nothing that the run computes after it reads its records */
-  int cheap;             /* so little to do that every shard does all of it */
-  int timed;             /* tasks look at the clock: one at a time, so that each is alone */
-  int chained;           /* each task reads what was collected of the one before: one at a time, and
-                            by every shard */
+  int last;              /* no later stage of the run reads its records */
+  int cheap;             /* so little work that every shard does all of it */
+  int timed;             /* tasks measure times: they are run one at a time */
+  int chained;           /* each task reads what was collected from the one before: they are run one
+                            at a time, and by every shard */
   farm_task *task;
-  farm_check *check;     /* before a record is collected; NULL: it has record_size bytes, and that
-                            is all there is to it */
+  farm_check *check;     /* called before a record is collected; NULL: only its size is checked,
+                            which must be record_size */
   farm_collect *collect; /* may be NULL */
   void *arg;             /* of all of these */
 } farm_stage;
@@ -96,39 +97,42 @@ typedef struct farm_stage {
 pendres_status farm_run(farm *f, const farm_stage *stage);
 
 /*
- * Keep the records of finished tasks in a journal, which is not owned, and take those that it holds
- * already from there instead of computing them. The stages of a run are told apart by their
+ * Keep the records of finished tasks in a journal, which is not owned, and take those that it
+ * already holds from there instead of computing them. The stages of a run are identified by their
  * ordinals, names, numbers of tasks and sizes of records: with the same deck and code they follow
- * each other in the same order. NULL: no journal, as at first. Stages whose tasks look at the clock
- * are never kept.
+ * each other in the same order. NULL: no journal, which is the default. Stages whose tasks measure
+ * times are never kept.
  */
 struct journal;
 void farm_set_journal(farm *f, struct journal *j);
 
-/* How tasks are shared out among several programs, each with a journal; all zero: not at all. */
+/* How tasks are divided among several programs, each with a journal; all zero: not at all. */
 typedef struct farm_share {
-  size_t shard, shards; /* this one, from 0, of so many: one task in so many is its own */
-  int complete;         /* put together from shards: the stage that they share must be there */
+  size_t shard, shards; /* number of this shard, from 0, and how many there are: each computes every
+                           shards-th task */
+  int complete;         /* results are put together from shards: the journals must hold all records
+                           of the stage that was divided */
 } farm_share;
 
 /*
- * A shard computes its own tasks of the first stage that is neither cheap nor in the journals as a
- * whole; farm_run then returns PENDRES_INTERRUPTED, and farm_left() tells that it was for this
- * reason. Later stages need all records: they come when the shards are put together.
+ * A shard computes its own tasks of the first stage that is neither cheap nor completely in the
+ * journals; farm_run then returns PENDRES_INTERRUPTED, and farm_left() returns nonzero for this
+ * reason. Later stages need all records and are computed when the shards are put together.
  */
 void farm_set_share(farm *f, farm_share share);
 int farm_left(const farm *f);
 
 /*
  * All ranks call this when the scene has ended: rank 0 goes on alone, or not at all, and the others
- * leave the stage that they are in. One that has failed, as these words say (else NULL), waits for
- * that, and takes what is still sent to it meanwhile: rank 0 has the others, and does without.
+ * leave the stage that they are in. A rank that has failed, for the reason in `words` (otherwise
+ * NULL), waits for that and receives what is still sent to it meanwhile; rank 0 goes on with the
+ * other ranks.
  */
 void farm_dismiss(farm *f, const char *words);
 
-/* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
-   caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there
-   can be no thread it is called as it is. */
+/* Call run(arg) on a thread with a stack of FARM_STACK bytes, wait for it, and return its result.
+   The caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. If no
+   thread can be started, run() is called directly. */
 int farm_run_on_thread(int (*run)(void *arg), void *arg);
 
 /* The message of the failure that farm_run returned. */
@@ -139,14 +143,14 @@ pendres_context *farm_context(farm *f);
 
 int farm_threads(const farm *f);
 
-/* Is the run to stop? For what a task does without its context: `farm` is a farm. */
+/* Whether the run is to stop, for what a task does without its context; `farm` is a farm. */
 int farm_stopped(void *farm);
 
-/* Processor seconds a point; points that were given up: farm_lost(). */
+/* Processor seconds per point; number of points that were given up (farm_lost()). */
 double farm_budget(const farm *f);
 size_t farm_points_lost(const farm *f);
 
-/* What all tasks have spent, and the contexts outside of tasks. */
+/* The cost of all tasks, and of the contexts outside of tasks. */
 void farm_cost(const farm *f, pendres_cost *cost);
 
 #endif

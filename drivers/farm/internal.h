@@ -10,17 +10,18 @@
 struct farm {
   farm_options options;
   int threads;
-  int short_of;              /* how many threads could be had, if there were fewer than asked for;
-                                else 0 */
+  int short_of;              /* how many threads could be started, if fewer than requested;
+                                otherwise 0 */
   pthread_mutex_t lock;      /* of `spent` */
-  pendres_cost spent;        /* but for what the contexts have in their own books */
+  pendres_cost spent;        /* without what the contexts still count themselves */
   pendres_context **context; /* one for each thread, made at its first task */
   journal *journal;          /* NULL: none */
   farm_share share;
-  struct farm_trial *trial;  /* NULL: a run proper */
+  struct farm_trial *trial;  /* NULL: not a trial */
   size_t lost;               /* points that were given up */
   int left;                  /* a stage was left to other shards */
-  int dismissed;             /* another rank: rank 0 has said that the scene has ended */
+  int dismissed;             /* on ranks other than 0: rank 0 has announced that the scene has
+                                ended */
   size_t run, stages;        /* which farm of its rank this is; stages that were run */
   char message[512];
 };
@@ -34,9 +35,9 @@ pendres_status farm_context_of(farm *f, int thread, pendres_context **out);
 /* Add to what the farm has spent; any thread may. */
 void farm_spend(farm *f, const pendres_cost *cost);
 
-/* trial.c: try a stage that has tasks, in the place of running it. */
+/* trial.c: try a stage that has tasks, instead of running it. */
 pendres_status trial_run(farm *f, const farm_stage *stage);
-/* Whether the time of the trial is over. */
+/* Whether the time of the trial has elapsed. */
 int trial_over(const struct farm_trial *t);
 
 /* A thread with a stack of FARM_STACK bytes, whatever the limits of the process; 0 or an errno. */

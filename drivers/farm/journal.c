@@ -19,7 +19,7 @@
 #include "system/grow.h"
 #include "system/own_file.h"
 
-/* At most the records of so many seconds are lost when the machine fails. */
+/* At most the records of this number of seconds are lost when the machine fails. */
 static const double sync_after = 10.0;
 
 /* How often the journal may be removed or replaced between two looks at it. */

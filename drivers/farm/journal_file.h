@@ -6,10 +6,10 @@
  *   head     "PENDRESJ", length of the text and two checksums, of the text and of all before it;
  *            the text
  *   record   a journal_entry, with a checksum of itself and one of the data; the data, without the
- *            zeros at its end, of which a megabyte at most is left out: so that a file makes nobody
- *            ask for much more memory than it has bytes
+ *            zeros at its end; at most a megabyte of them is left out, so that the memory needed to
+ *            read a file is not much larger than the file
  *
- * Numbers have the byte order of the machine: a journal goes on where it began.
+ * Numbers have the byte order of the machine: a journal is continued where it was begun.
  */
 #ifndef JOURNAL_FILE_H
 #define JOURNAL_FILE_H
@@ -18,7 +18,7 @@
 #include <sys/types.h>
 
 enum {
-  JOURNAL_WORDS = 512, /* room for what is said of a journal */
+  JOURNAL_WORDS = 512, /* room for a message about a journal */
   JOURNAL_HEAD = 24    /* bytes before the text of a head */
 };
 
@@ -33,7 +33,7 @@ typedef struct journal_entry {
 typedef enum journal_head {
   JOURNAL_SAME,
   JOURNAL_OTHER,    /* of another deck or build */
-  JOURNAL_NONE,     /* no journal at all */
+  JOURNAL_NONE,     /* not a journal */
   JOURNAL_TORN,     /* killed while it was made, or empty */
   JOURNAL_NO_MEMORY
 } journal_head;

@@ -7,7 +7,7 @@
 #include "farm/dispatch.h"
 #include "system/clock.h"
 
-/* A point is costly, and told of, when it has taken so many times the mean of those before, of
+/* A point is costly, and reported, when it has taken this multiple of the mean of those before, of
    which there have to be some, and longer than one waits for gladly: a part of the time between two
    lines on the run, five seconds as a rule. */
 static const double many_times = 20.0, long_wait = 1.0 / 60.0;
@@ -22,7 +22,7 @@ static double mean_of(pool *c)
   return mean;
 }
 
-/* Beside the mean of so many points, which is told, too. */
+/* Compared with the mean of at least this number of points, which is reported, too. */
 static int is_costly(const farm_watch *w, double spent, double *mean)
 {
   const progress *p = w->pool->farm->options.progress;

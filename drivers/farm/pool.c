@@ -205,7 +205,7 @@ static void note_record(pool *c, size_t task, farm_record *record, int on_disk)
   progress_step(c->farm->options.progress, ++c->finished);
 }
 
-/* Collect what has become ready while nobody else does. */
+/* Collect what has become ready unless another thread does. */
 static void collect_ready(pool *c)
 {
   pthread_mutex_lock(&c->lock);
@@ -289,7 +289,7 @@ static void *hand_work(void *arg)
 }
 
 /*
- * Work with `threads` threads, or with fewer where there cannot be so many: the results are the
+ * Work with `threads` threads, or with fewer if not all can be started: the results are the
  * same. As a rule it is memory that there is no more of: half of them leave theirs to the rest.
  */
 static void work_together(pool *c, int threads, hand *hands)

@@ -19,7 +19,7 @@ typedef struct kept {
 
 enum { POINT_NAME = 120 };
 
-/* What a thread is at, and since when; 0: nothing. */
+/* What a thread is working on, and since when; 0: nothing. */
 typedef struct at_work {
   char name[POINT_NAME];
   long long since; /* milliseconds */
@@ -33,51 +33,51 @@ typedef struct farm_watch {
   double start;    /* of this thread's processor time, seconds */
   size_t points;   /* that were begun together; 0: none */
   int over;        /* the budget has ended them ... */
-  double spent;    /* ... after so many seconds */
-  int told;        /* they are costly, and that was said */
+  double spent;    /* ... after this number of seconds */
+  int told;        /* the user has been told that they are costly */
   long long look;  /* when to look at the clock again, milliseconds; 0: at once */
   char name[POINT_NAME];
 } farm_watch;
 
-/* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
+/* The tasks of one farm_run; fields are changed under the lock only, except for `limit`. */
 typedef struct pool {
   farm *farm;
   const farm_stage *stage;
   uint64_t number;      /* of the stage: journal_stage() */
   journal *journal;     /* of the stage's records; NULL: none */
-  int hired;            /* threads that work; those with higher numbers go home */
+  int hired;            /* threads that work; those with higher numbers end */
   pthread_mutex_t lock;
   size_t next;          /* not yet taken */
   size_t finished;
   size_t waiting;       /* bytes of records in memory */
   size_t others;        /* tasks that are left to other shards */
   size_t collected;     /* tasks 0 .. collected-1 */
-  int collecting;       /* a thread is at it */
+  int collecting;       /* a thread is doing so */
   char *done;           /* NOT_DONE, ... */
   kept *record;         /* of tasks that are done and not yet collected */
   atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
   pendres_status status;
-  at_work *bench;       /* what each thread is at */
+  at_work *bench;       /* what each thread is working on */
   size_t points;        /* that were finished here, and the seconds that they took */
   double point_seconds;
   int threads;          /* of them */
-  atomic_llong look;    /* when somebody is to look at the clock again, milliseconds */
+  atomic_llong look;    /* when a thread is to look at the clock again, milliseconds */
   /* dispatch.c's: */
   pthread_t server;
   atomic_int idle;      /* the rank's own threads have no more to do */
-  atomic_int halted;    /* of another rank: rank 0 wants no more of it */
-  atomic_int ended;     /* of another rank: rank 0 has told how the stage ended */
+  atomic_int halted;    /* on ranks other than 0: rank 0 needs no more from this rank */
+  atomic_int ended;     /* on ranks other than 0: rank 0 has sent how the stage ended */
 } pool;
 
 long long pool_milliseconds(void);
 
-/* A line for the user, while others work. */
+/* Show a line to the user, while other threads work. */
 void pool_tell(pool *c, const char *words);
 
-/* The next task that nobody has; 0: there is none. */
+/* Take the next task that no thread has taken; 0: there is none. */
 int pool_take(pool *c, size_t *task);
 
-/* Note a task's end; takes over the record's data. */
+/* Note a task's end; the pool becomes the owner of the record's data. */
 void pool_finish(pool *c, size_t task, pendres_status status, farm_record *record);
 
 /*

@@ -31,7 +31,7 @@ static size_t unsent = 0;
 
 enum {
   MOST_UNSENT = 64 << 20, /* bytes of letters in memory; who sends more waits */
-  LONGEST_WAIT = 1000     /* microseconds between looks of somebody who waits */
+  LONGEST_WAIT = 1000     /* microseconds between two looks of a waiting thread */
 };
 
 /* Naps grow by 50 us each, so that after a silence of t they are sqrt(100 us * t) long: what looks

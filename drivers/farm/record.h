@@ -1,6 +1,6 @@
 /*
- * record.h -- what a task hands over: plain bytes that depend on its number, the deck and the code
- * alone.
+ * record.h -- the result of a task: plain bytes that depend only on its number, the deck and the
+ * code.
  */
 #ifndef RECORD_H
 #define RECORD_H
@@ -9,15 +9,15 @@
 
 #include <pendres/pendres.h>
 
-/* What a task hands over. */
+/* The result of a task. */
 typedef struct farm_record {
   void *data;        /* zero at first; the farm's */
-  size_t size;       /* in bytes: the stage's record_size, unless the task has asked for another
+  size_t size;       /* in bytes: the stage's record_size, unless the task has chosen another
                         size */
-  pendres_cost cost; /* the cost of the task, as its context tells; the farm fills it in */
-  struct farm_watch *watch; /* of its points, see farm_point(): the farm's; NULL: nobody watches */
+  pendres_cost cost; /* the cost of the task according to its context; the farm fills it in */
+  struct farm_watch *watch; /* of its points, see farm_point(): the farm's; NULL: none */
   size_t lost;       /* points that were given up, see farm_lost() */
-  char message[512]; /* why the task has failed, where its context cannot tell; "" at first */
+  char message[512]; /* why the task has failed, where its context has no message; "" at first */
 } farm_record;
 
 /* Give a record a size of its own; new bytes are zero. Returns its data; NULL: out of memory. */

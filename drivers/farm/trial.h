@@ -1,9 +1,9 @@
 /*
- * trial.h -- what a run would cost, from a few of its tasks.
+ * trial.h -- the cost of a run, estimated from a few of its tasks.
  *
- * Owns: the choice of tasks that are tried, and what is concluded from them. A stage of which all
- * tasks could be tried is done, and the scene goes on to the next; any other ends the trial. So
- * what is known is the part of a run that begins it, for most scenes nearly all of it.
+ * Owns: the choice of tasks that are tried, and the estimate from them. A stage of which all tasks
+ * could be tried is done, and the scene continues with the next; any other stage ends the trial.
+ * The estimate therefore covers the first part of a run, which for most scenes is nearly all of it.
  */
 #ifndef TRIAL_H
 #define TRIAL_H
@@ -15,25 +15,25 @@
 #include "farm/farm.h"
 
 typedef struct farm_trial {
-  double few, most;    /* processor seconds: after `few` no task of a stage is begun, after `most`
-                          all ends, a task under way too */
-  size_t least;        /* tasks of a stage, though they take longer than `few` */
+  double few, most;    /* processor seconds: after `few` no further task of a stage is begun, after
+                          `most` everything ends, running tasks included */
+  size_t least;        /* tasks of a stage that are tried even if they take longer than `few` */
   double start;        /* processor time at its beginning; farm_trial_start() sets it */
-  /* Of the stages up to the one that ended the trial, all of their tasks: */
+  /* For all tasks of the stages up to the one that ended the trial: */
   double seconds;      /* of processor time */
   double journal;      /* bytes */
   double changes;      /* elements of records that differ from the one before */
   pendres_cost cost;
-  double spent;        /* seconds in the tasks that were tried, so that the rest of the trial is
-                          known to be outside of tasks */
+  double spent;        /* seconds in the tasks that were tried; the rest of the trial was outside of
+                          tasks */
   const char *what;    /* tasks of the stage that ended it; NULL: the scene came to its end */
   size_t tasks, tried;
-  int cut;             /* the end of the trial came in the middle of something: what is told of time
-                          is the least that there is */
+  int cut;             /* the trial ended in the middle of something: the times are lower bounds */
 } farm_trial;
 
-/* From now on the stages of this farm are tried; *t, not owned, has the first three and is zero
-   otherwise. farm_run then returns PENDRES_INTERRUPTED where the trial has ended. */
+/* From now on the stages of this farm are tried; in *t, which is not owned, the first three fields
+   are set and the others are zero. farm_run returns PENDRES_INTERRUPTED when the trial has ended.
+   */
 void farm_set_trial(farm *f, farm_trial *t);
 
 /* Seconds outside of tasks since the start of the trial. */

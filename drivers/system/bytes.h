@@ -1,6 +1,6 @@
 /*
- * bytes.h -- bytes at a place of a file, all of them: what the system reads or writes in parts, and
- * what a signal interrupts, goes on. No state; any thread may.
+ * bytes.h -- reading and writing bytes at an offset of a file, always completely: what the system
+ * does in parts, or a signal interrupts, is continued. No state; any thread may call.
  */
 #ifndef BYTES_H
 #define BYTES_H

@@ -4,10 +4,10 @@
 #ifndef CLOCK_H
 #define CLOCK_H
 
-/* Since some time in the past, whatever becomes of the date. */
+/* Since some time in the past, not affected by changes of the date. */
 double clock_wall(void);
 
-/* Of processor, that the calling thread has used; that all threads have. */
+/* Processor time of the calling thread; of all threads. */
 double clock_thread(void);
 double clock_process(void);
 

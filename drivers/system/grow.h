@@ -1,5 +1,5 @@
 /*
- * grow.h -- arrays that grow, the driver's one way to make room in them. No state; any thread may.
+ * grow.h -- arrays that grow: the driver's only way to enlarge them. No state; any thread may call.
  */
 #ifndef GROW_H
 #define GROW_H
@@ -7,8 +7,8 @@
 #include <stddef.h>
 
 /*
- * Make room for so many elements of some size in the array that the pointer at `array` leads to: &a
- * for an array a of any type. Where *capacity is less, a larger array takes its place; new elements
+ * Make room for elements of some size in the array whose address is stored at `array`: pass &a for
+ * an array a of any type. Where *capacity is less, a larger array takes its place; new elements
  * are zero. 0: out of memory; all is as it was.
  */
 int grow_to(void *array, size_t wanted, size_t *capacity, size_t size);

@@ -46,7 +46,7 @@ static void clear(progress *p)
   p->width = 0;
 }
 
-/* A line of the terminal has so many characters. */
+/* Characters of a line on the terminal. */
 static int columns_of(const progress *p)
 {
   struct winsize size = { 0 };

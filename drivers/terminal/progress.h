@@ -1,9 +1,9 @@
 /*
- * progress.h -- what a user sees of a run under way: stderr and the log.
+ * progress.h -- what a user sees of a run while it is computed: stderr and the log.
  *
- * Owns: a bar where stderr is a terminal, else a line each 10 % of whatever takes longer than a
- * second, and at least every five minutes; notes and errors; the log file with the time before each
- * line. --quiet leaves errors alone, the log gets everything.
+ * Owns: a bar where stderr is a terminal, otherwise a line for each 10 % of work that takes longer
+ * than a second, and at least every five minutes; notes and errors; the log file with the time in
+ * front of each line. With --quiet only errors are shown; the log gets everything.
  *
  * Thread safety: one thread at a time; the farm takes care of that.
  */

@@ -9,9 +9,9 @@
 #include <string.h>
 
 /*
- * Make room for so many elements in the array that the pointer at `array` leads to: &a for an array
- * a of any type. For arrays that have their capacity in common: the caller keeps the new one once
- * all of them have grown. 0: out of memory; the array is as it was.
+ * Make room for `capacity` elements in the array whose address is stored at `array`: pass &a for an
+ * array a of any type. For several arrays with a common capacity: the caller stores the new
+ * capacity after all of them have grown. 0: out of memory; the array is unchanged.
  */
 static inline int pendres_regrow(void *array, size_t capacity, size_t size)
 {
@@ -26,8 +26,8 @@ static inline int pendres_regrow(void *array, size_t capacity, size_t size)
 
 /*
  * Make room for one more in an array of `count` elements. Returns the array or, where it was full,
- * a larger one in its place, whose room is then in *capacity. NULL: out of memory; the array is as
- * it was.
+ * a larger one in its place, whose size is then in *capacity. NULL: out of memory; the array is
+ * unchanged.
  */
 static inline void *pendres_grow(void *array, size_t count, size_t *capacity, size_t size)
 {

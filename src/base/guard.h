@@ -1,9 +1,9 @@
 /*
- * guard.h -- how a handle of the library is entered and left.
+ * guard.h -- how the use of a handle of the library begins and ends.
  *
- * Owns: who computes with a handle at present, and the sentence on how its last use went. Every
+ * Owns: which thread computes with a handle at present, and the message about its last use. Every
  * public function that computes goes through pendres_guard_enter() and pendres_guard_leave(), so
- * that a handle in use is refused, a failure never shows the sentence of another, and a success
+ * that a handle in use is refused, a failure never shows the message of another one, and a success
  * shows none.
  */
 #ifndef PENDRES_GUARD_H
@@ -19,8 +19,8 @@ enum { PENDRES_MESSAGE_LENGTH = 512 };
 
 typedef struct pendres_guard {
   _Atomic uintptr_t owner; /* the thread that computes; 0: none does */
-  int depth;               /* public functions under way, one inside another */
-  int asking;              /* whether a function of the caller's is being called */
+  int depth;               /* nested calls of public functions */
+  int asking;              /* whether one of the caller's functions is being called */
   pendres_status said;     /* what the message is about */
   char message[PENDRES_MESSAGE_LENGTH];
 } pendres_guard;
@@ -38,11 +38,11 @@ int pendres_guard_enter(pendres_guard *g);
 /* What a refusal is to return. */
 pendres_status pendres_guard_refusal(const pendres_guard *g);
 
-/* End the use. After a success the handle has no sentence, after a failure its own or, if nothing
-   was said, that of its status. */
+/* End the use. After a success the handle has no message, after a failure that of the failure or,
+   if none was given, that of its status. */
 pendres_status pendres_guard_leave(pendres_guard *g, pendres_status status);
 
-/* To be called before and after every call of a function that the caller has handed over. */
+/* To be called before and after every call of a function that the caller has passed. */
 void pendres_guard_ask(pendres_guard *g, int asking);
 
 /* Whether another thread, or the call that asks this very function, uses the handle. */
@@ -51,11 +51,11 @@ int pendres_guard_busy(const pendres_guard *g);
 /* Whether another thread uses the handle. */
 int pendres_guard_used_elsewhere(const pendres_guard *g);
 
-/* Keep a sentence, return the status. */
+/* Store a message, return the status. */
 pendres_status pendres_guard_fail(pendres_guard *g, pendres_status status, const char *format,
                                   va_list args);
 
-/* The sentence on the last failure, or on why none can be shown. */
+/* The message of the last failure, or why none can be shown. */
 const char *pendres_guard_message(const pendres_guard *g);
 
 /* The body of a public function: `call` is evaluated if the handle may be entered. */

@@ -1,5 +1,5 @@
 /*
- * mix.h -- numbers that look random, from numbers that count.
+ * mix.h -- pseudorandom numbers from counters.
  */
 #ifndef PENDRES_MIX_H
 #define PENDRES_MIX_H

@@ -1,7 +1,8 @@
 /*
- * student.h -- errors from the scatter of few.
+ * student.h -- errors from the scatter of a few values.
  *
- * Owns: by how much an error grows because the scatter that it comes from is itself uncertain.
+ * Owns: the factor by which an error grows because the scatter from which it is estimated is itself
+ * uncertain.
  */
 #ifndef PENDRES_STUDENT_H
 #define PENDRES_STUDENT_H
@@ -11,9 +12,9 @@
 
 /*
  * Half the width, in naive standard errors, of the interval around a mean that holds the true
- * value with probability `share` (0 to 1), where the scatter has so many degrees of freedom
- * (taken as 1 if fewer): the point of Student's t distribution. For one standard error it is 1.84
- * from two independent values, 1.06 from ten.
+ * value with probability `share` (0 to 1), where the scatter has `freedom` degrees of freedom
+ * (taken as 1 if fewer): the quantile of Student's t distribution. For one standard error it is
+ * 1.84 from two independent values, 1.06 from ten.
  */
 double pendres_student(double share, double freedom);
 

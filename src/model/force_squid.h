@@ -4,7 +4,7 @@
  * With y the junction's phase, the ring's screening parameter beta_L = 1/a1 and the external flux
  * phi_e (2 pi a flux quantum), y'' + gamma y' + sin y + (y - phi_e)/beta_L = 0: the constant part
  * of the flux is a torque I = phi_e/beta_L, an oscillating one is a drive. It is the example of a
- * force of one's own: forces.h tells what each of these is for.
+ * user's own force: forces.h describes what each of these functions is for.
  *
  * Source: K. K. Likharev, Dynamics of Josephson Junctions and Circuits (1986), chapter 6.
  */
@@ -24,9 +24,10 @@ static inline double pendres_force_squid_outward(const double *a, double side, d
 }
 
 /*
- * sin y is odd about all multiples of pi, and about that one of them where the spring balances the
- * torque the whole is: the flux is a multiple of half a quantum. The torque is off by the roundings
- * of a1, of pi and of their product, and by its own; the bound is twice these.
+ * sin y is odd about all multiples of pi. The whole force is odd about the one of them at which the
+ * spring balances the torque, if there is one: the flux is then a multiple of half a quantum. The
+ * torque has the rounding errors of a1, of pi and of their product, and its own; the bound is twice
+ * their sum.
  */
 static inline double pendres_force_squid_centre(const double *a, double torque, double near)
 {

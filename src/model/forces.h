@@ -1,5 +1,5 @@
 /*
- * forces.h -- forces of one's own, beside the pendulum's and the polynomial.
+ * forces.h -- further forces, beside the pendulum's and the polynomial.
  *
  * To add one named NAME:
  *
@@ -12,17 +12,18 @@
  *   pendres_force_NAME_model      its name in decks, the period of y (2 pi or, where y and y + 2 pi
  *                                 are not the same, 0), origin, whether y is an angle (in rad),
  *                                 how many coefficients, and, if pendulums may escape to
- *                                 infinity, `outward`, which tells from where on they do for
- *                                 certain (pendulum.h); without it they are unresolved; `centre`
- *                                 tells where f less a torque is odd, if it may be
+ *                                 infinity, `outward`, which gives the position beyond which they
+ *                                 certainly do (pendulum.h); without it they are unresolved;
+ *                                 `centre` gives the point about which f less a torque is odd, if
+ *                                 it can be
  *   pendres_force_NAME            f and df/dy; f(0) need not be 0
  *   pendres_force_NAME_by         df/da_k, k from 0 on
  *   pendres_force_NAME_potential  V, dV/dy = f, up to a constant
  *
- * The first two functions are loops' innards: no branches on y, and every operation one IEEE
- * operation (+ - * /, __builtin_fma, the sine of base/sine.h), or results depend on the instruction
- * set. Kernels, blocks, sensitivities by the coefficients, steps and all that asks the model follow
- * from these.
+ * The first two functions are used in the innermost loops: they must not branch on y, and every
+ * operation must be one IEEE operation (+ - * /, __builtin_fma, the sine of base/sine.h); otherwise
+ * results would depend on the instruction set. Kernels, blocks, sensitivities to the coefficients,
+ * steps and everything else that depends on the model follow from these functions.
  */
 #ifndef PENDRES_FORCES_H
 #define PENDRES_FORCES_H

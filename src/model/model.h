@@ -1,5 +1,5 @@
 /*
- * model.h -- what follows from a pendulum's force: asked of the model, never assumed.
+ * model.h -- the properties of a pendulum that follow from its force.
  *
  * y = x - origin is the angle that the engine works with: from the bottom of the well of a plain
  * pendulum, x itself of a polynomial.
@@ -26,7 +26,7 @@ typedef enum pendres_model_terms {
 
 pendres_model_terms pendres_model_kind(const pendres_pendulum *p);
 
-/* NULL, or what is wrong with the parameters that not every pendulum has: a static sentence. */
+/* NULL, or what is wrong with the parameters that only some pendulums have: a static sentence. */
 const char *pendres_model_check(const pendres_pendulum *p);
 
 /* f at y, without parametric drive, and its derivative. */
@@ -39,30 +39,32 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
 double pendres_model_turn(const pendres_pendulum *p);
 
 /*
- * The centre c of the mirror symmetry y -> 2 c - y, half a drive period later; of several the one
- * nearest to `near`, which may be NaN: it is then 0. That of the pendulum is the bottom: whole and
- * half turns away there are others. NaN if p has no such symmetry.
+ * The centre c of the mirror symmetry y -> 2 c - y with a shift of half a drive period; if there
+ * are several, the one nearest to `near`; if `near` is NaN, nearest to 0. For the pendulum the
+ * bottom is a centre, and so are the points whole and half turns away. NaN if p has no such
+ * symmetry.
  */
 double pendres_model_centre(const pendres_pendulum *p, double near);
 
-/* Where y is counted from. */
+/* The origin of y. */
 double pendres_model_origin(const pendres_pendulum *p);
 
-/* Steps are chosen by these upper estimates: of the energy that it takes to come from y = 0 to
-   `reach` on either side, and of the spring's stiffness on the way. */
+/* Upper bounds by which steps are chosen: of the energy needed to come from y = 0 to `reach` on
+   either side, and of the spring's stiffness on the way. */
 double pendres_model_climb(const pendres_pendulum *p, double reach);
 double pendres_model_stiffest(const pendres_pendulum *p, double reach);
 
-/* A length of the force: half the distance of the barriers over pi; of a polynomial the largest
-   length at which two of its terms are alike, 1 if it has one alone; of other forces 1. */
+/* The length scale of the force: half the distance between the barriers, divided by pi; for a
+   polynomial the largest length at which two of its terms are equal, 1 if it has only one term; for
+   other forces 1. */
 double pendres_model_scale(const pendres_pendulum *p);
 
 /*
- * What lengths and frequencies of motions under this drive are to be compared with, in canonical
- * units as all else: how far the drive gets the pendulum or, if that is less, the force's own
- * length, far less than 1 under a weak drive; and an upper estimate of the frequency of free
- * oscillations as wide as that. Both are 1 of pendulums, whose frequency only falls with amplitude;
- * their damping must not be 0.
+ * Scales for lengths and frequencies of motions under this drive, in canonical units like
+ * everything else: the length is the distance that the drive can move the pendulum or, if that is
+ * less, the force's own length scale, and much less than 1 for a weak drive; the frequency is an
+ * upper bound of that of free oscillations of this amplitude. Both are 1 for pendulums, whose
+ * frequency only falls with amplitude. The damping must not be 0.
  */
 typedef struct pendres_model_units {
   double length, rate;
@@ -70,11 +72,10 @@ typedef struct pendres_model_units {
 
 pendres_model_units pendres_model_units_of(const pendres_pendulum *p);
 
-/* How far two states with these differences are apart, in units of p. */
+/* The distance of two states with these differences, in units of p. */
 double pendres_model_distance(const pendres_pendulum *p, double x, double v);
 
-/* Whether a pendulum in a state is on its way to infinity for certain: pendres_outcome says
-   when. */
+/* Whether a pendulum in a state is certainly on its way to infinity; see pendres_outcome. */
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
 
 /* Whether the force is linear, so that all motions under it have the same Floquet multipliers. */

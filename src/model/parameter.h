@@ -1,5 +1,5 @@
 /*
- * parameter.h -- what the library itself asks of parameters, beside <pendres/parameter.h>.
+ * parameter.h -- internal functions for parameters, beside <pendres/parameter.h>.
  */
 #ifndef PENDRES_MODEL_PARAMETER_H
 #define PENDRES_MODEL_PARAMETER_H
@@ -18,7 +18,7 @@ typedef struct pendres_parameter_record {
 void pendres_parameter_put(pendres_parameter parameter, double value,
                            pendres_parameter_record *record);
 
-/* Where in that record a parameter stands: two that stand at one place are one quantity. */
+/* The position of a parameter in that record: two with the same position are one quantity. */
 size_t pendres_parameter_place(pendres_parameter parameter);
 
 /* The pendulum with another value of a parameter. */

@@ -1,17 +1,18 @@
 /*
  * rotation_stiff.h -- rotations just beyond a torque of 1 where friction is strong.
  *
- * Owns: their velocity along the angle by implicit collocation. Off the rotation motions come to
- * it within a small angle, v / gamma, so that series in the angle take no longer steps; next to a
- * torque of 1 the rotation is as slow there as wished, and a turn would take millions of them.
+ * Owns: their velocity as a function of the angle by implicit collocation. Other motions approach
+ * the rotation within a small angle, v / gamma, so that series in the angle cannot take longer
+ * steps; close to a torque of 1 the rotation is arbitrarily slow, and a turn would take millions of
+ * steps.
  */
 #ifndef PENDRES_ROTATION_STIFF_H
 #define PENDRES_ROTATION_STIFF_H
 
 /*
  * The velocity at y = 0 and the period of the rotation at a damping of 1 or more and a torque above
- * 1; NaN if it is not found. widest: of the panels that the turn is cut into, in radians; two of
- * them tell how exact a result is.
+ * 1; NaN if it is not found. widest: the width of the largest panel into which the turn is divided,
+ * in radians; results with two such widths give an error estimate.
  */
 double pendres_rotation_stiff(double damping, double torque, double widest, double *period);
 

@@ -12,8 +12,8 @@
 
 #include <pendres/parameter.h>
 
-/* What a value of a parameter has as its power of length, instead of the power itself: its unit is
-   that of the first or of the second parameter that is moved. */
+/* What the value of a parameter has in place of a power of length: its unit is that of the first or
+   of the second parameter that is varied. */
 enum { PENDRES_UNITS_OF_FIRST = 64, PENDRES_UNITS_OF_SECOND = 65 };
 
 /* Some doubles of a record, one after another, in length^length time^time. Where `of` is not NULL,
@@ -30,7 +30,7 @@ typedef struct pendres_dimensions {
   const pendres_dimension *row;
 } pendres_dimensions;
 
-/* Units, and those of two parameters that are moved in them. */
+/* Units, and those of the two parameters that are varied. */
 typedef struct pendres_scales {
   pendres_units unit;
   double first, second;
@@ -42,8 +42,8 @@ double pendres_units_factor(const pendres_scales *scales, int length, int time);
 /* The unit of a parameter; 1 if it does not exist. */
 double pendres_units_of_parameter(const pendres_units *unit, pendres_parameter parameter);
 
-/* n records from the user's units to canonical ones, and back. NULL has none. Exact, since units
-   are powers of two. */
+/* Convert n records from the user's units to canonical ones, and back; nothing is done for NULL.
+   Exact, since units are powers of two. */
 void pendres_units_in(const pendres_scales *scales, const pendres_dimensions *d, size_t n,
                       void *records);
 void pendres_units_out(const pendres_scales *scales, const pendres_dimensions *d, size_t n,

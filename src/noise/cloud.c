@@ -64,7 +64,7 @@ static const pendres_cloud_request *open_request(pendres_door *d, pendres_contex
   return inside;
 }
 
-/* Announce the strobe points of so many trajectories of a request, if it is one. */
+/* Announce the strobe points of the trajectories of a request, if it is one. */
 static void announce(pendres_door *d, size_t trajectories, const pendres_cloud_request *request,
                      double *x, double *v)
 {

@@ -12,9 +12,9 @@ enum { RING = 48 /* states on an ellipse's edge that are to settle inside */ };
    that are: what comes to its edge will hardly leave at once. */
 static const double share = 0.5, widest = 2.0;
 
-/* So many ellipses are tried, each smaller than the last by this factor: a basin narrower than the
-   last, a thousandth of the first, holds no state to speak of. The first is at most as wide as a
-   well or, where the force has no wells, as so many of its lengths. */
+/* The number of ellipses that are tried, each smaller than the one before by this factor: a basin
+   narrower than the last one, a thousandth of the first, is negligible. The first is at most as
+   wide as a well or, where the force has no wells, as this multiple of its length. */
 enum { TRIALS = 21 };
 static const double narrower = 0.7071067811865476, lengths = 100.0;
 
@@ -40,8 +40,8 @@ static matrix ellipse_of(const pendres_attractor *a)
                   a->trap_metric[2] / (r * r * w * w)};
 }
 
-/* Whether the ellipse of so many standard deviations belongs to the basin, by its edge: the image
-   of what is inside is bounded by the edge's image, so that it settles where that does. */
+/* Whether the ellipse of `reach` standard deviations belongs to the basin. Its edge decides: the
+   image of the inside is bounded by the edge's image, so that it settles where the edge does. */
 static pendres_status settles(pendres_context *ctx, const pendres_attractors *set, int i,
                               const matrix *cloud, double reach, int *inside)
 {

@@ -1,9 +1,10 @@
 /*
- * cores.h -- what counts as having arrived at an attractor, for a noisy trajectory.
+ * cores.h -- the cores of attractors: a noisy trajectory has arrived when it is inside one.
  *
- * Owns: the ellipses around strobe points by which trajectories are told apart. Inside one, noise
- * has let go of where a trajectory came from: it is as wide as the cloud of linear noise theory,
- * and where the basin of attraction does not hold twice that, half as wide as the basin allows.
+ * Owns: the ellipses around strobe points by which the states of trajectories are distinguished. A
+ * trajectory inside one no longer depends on where it came from: the ellipse is as wide as the
+ * cloud of linear noise theory or, where the basin of attraction does not hold twice that, half as
+ * wide as the basin allows.
  */
 #ifndef PENDRES_CORES_H
 #define PENDRES_CORES_H
@@ -16,7 +17,7 @@
 /* A running trajectory has no well. */
 #define PENDRES_NO_WELL LONG_MIN
 
-/* Positions beyond this are in no core: double precision does not know where in a turn. */
+/* Positions beyond this are in no core: double precision does not resolve the angle there. */
 #define PENDRES_CORES_FARTHEST 1e15
 
 /* The core of an attractor. */
@@ -28,8 +29,8 @@ typedef struct pendres_core {
   double xx, xv, vv; /* P: inside, (z - z0)' P (z - z0) <= 1 with z = (x, v) */
 } pendres_core;
 
-/* Those of a set; an attractor that has none, as a chaotic one, is left out. `home` is whose
-   trajectories pendres_cores_leave() looks at. */
+/* The cores of a set; an attractor that has none, such as a chaotic one, is left out. `home` is the
+   attractor from which pendres_cores_leave() counts departures. */
 typedef struct pendres_cores {
   size_t count;
   pendres_core core[PENDRES_SWITCHING_STATES];
@@ -37,9 +38,9 @@ typedef struct pendres_cores {
 } pendres_cores;
 
 /*
- * Make the cores of a set at a temperature. `size` is theirs in units of what follows from noise
- * and basins, up to 2; 0 is 1. Without noise, or where there is no linear theory, they are half
- * of the trapping ellipses.
+ * Make the cores of a set at a temperature. `size` is their size relative to the one that follows
+ * from noise and basins, up to 2; 0 stands for 1. Without noise, or where there is no linear
+ * theory, they are the trapping ellipses reduced to half their size.
  */
 pendres_status pendres_cores_make(pendres_context *ctx, const pendres_attractors *set,
                                   double temperature, double size, pendres_cores *out);

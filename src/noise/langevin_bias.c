@@ -26,7 +26,7 @@ static void scales_of(const pendres_sums *total, double scale[STATISTICS])
   scale[PENDRES_LANGEVIN_LOOP_AREA] = fabs(d[PENDRES_LANGEVIN_LOOP_AREA]);
 }
 
-/* The bias of `steps` steps a period, from so many pairs of trajectories of the request. */
+/* The bias of `steps` steps per period, from pairs of trajectories of the request. */
 static pendres_status measure_bias(pendres_context *ctx, const pendres_langevin_request *request,
                                    int steps, size_t trajectories, pendres_langevin_bias *bias)
 {

@@ -61,7 +61,7 @@ void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const p
 void pendres_langevin_block_finish(pendres_langevin_block *b);
 
 /* Advance by one drive period, whose number is part of the counter of the random numbers. Returns
- * PENDRES_INTERRUPTED if stop() said so; the lanes are not valid then. */
+ * PENDRES_INTERRUPTED if stop() returned nonzero; the lanes are not valid then. */
 pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t period);
 
 /* The parameters of a pendulum at a time, in drive periods since the start. */

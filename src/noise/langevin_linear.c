@@ -88,7 +88,7 @@ pendres_status pendres_langevin_lyapunov(const double m[4], const pendres_langev
   return PENDRES_OK;
 }
 
-/* The theory with so many steps a period. */
+/* The theory with `steps` steps per period. */
 static pendres_status theory(const pendres_pendulum *p, double x, double v, int cycle, int steps,
                              pendres_langevin_linear *out)
 {

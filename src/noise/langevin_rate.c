@@ -62,7 +62,7 @@ static pendres_status gamma_point(gamma_tail g, double *x)
   return gsl == GSL_SUCCESS ? PENDRES_OK : PENDRES_NOT_CONVERGED;
 }
 
-/* The interval of the given level around so many events of unit exposure. */
+/* The confidence interval of the given level around a number of events in unit exposure. */
 static pendres_status interval(double events, double level, double *lower, double *upper)
 {
   const double tail = 0.5 * (1.0 - level);

@@ -1,5 +1,5 @@
 /*
- * noise_common.h -- what all questions about noise around an attractor have in common.
+ * noise_common.h -- what all computations of noise around an attractor have in common.
  *
  * Owns: the ids of trajectories, how long they settle, how many steps a period they take, and the
  * parts into which they are divided.
@@ -14,8 +14,8 @@
  * set. Ids follow from the parameters, so that results do not depend on what else is computed. */
 uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor);
 
-/* NULL, or why noise has no steady state around the attractors of a pendulum: from some position on
-   its force leads to infinity, and noise carries it there in the end. */
+/* NULL, or why noise has no steady state around the attractors of a pendulum: beyond some position
+   its force leads to infinity, and noise eventually drives it there. */
 const char *pendres_noise_refuses(const pendres_pendulum *p);
 
 /* Drive periods until the influence of the starting point on a cloud around the orbit has fallen to
@@ -23,12 +23,12 @@ const char *pendres_noise_refuses(const pendres_pendulum *p);
 long pendres_noise_settle(const pendres_orbit *orbit);
 
 /*
- * Choose steps a period, in bias->steps_per_period: those of the request or, if these are 0, so
- * many that the bias of the statistics (a set of bits) is below tolerance times their scale. They
- * are chosen at the request's temperature or, where that is too high, at a lower one. *bias is the
- * bias at the request's own temperature; its numbers are NaN if no trajectory stays on the
- * attractor there. If no number of steps reaches the tolerance the last one is taken; the bias
- * shows it.
+ * Choose steps per period, in bias->steps_per_period: those of the request or, if these are 0,
+ * enough for a bias of the statistics (a set of bits) that is below tolerance times their scale.
+ * They are chosen at the request's temperature or, where that is too high, at a lower one. *bias
+ * is the bias at the request's own temperature; its numbers are NaN if no trajectory stays on the
+ * attractor there. If no number of steps meets the tolerance, the last one is taken; the bias
+ * shows this.
  */
 pendres_status pendres_noise_choose_steps(pendres_context *ctx,
                                           const pendres_langevin_request *request,

@@ -19,8 +19,8 @@ enum { STATES = PENDRES_SWITCHING_STATES, WELL = PENDRES_SWITCHING_WELL };
 /* The state of a trajectory that has gone to infinity. */
 enum { GONE = -1 };
 
-/* So many temperatures below its attractor's potential, and where the force leads away, a
-   trajectory counts as escaped: one of exp(30) would return. */
+/* A trajectory counts as escaped where the force leads away and the potential is lower than its
+   attractor's by this multiple of the temperature: one of exp(30) would return. */
 static const double no_return = 30.0;
 
 /* With fewer events or fewer trajectories nothing is known of their scatter. */
@@ -306,9 +306,9 @@ static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
   return square * n / (n - 1.0) / events;
 }
 
-/* So much of the share of the transitions that is missed is claimed as an error, for what is of
-   second order: in a double well with barriers of 3 to 5 temperatures a tenth was seen. Where half
-   are missed nothing of second order is known, and all of it is claimed. */
+/* The fraction of the missed share of transitions that is added to the error, for effects of second
+   order: in a double well with barriers of 3 to 5 temperatures they were a tenth. Where half of the
+   transitions are missed, second order is not known, and all of the share is added. */
 static const double second_order = 0.125, most_missed = 0.5;
 
 /*

@@ -83,7 +83,7 @@ static void fill_rows(const sample *s, gsl_matrix *rows, gsl_vector *wanted, gsl
   }
 }
 
-/* A barrier of less than so many temperatures is no activation energy. */
+/* A barrier below this multiple of the temperature is not an activation energy. */
 static const double least_barrier = 2.0;
 
 static pendres_switching_verdict verdict_on(const pendres_switching_activation *f)

@@ -179,7 +179,7 @@ pendres_status pendres_store_make(pendres_store *store, const char *path,
 
 /* ---- Writing --------------------------------------------------------------------------------- */
 
-/* Write so many rows as HDF5 takes at once. */
+/* Write a number of rows that HDF5 takes in one call. */
 static herr_t write_piece(const pendres_store_node *node, hid_t type, hid_t space,
                           const pendres_store_piece *piece, const void *data)
 {

@@ -1,7 +1,7 @@
 /*
  * file.h -- the file below a store: a part file that becomes the real one at the end.
  *
- * Owns: the descriptor, its lock, what failed first, and the bytes that could not be written.
+ * Owns: the descriptor, its lock, the first failure, and the bytes that could not be written.
  */
 #ifndef PENDRES_STORE_FILE_H
 #define PENDRES_STORE_FILE_H
@@ -23,11 +23,11 @@ typedef struct pendres_store_refused {
 
 typedef struct pendres_store_file {
   char *path; /* what the user asked for, links followed */
-  char *part; /* what is written: path with ".part" behind it */
+  char *part; /* what is written: path with ".part" appended */
   int fd;     /* -1 when closed */
   int error;  /* errno of the first failure, 0 if none; sticky */
   pendres_store_refused *refused;
-  char why[PENDRES_STORE_WHY]; /* the sentence on the last failure */
+  char why[PENDRES_STORE_WHY]; /* the message of the last failure */
 } pendres_store_file;
 
 /* Make and lock the part file, or take over one that a killed run has left, which may be in use
@@ -35,7 +35,8 @@ typedef struct pendres_store_file {
  * of the file that it is to replace. file is zeroed first; destroy it in any case. */
 pendres_status pendres_store_file_create(pendres_store_file *file, const char *path, int alone);
 
-/* Can the file not be locked for reading, as HDF5 locks it? 1: why[PENDRES_STORE_WHY] tells. */
+/* Whether the file cannot be locked for reading, as HDF5 locks it. 1: the reason is in
+   why[PENDRES_STORE_WHY]. */
 int pendres_store_file_unlockable(const char *path, char *why);
 
 /* Close what is open and free; the part file stays where it is. */
@@ -52,9 +53,9 @@ void pendres_store_file_abandon(pendres_store_file *file, int keep);
 pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole);
 
 /*
- * Read and write at an offset. A write that the disk refuses is remembered in memory and counts as
- * done: `error` tells. HDF5 cannot close a file whose last writes fail; this way it can.
- * Reading beyond the end gives zeros. All three return 0, or -1 when even that is impossible.
+ * Read and write at an offset. Data that the disk refuses are kept in memory, and the write counts
+ * as done, with `error` set: HDF5 could not close a file whose last writes failed. Reading beyond
+ * the end gives zeros. All three return 0, or -1 when even that is impossible.
  */
 int pendres_store_file_write(pendres_store_file *file, uint64_t offset, size_t size,
                              const void *bytes);

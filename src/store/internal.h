@@ -63,10 +63,10 @@ pendres_status pendres_store_enter(pendres_store *store, pendres_store_quiet *qu
 /* Restore HDF5's error printing; turn a refused write into PENDRES_IO; make failures sticky. */
 pendres_status pendres_store_leave(pendres_store *store, const pendres_store_quiet *quiet,
                                    pendres_status status);
-/* Record a sentence; returns the status. */
+/* Record a message; returns the status. */
 pendres_status pendres_store_fail(pendres_store *store, pendres_status status,
                                   const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* The same for a failure of HDF5, whose own innermost words are put behind: PENDRES_IO. */
+/* The same for a failure of HDF5, whose innermost message is appended: PENDRES_IO. */
 pendres_status pendres_store_fail_hdf5(pendres_store *store, const char *format, ...)
   __attribute__((format(printf, 2, 3)));
 
@@ -123,7 +123,7 @@ typedef struct pendres_store_piece {
   uint64_t first, rows;
   size_t n;
 } pendres_store_piece;
-/* Refuse rows that a variable of so many has not. */
+/* Refuse rows beyond the `all` rows of a variable. */
 pendres_status pendres_store_check_rows(pendres_store *store, const char *name, uint64_t all,
                                         const pendres_store_piece *piece);
 

@@ -2,8 +2,8 @@
  * target.c -- the file that a path means as an output, and whether it may be replaced.
  *
  * Owns: following links, and what is refused by name. A link stands for what it points to, be it
- * there or not; a device or a stream cannot be replaced by a file; a file that nobody may write is
- * not replaced by way of its folder, which alone the system asks about renaming. Opens nothing.
+ * there or not; a device or a stream cannot be replaced by a file; a file without write permission
+ * is not replaced by way of its folder, which alone the system asks about renaming. Opens nothing.
  */
 #ifndef _XOPEN_SOURCE
 #define _XOPEN_SOURCE 700 /* lstat, readlink, realpath */

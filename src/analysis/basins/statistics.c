@@ -32,7 +32,7 @@ struct pendres_basin_sums {
   pendres_scatter scatter; /* between rows of boxes */
   size_t uncertain;        /* states that may belong elsewhere */
   double entropy_error, boundary_error; /* what these can change of boxes' entropy, and boxes */
-  double suspect;          /* states that may be labelled wrongly, though nobody knows which */
+  double suspect;          /* states that may be labelled wrongly, though it is not known which */
   pendres_basin_tally tally;
   pendres_basin_well *wells;
 };

@@ -22,7 +22,7 @@ enum {
 };
 
 /*
- * So many evaluations of the pendulum's equation all states together may take: some ten seconds of
+ * Evaluations of the pendulum's equation that all states together may take: some ten seconds of
  * one processor, but the same number on every machine. Where chaos lasts long before it ends, a
  * state takes thousands of periods, and is integrated again and again with ever smaller errors;
  * elsewhere a third of this is enough.

@@ -28,7 +28,7 @@ typedef struct pendres_basin_tally {
   size_t places, used; /* places: a power of 2, or none */
 } pendres_basin_tally;
 
-/* Count so many more states; the sums of their well, valid until more are counted. NULL: out of
+/* Count more states of a well; returns its sums, valid until more are counted. NULL: out of
    memory, and the table is as it was. */
 pendres_basin_member *pendres_basin_tally_add(pendres_basin_tally *t, int attractor, long well,
                                               size_t states);

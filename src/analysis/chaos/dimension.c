@@ -14,8 +14,8 @@ enum {
   APART = 32,     /* pairs that are closer than this in time are left out */
   TILE = 256,     /* points that are compared at a time */
   TABLES = 4,     /* histograms that take pairs in turn, so that no addition waits for the last */
-  FEWEST = 500,   /* at least so many pairs are closer than the shortest distance */
-  LEAST = 5       /* a slope is taken from at least so many distances */
+  FEWEST = 500,   /* least number of pairs that are closer than the shortest distance */
+  LEAST = 5       /* least number of distances from which a slope is taken */
 };
 
 static const double ln2 = 0.69314718055994530942;

@@ -14,7 +14,7 @@
 #include "analysis/resonance/response_sampling.h"
 
 /*
- * What one search may cost. Several that go side by side may cost as much together: nobody knows
+ * What one search may cost. Several that go side by side may cost as much together: it is not known
  * which of them has spent how much of the common budget, but none can have spent more than it would
  * have alone. When it is spent, those that have not ended begin anew, each with a budget of its
  * own.

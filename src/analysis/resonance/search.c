@@ -274,8 +274,8 @@ static void find_cuts(pendres_search *s)
   while (s->stride < s->cuts) s->stride *= 2;
 }
 
-/* Wish the next cuts: at first one in so many, all over the range, so that a budget that ends early
-   leaves no part of it out. */
+/* Request the next cuts: at first every stride-th, all over the range, so that a budget that ends
+   early leaves no part of it out. */
 static void next_level(pendres_search *s)
 {
   for (; s->stride > 0 && s->wishes == 0; s->stride /= 2)

@@ -37,7 +37,7 @@ typedef struct pendres_search {
   int crowded;                   /* no room for further frequencies */
   int coarse;                    /* the first scan is coarser than resonances may be narrow */
   enum { PENDRES_SCAN_COARSE, PENDRES_SCAN_LEVELS, PENDRES_SCAN_DONE } stage;
-  size_t cuts, stride;           /* of the first scan's finer part: every so many at a time */
+  size_t cuts, stride;           /* of the first scan's finer part: every stride-th at a time */
   double cut[PENDRES_SEARCH_CUTS];
   size_t wishes;                 /* frequencies to be looked at next */
   double wish[PENDRES_SEARCH_POINTS];

@@ -114,8 +114,8 @@ static int meet(const pendres_scan_point *a, const pendres_scan_kink *kink,
 
 /*
  * A kink in a gap in which no fold was found becomes two points, one for either side. If there are
- * jumps in the gap as well, nobody knows yet where the members are at the kink: it is looked for
- * again when the gap has been cut.
+ * jumps in the gap as well, it is not yet known where the members are at the kink: it is searched
+ * for again when the gap has been cut.
  */
 static pendres_status add_kink(pendres_resonance_work *w, size_t gap, int *found)
 {
