@@ -27,7 +27,7 @@ typedef struct basins {
   pendres_attractors *set;
   pendres_basin_sums *sums;
   scene_column column[BASINS_VARIABLES]; /* of all states, */
-  int variable[BASINS_VARIABLES];        /* and their variables in the store */
+  scene_variable variable[BASINS_VARIABLES]; /* and their variables in the store */
   size_t unresolved, uncertain;
   size_t given_up, given_up_index[BASINS_NAMED]; /* of the unresolved: by their budget */
   size_t random_states; /* that the uncertainty exponent comes from; 0: it comes from the grid */

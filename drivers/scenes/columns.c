@@ -177,6 +177,16 @@ static void describe(const scene_run *run, const scene_table *t, const scene_col
     v->spec.flag_count = meanings_of(plain ? scene_label_names : c->names, v->meanings);
 }
 
+static pendres_status define(scene_run *run, const scene_table *t, const scene_column *c,
+                             scene_variable *out)
+{
+  variable v;
+  if (!scene_going(run)) return run->status;
+  describe(run, t, c, &v);
+  return scene_stored(run, pendres_store_variable(run->store, &v.spec, &out->value,
+                                                  c->type == SCENE_REAL ? &out->error : NULL));
+}
+
 /* The rows of some values of the first dimension, or all there is. */
 typedef struct piece {
   size_t first, values;
@@ -184,46 +194,44 @@ typedef struct piece {
 } piece;
 
 /* `rows` has room for them. */
-static pendres_status take_piece(scene_run *run, const scene_table *t, void *rows, piece *p)
+static void take_piece(scene_run *run, const scene_table *t, void *rows, piece *p)
 {
   const size_t each = t->n / (t->first > 0 ? t->first : 1), first = p->first * each;
   p->table = *t;
   p->table.n = p->values * each;
   p->table.rows = t->temporary != NULL ? rows : field(t, first, 0);
-  if (t->temporary == NULL) return run->status;
-  return scene_temporary_read(run, t->temporary, first, p->table.n, rows);
+  if (t->temporary != NULL) scene_temporary_read(run, t->temporary, first, p->table.n, rows);
 }
 
-static pendres_status write_piece(scene_run *run, const piece *p, int pairs, int id,
-                                  const void *data)
+static void write_one(scene_run *run, const piece *p, int pairs, int id, const void *data)
 {
   const size_t n = pairs ? 2 * p->table.n : p->table.n;
-  return p->table.first > 0
-           ? pendres_store_write_rows(run->store, id, p->first, p->values, data, n)
-           : pendres_store_write(run->store, id, data, n);
+  if (!scene_going(run)) return;
+  scene_stored(run, p->table.first > 0
+                      ? pendres_store_write_rows(run->store, id, p->first, p->values, data, n)
+                      : pendres_store_write(run->store, id, data, n));
+}
+
+static void write_piece(scene_run *run, const piece *p, const scene_column *c,
+                        const scene_variable *v, buffers *b)
+{
+  write_one(run, p, c->pairs, v->value, gather(&p->table, c, b));
+  if (c->type == SCENE_REAL) write_one(run, p, c->pairs, v->error, b->error);
 }
 
 /* A column, `most` values of the first dimension at a time. */
-static pendres_status write_column(scene_run *run, const scene_table *t, size_t most,
-                                   const scene_column *c, void *rows, buffers *b)
+static void write_column(scene_run *run, const scene_table *t, size_t most, const scene_column *c,
+                         void *rows, buffers *b)
 {
   const size_t all = t->first > 0 ? t->first : 1;
-  variable v;
-  int id = -1, error_id = -1;
-  if (c->when != NULL && !c->when(run->deck)) return run->status;
-  describe(run, t, c, &v);
-  pendres_status status = c->type == SCENE_REAL
-                            ? pendres_store_variable(run->store, &v.spec, &id, &error_id)
-                            : pendres_store_variable(run->store, &v.spec, &id, NULL);
-  for (size_t at = 0; at < all && status == PENDRES_OK; at += most) {
+  scene_variable v = {-1, -1};
+  if (c->when != NULL && !c->when(run->deck)) return;
+  define(run, t, c, &v);
+  for (size_t at = 0; at < all && scene_going(run); at += most) {
     piece p = {.first = at, .values = all - at < most ? all - at : most};
-    status = take_piece(run, t, rows, &p);
-    if (status == PENDRES_OK)
-      status = write_piece(run, &p, c->pairs, id, gather(&p.table, c, b));
-    if (status == PENDRES_OK && c->type == SCENE_REAL)
-      status = write_piece(run, &p, c->pairs, error_id, b->error);
+    take_piece(run, t, rows, &p);
+    write_piece(run, &p, c, &v, b);
   }
-  return scene_stored(run, status);
 }
 
 static void release(buffers *b)
@@ -236,7 +244,7 @@ static void release(buffers *b)
   free(b->text);
 }
 
-static pendres_status reserve(scene_run *run, size_t n, buffers *b)
+static void reserve(scene_run *run, size_t n, buffers *b)
 {
   *b = (buffers){.value = malloc((2 * n + 1) * sizeof *b->value),
                  .error = malloc((2 * n + 1) * sizeof *b->error),
@@ -244,10 +252,9 @@ static pendres_status reserve(scene_run *run, size_t n, buffers *b)
                  .number = malloc((n + 1) * sizeof *b->number),
                  .count = malloc((n + 1) * sizeof *b->count),
                  .text = malloc((n + 1) * sizeof *b->text)};
-  if (b->value != NULL && b->error != NULL && b->flag != NULL && b->number != NULL &&
-      b->count != NULL && b->text != NULL)
-    return PENDRES_OK;
-  return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+  if (b->value == NULL || b->error == NULL || b->flag == NULL || b->number == NULL ||
+      b->count == NULL || b->text == NULL)
+    scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
 }
 
 pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t count,
@@ -259,53 +266,49 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t 
   const size_t room = most * each < t->n ? most * each : t->n;
   buffers b;
   char *rows = t->temporary != NULL ? malloc(room * t->stride + 1) : NULL;
-  pendres_status status = reserve(run, room, &b);
-  if (status == PENDRES_OK && t->temporary != NULL && rows == NULL)
-    status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", room);
-  for (size_t k = 0; k < count && status == PENDRES_OK; k++)
-    status = write_column(run, t, most, &columns[k], rows, &b);
+  reserve(run, room, &b);
+  if (t->temporary != NULL && rows == NULL)
+    scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", room);
+  for (size_t k = 0; k < count && scene_going(run); k++)
+    write_column(run, t, most, &columns[k], rows, &b);
   free(rows);
   release(&b);
-  return status;
+  return run->status;
 }
 
 pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *t, size_t orbit)
 {
   const pendres_orbit_quantity *q;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
+  for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
     const int exact = q->error == PENDRES_ORBIT_EXACT;
     const scene_column column = {.name = q->name, .long_name = q->long_name, .units = q->units,
                                  .type = exact ? SCENE_PLAIN : SCENE_REAL,
                                  .value = orbit + q->value,
                                  .error = exact ? 0 : orbit + q->error};
-    if (q->principal) status = scene_columns_write(run, t, 1, &column);
+    if (q->principal) scene_columns_write(run, t, 1, &column);
   }
-  return status;
+  return run->status;
 }
 
 pendres_status scene_columns_define(scene_run *run, const scene_table *t,
                                     const scene_variables *of)
 {
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < of->count && status == PENDRES_OK; k++) {
-    variable v;
-    describe(run, t, &of->column[k], &v);
-    status = pendres_store_variable(run->store, &v.spec, &of->number[k], NULL);
-  }
-  return scene_stored(run, status);
+  for (size_t k = 0; k < of->count; k++) define(run, t, &of->column[k], &of->variable[k]);
+  return run->status;
 }
 
 pendres_status scene_columns_write_rows(scene_run *run, const scene_table *t, size_t first,
                                         size_t rows, const scene_variables *of)
 {
   buffers b;
-  pendres_status status = reserve(run, t->n, &b);
-  for (size_t k = 0; k < of->count && status == PENDRES_OK; k++)
-    status = scene_stored(run, pendres_store_write_rows(run->store, of->number[k], first, rows,
-                                                        gather(t, &of->column[k], &b), t->n));
+  piece p = {.first = first, .values = rows, .table = *t};
+  if (!scene_going(run)) return run->status;
+  p.table.first = rows;
+  reserve(run, t->n, &b);
+  for (size_t k = 0; k < of->count && scene_going(run); k++)
+    write_piece(run, &p, &of->column[k], &of->variable[k], &b);
   release(&b);
-  return status;
+  return run->status;
 }
 
 /* ---- the short table ----------------------------------------------------------------------- */

@@ -87,12 +87,16 @@ void scene_columns_blank(size_t count, const scene_column *columns, void *row);
 /* Write the principal measures of the orbits that stand at that offset in the rows. */
 pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);
 
-/* Columns of a table that comes in pieces, none of which has an error, and the store's numbers of
-   their variables. */
+/* What the store calls a column: the numbers of its variable and, if it has one, its error's. */
+typedef struct scene_variable {
+  int value, error;
+} scene_variable;
+
+/* Columns of a table that comes in pieces. */
 typedef struct scene_variables {
   size_t count;
   const scene_column *column;
-  int *number;
+  scene_variable *variable;
 } scene_variables;
 
 /* Define the variables; then write pieces: table->rows are the n elements of `rows` values of the

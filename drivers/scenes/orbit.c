@@ -222,14 +222,13 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   const record *r = in->data;
   const pendres_record samples = samples_in(w, r);
   const long first = (long)task * w->chunk, periods = periods_of(w, task);
-  pendres_status status = PENDRES_OK;
   w->found = r->found;
   memcpy(&w->recording, &r->recording, sizeof w->recording);
-  if (task == 0) status = scene_orbit_put_found(w);
-  if (task == 0 && status == PENDRES_OK) status = scene_orbit_measure_begin(w);
-  if (status == PENDRES_OK) status = scene_orbit_put_samples(w, first, periods, &samples);
-  if (status == PENDRES_OK) status = scene_orbit_measure_add(w, first, periods, &samples);
-  return status;
+  if (task == 0) scene_orbit_put_found(w);
+  if (task == 0) scene_orbit_measure_begin(w);
+  scene_orbit_put_samples(w, first, periods, &samples);
+  scene_orbit_measure_add(w, first, periods, &samples);
+  return w->run->status;
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
@@ -248,15 +247,15 @@ static pendres_status run_scene(scene_run *run)
                    .pendulum = deck_pendulum(d) };
   w.chunk = whole < 1 ? 1 : whole < all ? whole : all;
   const size_t tasks = (size_t)((all + w.chunk - 1) / w.chunk);
-  pendres_status status = scene_compute(
+  scene_compute(
     run, &(farm_stage){ .what = tasks > 1 ? "parts of the record" : "orbits", .last = 1,
                         .tasks = tasks, .chained = tasks > 1, .task = compute,
                         .record_size = sizeof(record) + 4 * room_of(&w) * sizeof(double),
                         .check = check, .collect = collect, .arg = &w });
-  if (status == PENDRES_OK) status = scene_orbit_measure_put(&w);
-  if (status == PENDRES_OK) scene_orbit_tabulate(run->table, &w);
+  scene_orbit_measure_put(&w);
+  if (scene_prints(run)) scene_orbit_tabulate(run->table, &w);
   scene_orbit_measure_free(&w);
-  return status;
+  return run->status;
 }
 
 static void describe(const deck *d, FILE *out)

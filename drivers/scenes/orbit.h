@@ -7,6 +7,7 @@
 #define SCENE_ORBIT_H
 
 #include "scenes/check.h"
+#include "scenes/columns.h"
 #include "scenes/failed.h"
 
 /* What the first task finds of the pendulum. */
@@ -23,10 +24,8 @@ typedef struct orbit_found {
   scene_verdict verdict;         /* the budget has ended the search */
 } orbit_found;
 
-/* Variables of the store that samples are written to, each with its error. */
-typedef struct orbit_variable {
-  int value, error;
-} orbit_variable;
+/* Of each sample. */
+enum { ORBIT_VARIABLES = 4 };
 
 /* What a whole record is measured for, while it goes by. */
 typedef struct orbit_measures {
@@ -46,22 +45,20 @@ typedef struct orbit_work {
   long chunk;                  /* drive periods of a task, the last one's may be fewer */
   orbit_found found;
   pendres_recording recording; /* of the chunks so far; unused on closed orbits */
-  orbit_variable phase, x, v, drive;
+  scene_variable variable[ORBIT_VARIABLES]; /* in the store */
   orbit_measures measures;
 } orbit_work;
 
 /* orbit_write.c: what was found, and variables for samples; samples of periods `first`, ...,
    of which those of the last period's end are the next chunk's; the table. */
-pendres_status scene_orbit_put_found(orbit_work *w);
-pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
-                                       const pendres_record *s);
+void scene_orbit_put_found(orbit_work *w);
+void scene_orbit_put_samples(orbit_work *w, long first, long periods, const pendres_record *s);
 void scene_orbit_tabulate(FILE *out, const orbit_work *w);
 
 /* orbit_measure.c: dimensions and spectrum. Begin before the first chunk, free always. */
-pendres_status scene_orbit_measure_begin(orbit_work *w);
-pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
-                                       const pendres_record *s);
-pendres_status scene_orbit_measure_put(orbit_work *w);
+void scene_orbit_measure_begin(orbit_work *w);
+void scene_orbit_measure_add(orbit_work *w, long first, long periods, const pendres_record *s);
+void scene_orbit_measure_put(orbit_work *w);
 void scene_orbit_measure_free(orbit_work *w);
 
 #endif

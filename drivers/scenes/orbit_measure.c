@@ -3,7 +3,6 @@
  * dimensions of a chaotic attractor and the power spectrum.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include "scenes/columns.h"
 #include "scenes/orbit.h"
@@ -29,7 +28,7 @@ static long segment_of(const deck *d)
   return segment - (segment * samples % 2);
 }
 
-pendres_status scene_orbit_measure_begin(orbit_work *w)
+void scene_orbit_measure_begin(orbit_work *w)
 {
   orbit_measures *m = &w->measures;
   const deck *d = w->d;
@@ -39,22 +38,18 @@ pendres_status scene_orbit_measure_begin(orbit_work *w)
       2.0 * PENDRES_PI / (w->pendulum.drive_frequency * (double)d->orbit.samples);
     const pendres_status status = pendres_spectrum_create(length, interval, &m->spectrum);
     if (status != PENDRES_OK)
-      return scene_fail(w->run, status, "no spectrum of segments of %zu samples: 4 or more, an "
-                        "even number, and what memory has room for", length);
+      scene_fail(w->run, status, "no spectrum of segments of %zu samples: 4 or more, an even "
+                 "number, and what memory has room for", length);
   }
   if (d->orbit.dimension && w->found.label == PENDRES_LABEL_CHAOTIC) {
     m->room = d->orbit.periods < POINTS ? (size_t)d->orbit.periods : POINTS;
     m->stride = ((long)d->orbit.periods + POINTS - 1) / POINTS;
-    m->x = malloc(2 * m->room * sizeof *m->x);
-    if (m->x == NULL)
-      return scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", m->room);
-    m->v = m->x + m->room;
+    m->x = scene_array(w->run, 2 * m->room, sizeof *m->x);
+    if (m->x != NULL) m->v = m->x + m->room;
   }
-  return PENDRES_OK;
 }
 
-pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
-                                       const pendres_record *s)
+void scene_orbit_measure_add(orbit_work *w, long first, long periods, const pendres_record *s)
 {
   orbit_measures *m = &w->measures;
   const size_t samples = (size_t)w->d->orbit.samples;
@@ -64,37 +59,33 @@ pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
     m->x[m->points] = s->x[(size_t)k * samples];
     m->v[m->points++] = s->v[(size_t)k * samples];
   }
-  if (m->spectrum == NULL) return PENDRES_OK;
+  if (m->spectrum == NULL) return;
   const pendres_status status =
     pendres_spectrum_add(m->spectrum, (size_t)periods * samples, s->v);
-  return status == PENDRES_OK ? status
-                              : scene_fail(w->run, status, "the spectrum cannot be measured");
+  if (status != PENDRES_OK) scene_fail(w->run, status, "the spectrum cannot be measured");
 }
 
 void scene_orbit_measure_free(orbit_work *w)
 {
   pendres_spectrum_free(w->measures.spectrum);
-  free(w->measures.x);
 }
 
 /* The correlation dimension of strobe points; that of closed orbits, which are points, is 0. */
-static pendres_status measure_correlation(orbit_work *w)
+static void measure_correlation(orbit_work *w)
 {
   orbit_measures *m = &w->measures;
   pendres_correlation *c = &m->correlation;
   pendres_context *ctx = scene_context(w->run);
   *c = (pendres_correlation){ .dimension = NAN, .dimension_error = NAN };
   if (w->found.closed) c->dimension = c->dimension_error = 0.0;
-  if (m->points < 2) return PENDRES_OK;
-  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (m->points < 2 || ctx == NULL) return;
   /* Distances are of x and of v times the unit of time. */
   const double time = pendres_units_of(&w->pendulum).time;
   for (size_t k = 0; k < m->points; k++) m->v[k] *= time;
   const pendres_section section = { m->points, m->x, m->v,
                                     pendres_model_of(w->pendulum.force)->period };
-  return scene_asked(w->run,
-                     pendres_correlation_measure(ctx, &section,
-                                                 RESOLUTION * w->d->precision.tolerance, c));
+  scene_asked(w->run, pendres_correlation_measure(ctx, &section,
+                                                  RESOLUTION * w->d->precision.tolerance, c));
 }
 
 typedef struct dimensions {
@@ -122,60 +113,52 @@ static const scene_column of_frequencies[] = {
 };
 
 /* A result over a dimension of its own. */
-static pendres_status put_over(scene_run *run, const scene_table *table, const char *words,
-                               const double *at, const scene_column *column)
+static void put_over(scene_run *run, const scene_table *table, const char *words, const double *at,
+                     const scene_column *column)
 {
   const pendres_store_spec spec = {.name = table->dimensions[0], .long_name = words};
-  const pendres_status status =
-    scene_stored(run, pendres_store_dimension(run->store, &spec, table->n, at));
-  return status == PENDRES_OK ? scene_columns_write(run, table, 1, column) : status;
+  scene_put_dimension(run, &spec, at, table->n);
+  scene_columns_write(run, table, 1, column);
 }
 
-static pendres_status put_dimensions(orbit_work *w)
+static void put_dimensions(orbit_work *w)
 {
   const pendres_correlation *c = &w->measures.correlation;
   row rows[PENDRES_CORRELATION_SCALES];
   dimensions d = {.lyapunov_dimension_error = NAN};
-  pendres_status status = measure_correlation(w);
+  measure_correlation(w);
   d.lyapunov_dimension = pendres_lyapunov_dimension(
     &w->pendulum, w->found.lyapunov, w->found.lyapunov_error, &d.lyapunov_dimension_error);
   d.correlation_dimension = c->dimension;
   d.correlation_dimension_error = c->dimension_error;
   const scene_table table = {.n = 1, .stride = sizeof d, .rows = &d};
-  if (status == PENDRES_OK) status = SCENE_WRITE(w->run, &table, of_dimensions);
-  if (status != PENDRES_OK || c->scales == 0) return status;
+  SCENE_WRITE(w->run, &table, of_dimensions);
+  if (c->scales == 0) return;
   for (int k = 0; k < c->scales; k++) rows[k] = (row){c->sum[k], c->sum_error[k]};
   const scene_table scales = {.dimensions = {"distance"}, .n = (size_t)c->scales,
                               .stride = sizeof *rows, .rows = rows};
-  return put_over(w->run, &scales, "distance of strobe points", c->distance, of_distances);
+  put_over(w->run, &scales, "distance of strobe points", c->distance, of_distances);
 }
 
-static pendres_status put_spectrum(orbit_work *w)
+static void put_spectrum(orbit_work *w)
 {
   const pendres_spectrum *s = w->measures.spectrum;
   const size_t n = pendres_spectrum_count(s);
-  double *frequency = malloc(3 * n * sizeof *frequency);
-  row *rows = malloc(n * sizeof *rows);
+  double *frequency = scene_array(w->run, 3 * n, sizeof *frequency);
+  row *rows = scene_array(w->run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"frequency"}, .n = n, .stride = sizeof *rows,
                              .rows = rows};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (frequency != NULL && rows != NULL) {
-    status = pendres_spectrum_get(s, frequency, frequency + n, frequency + 2 * n);
-    for (size_t k = 0; k < n; k++) rows[k] = (row){frequency[n + k], frequency[2 * n + k]};
-  } else {
-    (void)scene_fail(w->run, status, "out of memory for %zu frequencies", n);
-  }
-  if (status == PENDRES_OK)
-    status = put_over(w->run, &table, "angular frequency", frequency, of_frequencies);
-  free(frequency);
-  free(rows);
-  return status;
+  if (rows == NULL) return;
+  const pendres_status status =
+    pendres_spectrum_get(s, frequency, frequency + n, frequency + 2 * n);
+  if (status != PENDRES_OK) scene_fail(w->run, status, "%s", pendres_status_message(status));
+  for (size_t k = 0; k < n; k++) rows[k] = (row){frequency[n + k], frequency[2 * n + k]};
+  put_over(w->run, &table, "angular frequency", frequency, of_frequencies);
 }
 
-pendres_status scene_orbit_measure_put(orbit_work *w)
+void scene_orbit_measure_put(orbit_work *w)
 {
-  pendres_status status = PENDRES_OK;
-  if (w->d->orbit.dimension) status = put_dimensions(w);
-  if (status == PENDRES_OK && w->measures.spectrum != NULL) status = put_spectrum(w);
-  return status;
+  if (!scene_going(w->run)) return;
+  if (w->d->orbit.dimension) put_dimensions(w);
+  if (w->measures.spectrum != NULL) put_spectrum(w);
 }

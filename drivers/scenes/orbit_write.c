@@ -26,12 +26,11 @@ static double error_of(const pendres_orbit *o, const pendres_orbit_quantity *q)
 }
 
 /* A result without dimensions, or NaN. */
-static pendres_status put_scalar(scene_run *run, const scene_column *column, double value,
-                                 double error)
+static void put_scalar(scene_run *run, const scene_column *column, double value, double error)
 {
   const double pair[2] = {value, isnan(value) ? NAN : error};
   const scene_table table = {.n = 1, .stride = sizeof pair, .rows = pair};
-  return scene_columns_write(run, &table, 1, column);
+  scene_columns_write(run, &table, 1, column);
 }
 
 /* Such a column: the error stands behind the value. */
@@ -44,22 +43,19 @@ static int is_shown(const orbit_work *w, const pendres_orbit_quantity *q)
   return !q->of_forces || !deck_is_plain(w->d);
 }
 
-static pendres_status put_quantities(scene_run *run, const orbit_work *w)
+static void put_quantities(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
   const int there = f->closed || f->label == PENDRES_LABEL_CHAOTIC;
   const pendres_orbit_quantity *q;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
+  for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
     const scene_column column = SCALAR(q->name, q->long_name, q->units);
     const double value = there ? number_at(&f->orbit, q->value) : NAN;
-    if (is_shown(w, q))
-      status = put_scalar(run, &column, value, error_of(&f->orbit, q));
+    if (is_shown(w, q)) put_scalar(run, &column, value, error_of(&f->orbit, q));
   }
-  return status;
 }
 
-static pendres_status put_scalars(scene_run *run, const orbit_work *w)
+static void put_scalars(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
   const pendres_orbit *o = &f->orbit;
@@ -86,14 +82,12 @@ static pendres_status put_scalars(scene_run *run, const orbit_work *w)
              "largest rate of ending, a drive period, that is not excluded at 95 %", "1"),
       f->escape_rate_bound, 0.0, CHAOTIC },
   };
-  pendres_status status = put_quantities(run, w);
-  for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
+  put_quantities(run, w);
+  for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
     const int there = f->closed || scalars[i].of == ALWAYS ||
                       (scalars[i].of == CHAOTIC && f->label == PENDRES_LABEL_CHAOTIC);
-    status = put_scalar(run, &scalars[i].column, there ? scalars[i].value : NAN,
-                        scalars[i].error);
+    put_scalar(run, &scalars[i].column, there ? scalars[i].value : NAN, scalars[i].error);
   }
-  return status;
 }
 
 /* What it is. */
@@ -112,7 +106,7 @@ static const scene_column of_doubts[] = {
    .long_name = "whether errors that the start amplifies may have chosen the attractor"},
 };
 
-static pendres_status put_label(scene_run *run, const orbit_work *w)
+static void put_label(scene_run *run, const orbit_work *w)
 {
   const scene_verdict *late = &w->found.verdict;
   const int unresolved = w->found.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
@@ -130,10 +124,9 @@ static pendres_status put_label(scene_run *run, const orbit_work *w)
     scene_failure_tell(run, (scene_failure)failed, late->words[0] != '\0' ? late->words : NULL,
                        "orbit");
   run->failed_points = (size_t)lost;
-  pendres_status status = scene_columns_write(run, &table, 1, &label);
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_failures);
-  if (status == PENDRES_OK && of.uncertain) status = SCENE_WRITE(run, &table, of_doubts);
-  return status;
+  scene_columns_write(run, &table, 1, &label);
+  SCENE_WRITE(run, &table, of_failures);
+  if (of.uncertain) SCENE_WRITE(run, &table, of_doubts);
 }
 
 typedef struct multiplier {
@@ -147,7 +140,7 @@ static const scene_column of_multipliers[] = {
    .value = offsetof(multiplier, im), .error = offsetof(multiplier, error)},
 };
 
-static pendres_status put_multipliers(scene_run *run, const orbit_work *w)
+static void put_multipliers(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
   multiplier rows[MULTIPLIERS];
@@ -157,83 +150,62 @@ static pendres_status put_multipliers(scene_run *run, const orbit_work *w)
     rows[i] = f->closed ? (multiplier){f->orbit.multiplier_re[i], f->orbit.multiplier_im[i],
                                        f->orbit.multiplier_error}
                         : (multiplier){NAN, NAN, NAN};
-  const pendres_status status =
-    scene_numbering(run, "multiplier", MULTIPLIERS, "number of the Floquet multiplier");
-  return status == PENDRES_OK ? SCENE_WRITE(run, &table, of_multipliers) : status;
+  scene_numbering(run, "multiplier", MULTIPLIERS, "number of the Floquet multiplier");
+  SCENE_WRITE(run, &table, of_multipliers);
 }
 
 /* ---- samples ------------------------------------------------------------------------------- */
 
-static pendres_status define(orbit_work *w, const char *name, const char *long_name,
-                             const char *units, orbit_variable *out)
+/* A sample as a row. */
+typedef struct sample {
+  double drive_phase, drive_phase_error, x, x_error, v, v_error, drive, drive_error;
+} sample;
+
+static const scene_column of_samples[ORBIT_VARIABLES] = {
+  SCENE_COLUMN(sample, drive_phase, "phase of the drive, omega t", "rad"),
+  SCENE_COLUMN(sample, x, "position", "rad"),
+  SCENE_COLUMN(sample, v, "velocity", "1"),
+  SCENE_COLUMN(sample, drive, "drive, F0 cos(omega t)", "1"),
+};
+
+static sample sample_of(const orbit_work *w, uint64_t number, const pendres_record *s, size_t k)
 {
-  const pendres_store_spec spec = { .name = name, .dimensions = { "sample" },
-                                    .long_name = long_name, .units = units };
-  const pendres_status status =
-    pendres_store_variable(w->run->store, &spec, &out->value, &out->error);
-  return scene_stored(w->run, status);
+  const double turn = 2.0 * PENDRES_PI, f0 = w->pendulum.drive_amplitude;
+  const uint64_t count = (uint64_t)w->d->orbit.samples;
+  const double phase = turn * (double)number / (double)count;
+  const uint64_t within = number % count; /* no need for large arguments */
+  return (sample){phase, eps * phase, s->x[k], s->x_error[k], s->v[k], s->v_error[k],
+                  f0 * cos(turn * (double)within / (double)count), 8.0 * eps * fabs(f0)};
 }
 
-static pendres_status define_samples(orbit_work *w)
-{
-  const size_t n = (size_t)w->d->orbit.periods * (size_t)w->d->orbit.samples;
-  pendres_status status = scene_numbering(w->run, "sample", n, "number of the sample");
-  if (status == PENDRES_OK)
-    status = define(w, "drive_phase", "phase of the drive, omega t", "rad", &w->phase);
-  if (status == PENDRES_OK) status = define(w, "x", "position", "rad", &w->x);
-  if (status == PENDRES_OK) status = define(w, "v", "velocity", "1", &w->v);
-  if (status == PENDRES_OK)
-    status = define(w, "drive", "drive, F0 cos(omega t)", "1", &w->drive);
-  return status;
-}
-
-static pendres_status put_rows(orbit_work *w, const orbit_variable *to, uint64_t first, size_t n,
-                               const double *value, const double *error)
-{
-  pendres_store *store = w->run->store;
-  pendres_status status = pendres_store_write_rows(store, to->value, first, n, value, n);
-  if (status == PENDRES_OK)
-    status = pendres_store_write_rows(store, to->error, first, n, error, n);
-  return scene_stored(w->run, status);
-}
-
-pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
-                                       const pendres_record *s)
+void scene_orbit_put_samples(orbit_work *w, long first, long periods, const pendres_record *s)
 {
   const size_t count = (size_t)w->d->orbit.samples, n = (size_t)periods * count;
-  const uint64_t at = (uint64_t)first * count;
-  const double f0 = w->pendulum.drive_amplitude;
-  double *value = calloc(2 * n, sizeof *value);
-  if (value == NULL)
-    return scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  double *error = value + n;
-  for (size_t k = 0; k < n; k++) {
-    value[k] = 2.0 * PENDRES_PI * (double)(at + k) / (double)count;
-    error[k] = eps * value[k];
-  }
-  pendres_status status = put_rows(w, &w->phase, at, n, value, error);
-  if (status == PENDRES_OK) status = put_rows(w, &w->x, at, n, s->x, s->x_error);
-  if (status == PENDRES_OK) status = put_rows(w, &w->v, at, n, s->v, s->v_error);
-  for (size_t k = 0; k < n; k++) {
-    const size_t within = k % count; /* no need for large arguments */
-    value[k] = f0 * cos(2.0 * PENDRES_PI * (double)within / (double)count);
-    error[k] = 8.0 * eps * fabs(f0);
-  }
-  if (status == PENDRES_OK) status = put_rows(w, &w->drive, at, n, value, error);
-  free(value);
-  return status;
+  const size_t at = (size_t)first * count;
+  const scene_variables of = {ORBIT_VARIABLES, of_samples, w->variable};
+  sample *rows = calloc(n + 1, sizeof *rows);
+  const scene_table table = {.dimensions = {"sample"}, .n = n, .stride = sizeof *rows,
+                             .rows = rows};
+  if (rows == NULL) scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
+  for (size_t k = 0; rows != NULL && k < n; k++) rows[k] = sample_of(w, at + k, s, k);
+  scene_columns_write_rows(w->run, &table, at, n, &of);
+  free(rows);
 }
 
-pendres_status scene_orbit_put_found(orbit_work *w)
+void scene_orbit_put_found(orbit_work *w)
 {
-  pendres_status status = put_label(w->run, w);
-  if (status == PENDRES_OK) status = put_scalars(w->run, w);
-  if (status == PENDRES_OK) status = put_multipliers(w->run, w);
-  if (status == PENDRES_OK) status = define_samples(w);
-  return status;
+  const size_t n = (size_t)w->d->orbit.periods * (size_t)w->d->orbit.samples;
+  const scene_variables of = {ORBIT_VARIABLES, of_samples, w->variable};
+  const scene_table samples = {.dimensions = {"sample"}};
+  put_label(w->run, w);
+  put_scalars(w->run, w);
+  put_multipliers(w->run, w);
+  scene_numbering(w->run, "sample", n, "number of the sample");
+  scene_columns_define(w->run, &samples, &of);
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
+
 static void tabulate_dimensions(FILE *out, const orbit_work *w)
 {
   const pendres_correlation *c = &w->measures.correlation;
@@ -249,7 +221,6 @@ void scene_orbit_tabulate(FILE *out, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
   const pendres_orbit *o = &f->orbit;
-  if (out == NULL) return;
   fprintf(out, "%-26s %s%s\n", "label", pendres_name_get(PENDRES_NAMES_LABEL, f->label),
           f->uncertain ? " (uncertain: errors as small as rounding choose it)" : "");
   if (f->settling_periods >= 0)
