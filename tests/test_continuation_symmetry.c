@@ -302,7 +302,14 @@ static void outlines(void **state)
     const pendres_orbit *start = &pendres_attractors_get(set, 0)->orbit;
     assert_int_equal(start->symmetric, k == 0);
     check_ok(pendres_branch_follow(ctx, 1, start, &options, &whole));
-    check_ok(pendres_branch_outline(ctx, start, &options, &outline));
+    const pendres_curve_bounds few = {{options.low}, {options.high}, 1e3, 4}, all = {
+      {options.low}, {options.high}, 1e3, 2000};
+    check_ok(pendres_branch_begin(ctx, start, options.parameter, 0.05, &outline));
+    check_ok(pendres_branch_extend(ctx, outline, &few));
+    assert_int_equal(pendres_branch_end_of(outline, 0), PENDRES_END_POINTS);
+    check_ok(pendres_branch_extend(ctx, outline, &all));
+    for (int which = 0; which < 2; which++)
+      assert_int_equal(pendres_branch_end_of(outline, which), pendres_branch_end_of(whole, which));
     assert_int_equal(pendres_branch_bifurcations(whole), met[k]);
     assert_int_equal(pendres_branch_bifurcations(outline), met[k]);
     for (size_t i = 0; i < pendres_branch_bifurcations(whole); i++) {

@@ -234,22 +234,18 @@ static pendres_status fill(pendres_context *ctx, pendres_curve *c)
   return PENDRES_OK;
 }
 
+static pendres_status find_bifurcations(pendres_context *ctx, pendres_curve *c)
+{
+  return pendres_curve_find_specials(ctx, c, sizeof tests / sizeof *tests, tests);
+}
+
 static pendres_status finish(pendres_context *ctx, pendres_curve *c)
 {
-  pendres_status status =
-    pendres_curve_find_specials(ctx, c, sizeof tests / sizeof *tests, tests);
+  pendres_status status = find_bifurcations(ctx, c);
   if (status == PENDRES_OK) status = pendres_curve_measure(ctx, c);
   if (status == PENDRES_OK) status = fill(ctx, c);
   if (status == PENDRES_OK) pendres_branch_check(c);
   return status;
-}
-
-static pendres_status finish_outline(pendres_context *ctx, pendres_curve *c)
-{
-  pendres_status status =
-    pendres_curve_find_specials(ctx, c, sizeof tests / sizeof *tests, tests);
-  if (status == PENDRES_OK) status = pendres_curve_outline(ctx, c);
-  return status == PENDRES_OK ? fill(ctx, c) : status;
 }
 
 /* ---- following ---- */
@@ -271,10 +267,11 @@ const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
   return NULL;
 }
 
-static pendres_status follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
-                             const pendres_branch_options *o, pendres_curve_finisher *finisher,
-                             pendres_branch **out)
+static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+                                    const pendres_branch_options *o, pendres_branch **out)
 {
+  if (o == NULL || (n > 0 && (starts == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
   for (size_t i = 0; i < n; i++) out[i] = NULL;
   const char *why = n > 0 ? pendres_branch_refuses(o, n, starts) : NULL;
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
@@ -291,7 +288,7 @@ static pendres_status follow(pendres_context *ctx, size_t n, const pendres_orbit
     for (size_t i = 0; i < n; i++)
       start[i].kind = pendres_followed_of(&starts[i], PENDRES_CONDITION_NONE, &o->parameter,
                                           o->spacing > 0.0 ? o->spacing : 0.05, start[i].u);
-    status = pendres_curves_make(ctx, n, start, &bounds, finisher, curve);
+    status = pendres_curves_make(ctx, n, start, &bounds, finish, curve);
     for (size_t i = 0; i < n; i++) out[i] = pendres_branch_of(curve[i]);
   }
   free(start);
@@ -299,18 +296,32 @@ static pendres_status follow(pendres_context *ctx, size_t n, const pendres_orbit
   return status;
 }
 
-static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
-                                    const pendres_branch_options *options, pendres_branch **out)
+pendres_status pendres_branch_begin(pendres_context *ctx, const pendres_orbit *orbit,
+                                    pendres_parameter parameter, double spacing,
+                                    pendres_branch **out)
 {
-  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
-    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
-  return follow(ctx, n, starts, options, finish, out);
+  pendres_curve_start start;
+  *out = NULL;
+  const char *why = pendres_continuation_refuses(orbit, parameter);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
+  start.kind = pendres_followed_of(orbit, PENDRES_CONDITION_NONE, &parameter, spacing, start.u);
+  pendres_branch *b = calloc(1, sizeof *b);
+  if (b == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  const pendres_status status = pendres_curve_begin(ctx, &start, &b->curve);
+  if (status == PENDRES_OK) *out = b;
+  else pendres_branch_free(b);
+  return status;
 }
 
-pendres_status pendres_branch_outline(pendres_context *ctx, const pendres_orbit *start,
-                                      const pendres_branch_options *options, pendres_branch **out)
+pendres_status pendres_branch_extend(pendres_context *ctx, pendres_branch *branch,
+                                     const pendres_curve_bounds *bounds)
 {
-  return follow(ctx, 1, start, options, finish_outline, out);
+  pendres_curve *c = &branch->curve;
+  pendres_status status = pendres_curve_extend(ctx, 1, &c, bounds);
+  if (status == PENDRES_OK) status = find_bifurcations(ctx, c);
+  if (status == PENDRES_OK) status = pendres_curve_outline(ctx, c);
+  return status == PENDRES_OK ? fill(ctx, c) : status;
 }
 
 pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,

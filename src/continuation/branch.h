@@ -1,7 +1,7 @@
 /*
  * branch.h -- what the parts of continuation share of a branch.
  *
- * Owns: branches without measures.
+ * Owns: branches that are gone on with, without measures.
  */
 #ifndef PENDRES_CONTINUATION_BRANCH_H
 #define PENDRES_CONTINUATION_BRANCH_H
@@ -14,10 +14,17 @@
 const char *pendres_branch_refuses(const pendres_branch_options *options, size_t n,
                                    const pendres_orbit *starts);
 
-/* As pendres_branch_follow() from one orbit, but its regular points are those of
-   pendres_curve_outline(), at a fifth of the cost, and have no doubts. Bifurcations are whole. */
-pendres_status pendres_branch_outline(pendres_context *ctx, const pendres_orbit *start,
-                                      const pendres_branch_options *options, pendres_branch **out);
+/*
+ * A branch that is only to lead on, for as long as is needed: from an orbit at first, to be freed
+ * by pendres_branch_free(), and on within bounds, where it has ended by the number of points alone.
+ * Its regular points are those of pendres_curve_outline(), at a fifth of the cost of others, and
+ * are not checked. Bifurcations are whole. Once it has more points, all have other numbers.
+ */
+pendres_status pendres_branch_begin(pendres_context *ctx, const pendres_orbit *orbit,
+                                    pendres_parameter parameter, double spacing,
+                                    pendres_branch **out);
+pendres_status pendres_branch_extend(pendres_context *ctx, pendres_branch *branch,
+                                     const pendres_curve_bounds *bounds);
 
 /* The parameter of point i. */
 double pendres_branch_value(const pendres_curve *branch, size_t i);

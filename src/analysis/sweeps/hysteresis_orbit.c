@@ -86,23 +86,6 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
   return status;
 }
 
-/* A stretch whose computation stopped is gone on with; where that leads no further it is left, and
-   the pendulum settles at the next value. */
-static pendres_status resume(pendres_path *w, double limit)
-{
-  pendres_stretch next;
-  pendres_orbit orbit;
-  const pendres_status status = pendres_stretch_resume(w->ctx, &w->stretch, limit, &next, &orbit);
-  pendres_stretch_free(&w->stretch);
-  if (status != PENDRES_OK) return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
-  w->stretch = next;
-  w->at = pendres_parameter_get(w->parameter, &orbit.pendulum);
-  w->state = (pendres_settled){.pendulum = orbit.pendulum,
-                               .attractor = pendres_settled_orbit(&orbit),
-                               .x = orbit.x, .v = orbit.v};
-  return PENDRES_OK;
-}
-
 /* At the end of the stretch: which bifurcation it is, and what the pendulum goes to. */
 static pendres_status end_stretch(pendres_path *w, size_t step, double limit)
 {
@@ -246,8 +229,10 @@ pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
     } else if (direction != pendres_path_direction(w, *i)) {
       return PENDRES_OK;
     } else if (w->stretch.end == PENDRES_STRETCH_STOPPED) {
-      status = resume(w, limit);
-      if (status != PENDRES_OK || w->stretch.branch == NULL) return status;
+      /* Where the computation leads no further the pendulum settles at the next value. */
+      status = pendres_stretch_extend(w->ctx, &w->stretch, limit);
+      if (status != PENDRES_OK) pendres_stretch_free(&w->stretch);
+      if (status != PENDRES_OK) return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
     } else {
       status = end_stretch(w, *i, limit);
     }

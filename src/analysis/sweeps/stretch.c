@@ -31,6 +31,9 @@ static const double same_value = 1e-8;
    cascade may be as close. */
 static const double next_to = 1e-4;
 
+/* How close to a bifurcation the branch that is born there has that, too. */
+static const double near_birth = 1e-5;
+
 void pendres_stretch_free(pendres_stretch *s)
 {
   pendres_branch_free(s->branch);
@@ -200,32 +203,21 @@ static int choose_way(pendres_stretch *s)
   return 0;
 }
 
-/* Where a stretch is to lead. */
-typedef struct way {
-  pendres_parameter parameter;
-  double from, limit;
-} way;
+/* ---- following ---- */
 
-static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit, const way *w,
-                             size_t points, pendres_branch **out)
+/* Go on with the branch to so many points each way. */
+static pendres_status extend(pendres_context *ctx, pendres_stretch *s, double limit, size_t points)
 {
-  const pendres_parameter parameter = w->parameter;
-  const double from = w->from, limit = w->limit;
-  const double room = margin * pendres_parameter_scale(parameter);
-  const double here = pendres_parameter_get(parameter, &orbit->pendulum);
-  double low = fmin(fmin(from, limit), here) - room, high = fmax(fmax(from, limit), here) + room;
-  if (parameter == PENDRES_DRIVE_FREQUENCY) low = fmax(low, 0.5 * fmin(here, fmin(from, limit)));
-  if (parameter == PENDRES_DAMPING) low = fmax(low, 0.0);
-  const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high,
-                                          .spacing = spacing / orbit->period,
-                                          .wildest = wildest,
-                                          .most_points = points};
-  return pendres_branch_outline(ctx, orbit, &options, out);
-}
-
-static size_t first_points(const pendres_orbit *orbit)
-{
-  return pendres_lyapunov_may_rotate(&orbit->pendulum) ? FEW_POINTS : MOST_POINTS;
+  const double here = pendres_parameter_get(s->parameter, &s->start.pendulum);
+  const double room = margin * pendres_parameter_scale(s->parameter);
+  const double least = fmin(fmin(s->from, limit), here), most = fmax(fmax(s->from, limit), here);
+  double low = least - room;
+  if (s->parameter == PENDRES_DRIVE_FREQUENCY) low = fmax(low, 0.5 * least);
+  if (s->parameter == PENDRES_DAMPING) low = fmax(low, 0.0);
+  const pendres_curve_bounds bounds = {
+    .low = {low}, .high = {most + room}, .wildest = wildest, .most_points = points};
+  s->points_each_way = points;
+  return pendres_branch_extend(ctx, s->branch, &bounds);
 }
 
 /* The number of points that are affordable: each costs as many drive periods as the orbit has.
@@ -237,84 +229,69 @@ static size_t most_points(const pendres_orbit *orbit)
   return share > FEW_POINTS ? share : FEW_POINTS;
 }
 
-static size_t more(size_t points, size_t most)
+/* Follow the branch until that tells how the stretch ends, or has at most so many points each
+   way. */
+static pendres_status find_end(pendres_context *ctx, pendres_stretch *s, double limit, size_t first,
+                               size_t most)
 {
-  return 4 * points < most ? 4 * points : most;
+  for (size_t points = first;; points *= 4) {
+    double off = INFINITY;
+    if (points > most) points = most;
+    s->period = s->start.period;
+    s->winding = s->start.winding;
+    const pendres_status status = extend(ctx, s, limit, points);
+    if (status != PENDRES_OK) return status;
+    s->first = nearest(s->branch, s->parameter, s->from, &s->at, s->born, &off);
+    if (s->born && !(off < near_birth)) return PENDRES_NOT_FOUND;
+    if (!choose_way(s) || is_enough(s, take_stable(s, limit)) || points == most) return status;
+  }
+}
+
+/* Begin the branch of the start, and follow it. */
+static pendres_status follow(pendres_context *ctx, pendres_stretch *s, double limit)
+{
+  const size_t few = pendres_lyapunov_may_rotate(&s->start.pendulum) ? FEW_POINTS : MOST_POINTS;
+  s->direction = limit >= s->from ? 1 : -1;
+  pendres_status status = pendres_branch_begin(ctx, &s->start, s->parameter,
+                                               spacing / s->start.period, &s->branch);
+  if (status == PENDRES_OK) status = find_end(ctx, s, limit, few, most_points(&s->start));
+  if (status != PENDRES_OK) pendres_stretch_free(s);
+  return status;
 }
 
 pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *orbit,
                                     pendres_parameter parameter, double limit,
                                     pendres_stretch *out)
 {
-  const double from = pendres_parameter_get(parameter, &orbit->pendulum);
-  const way way = {.parameter = parameter, .from = from, .limit = limit};
-  pendres_stretch s = {.parameter = parameter, .direction = limit >= from ? 1 : -1};
-  *out = pendres_stretch_none;
-  const size_t most = most_points(orbit);
-  for (size_t points = first_points(orbit);; points = more(points, most)) {
-    double off = 0.0;
-    s.period = orbit->period;
-    s.winding = orbit->winding;
-    const pendres_status status = follow(ctx, orbit, &way, points, &s.branch);
-    if (status != PENDRES_OK) return status;
-    s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
-    if (!choose_way(&s) || is_enough(&s, take_stable(&s, limit)) || points == most) break;
-    pendres_branch_free(s.branch);
-  }
-  *out = s;
-  return PENDRES_OK;
+  *out = (pendres_stretch){.parameter = parameter, .start = *orbit, .at = *orbit,
+                           .from = pendres_parameter_get(parameter, &orbit->pendulum)};
+  return follow(ctx, out, limit);
 }
 
 pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcation *at,
                                     double limit, pendres_stretch *out)
 {
-  static const double near_birth = 1e-5;
-  const way way = {.parameter = at->parameter, .from = at->value, .limit = limit};
-  pendres_stretch s = {.parameter = at->parameter, .direction = limit >= at->value ? 1 : -1};
-  pendres_orbit child;
-  *out = pendres_stretch_none;
-  pendres_status status = pendres_branch_switch(ctx, at, &child);
-  if (status == PENDRES_NOT_FOUND || status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
-  if (status != PENDRES_OK) return status;
-  const double there = pendres_parameter_get(at->parameter, &child.pendulum);
-  if (!(ahead(&s, there, at->value) > 0.0)) return PENDRES_NOT_FOUND;
-  const size_t most = most_points(&child);
-  for (size_t points = first_points(&child);; points = more(points, most)) {
-    double off = INFINITY;
-    /* Between two bifurcations next to each other no point may tell. */
-    s.period = child.period;
-    s.winding = child.winding;
-    status = follow(ctx, &child, &way, points, &s.branch);
-    if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
-    if (status != PENDRES_OK) return status;
-    s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);
-    if (!(off < near_birth && choose_way(&s)) || is_enough(&s, take_stable(&s, limit)) ||
-        points == most)
-      break;
-    pendres_branch_free(s.branch);
+  *out = (pendres_stretch){.parameter = at->parameter, .at = at->orbit, .from = at->value,
+                           .born = 1};
+  pendres_status status = pendres_branch_switch(ctx, at, &out->start);
+  if (status == PENDRES_OK) {
+    const double there = pendres_parameter_get(at->parameter, &out->start.pendulum);
+    const int towards = limit >= at->value ? there > at->value : there < at->value;
+    status = towards ? follow(ctx, out, limit) : PENDRES_NOT_FOUND;
   }
-  if (pendres_stretch_last(&s) == NULL) {
-    pendres_branch_free(s.branch);
-    return PENDRES_NOT_FOUND;
-  }
-  *out = s;
-  return PENDRES_OK;
+  if (status == PENDRES_OK && pendres_stretch_last(out) == NULL) status = PENDRES_NOT_FOUND;
+  if (status != PENDRES_OK) pendres_stretch_free(out);
+  return status == PENDRES_NOT_CONVERGED ? PENDRES_NOT_FOUND : status;
 }
 
-pendres_status pendres_stretch_resume(pendres_context *ctx, const pendres_stretch *s, double limit,
-                                      pendres_stretch *out, pendres_orbit *orbit)
+pendres_status pendres_stretch_extend(pendres_context *ctx, pendres_stretch *s, double limit)
 {
-  const double same = same_value * pendres_parameter_scale(s->parameter);
-  *out = pendres_stretch_none;
-  if (s->points < 2) return PENDRES_NOT_FOUND;
-  pendres_status status = pendres_stretch_arrive(ctx, s, orbit);
-  if (status == PENDRES_OK) status = pendres_stretch_from(ctx, orbit, s->parameter, limit, out);
-  if (status == PENDRES_NOT_CONVERGED) status = PENDRES_NOT_FOUND;
-  if (status != PENDRES_OK) return status;
-  const double further = ahead(s, out->end_value, s->end_value);
-  if (out->end != PENDRES_STRETCH_STOPPED || further > same) return PENDRES_OK;
-  pendres_stretch_free(out);
-  return PENDRES_NOT_FOUND;
+  const double same = same_value * pendres_parameter_scale(s->parameter), end = s->end_value;
+  if (branch_end(s) != PENDRES_END_POINTS) return PENDRES_NOT_FOUND;
+  const size_t most = 2 * s->points_each_way;
+  const pendres_status status = find_end(ctx, s, limit, most, most);
+  if (status != PENDRES_OK || s->end != PENDRES_STRETCH_STOPPED) return status;
+  return ahead(s, s->end_value, end) > same ? PENDRES_OK : PENDRES_NOT_FOUND;
 }
 
 const pendres_branch_point *pendres_stretch_last(const pendres_stretch *s)

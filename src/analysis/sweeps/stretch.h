@@ -17,12 +17,17 @@ typedef enum pendres_stretch_end {
   PENDRES_STRETCH_UNLOCATED,   /* turns back or loses its stability between two points, between
                                   which no bifurcation was found */
   PENDRES_STRETCH_STOPPED      /* the computation ended, not the state: it is to be resumed from the
-                                  last point, see pendres_stretch_resume() */
+                                  last point, see pendres_stretch_extend() */
 } pendres_stretch_end;
 
 typedef struct pendres_stretch {
   pendres_branch *branch;
+  pendres_orbit start; /* that the branch was followed from */
+  size_t points_each_way;
   pendres_parameter parameter;
+  pendres_orbit at; /* where the stretch begins, ... */
+  double from;      /* ... the parameter's value there, ... */
+  int born;         /* ... and whether that is a bifurcation */
   size_t first, points; /* of the branch, from the place on, that at the end included */
   int step;             /* from one of them to the next: 1 or -1 */
   int period, winding;  /* of its orbits */
@@ -49,12 +54,8 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
 pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcation *at,
                                     double limit, pendres_stretch *out);
 
-/*
- * Go on with a stretch that stopped, from its last point: *out is the next part, and *orbit its
- * first orbit, with measures. PENDRES_NOT_FOUND if it gets no further.
- */
-pendres_status pendres_stretch_resume(pendres_context *ctx, const pendres_stretch *s, double limit,
-                                      pendres_stretch *out, pendres_orbit *orbit);
+/* Go on with a stretch that stopped. PENDRES_NOT_FOUND if it gets no further. */
+pendres_status pendres_stretch_extend(pendres_context *ctx, pendres_stretch *s, double limit);
 
 /* The last regular point of it: a state, period, winding and stability, without measures. */
 const pendres_branch_point *pendres_stretch_last(const pendres_stretch *s);
