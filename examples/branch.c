@@ -11,14 +11,15 @@ int main(void)
       .parameter = PENDRES_DRIVE_FREQUENCY, .low = 0.5, .high = 1.2, .spacing = 0.2};
   pendres_context *ctx = NULL;
   pendres_attractors *found = NULL;
-  pendres_branch *branch = NULL;
+  pendres_branches *branches = NULL;
   int failed;
 
   failed = pendres_context_create(NULL, &ctx) ||
            pendres_attractors_find(ctx, &p, 0, NULL, NULL, &found) ||
-           pendres_branch_follow(ctx, 1, &pendres_attractors_get(found, 0)->orbit, &options,
-                                 &branch);
+           pendres_branches_find(ctx, 1, &pendres_attractors_get(found, 0)->orbit, &options,
+                                 &branches);
   if (failed) fprintf(stderr, "%s\n", pendres_context_message(ctx));
+  const pendres_branch *branch = pendres_branches_get(branches, 0);
   for (size_t i = 0; i < pendres_branch_count(branch); i++) {
     const pendres_branch_point *point = pendres_branch_get(branch, i);
 
@@ -32,7 +33,7 @@ int main(void)
       printf("fold at omega = %.10f +- %.0e, amplitude %.6f\n", b->value, b->value_error,
              b->orbit.amplitude);
   }
-  pendres_branch_free(branch);
+  pendres_branches_free(branches);
   pendres_attractors_free(found);
   pendres_context_free(ctx);
   return failed;

@@ -6,6 +6,8 @@
  */
 #include "arguments_fixture.h"
 
+#include "analysis/phase_diagram/line.h"
+
 static void strobes(void **state)
 {
   fixture *f = *state;

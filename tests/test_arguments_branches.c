@@ -4,6 +4,8 @@
  */
 #include "arguments_fixture.h"
 
+#include "continuation/sets.h"
+
 static void branches(void **state)
 {
   fixture *f = *state;

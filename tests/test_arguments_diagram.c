@@ -11,35 +11,26 @@
 static void without_context(pendres_phase_diagram *d)
 {
   const char *words = "";
-  size_t n = 1;
-  assert_int_equal(pendres_phase_diagram_take_line(NULL, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_take_line(d, 2, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_take_line(d, 0, 5, NULL), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_take_line(d, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_find_families(NULL, &n), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_find_families(d, NULL), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_take_family(NULL, 0, 5, "bytes"),
-                   PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_take_family(d, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  pendres_phase_round round = {PENDRES_PHASE_LINES, 1};
+  assert_int_equal(pendres_phase_diagram_take(NULL, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take(d, 0, 5, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take(d, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take(d, 2, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_next(NULL, &round), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(round.tasks, 0);
+  assert_int_equal(pendres_phase_diagram_next(d, NULL), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_leave_out(NULL, 0), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_leave_out(d, 4), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_outcome(NULL, 0, &words), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_outcome(d, 4, NULL), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_curves_outcome(NULL, &words), PENDRES_INVALID_ARGUMENT);
   assert_true(words == NULL && pendres_phase_diagram_point(NULL, 0) == NULL);
   assert_null(pendres_phase_diagram_point(d, 4));
   assert_null(pendres_phase_diagram_branches(NULL, 0));
   assert_null(pendres_phase_diagram_branches(d, 2));
-  assert_null(pendres_phase_diagram_curves(NULL));
-  assert_null(pendres_phase_diagram_bifurcations(NULL, &n));
-  assert_null(pendres_phase_diagram_bifurcations(NULL, NULL));
-  assert_null(pendres_phase_diagram_cusp(NULL));
+  assert_null(pendres_phase_diagram_get(NULL).curves);
   assert_null(pendres_phase_diagram_fold(NULL, 0, PENDRES_LABEL_SA));
   assert_null(pendres_phase_diagram_fold(d, 2, PENDRES_LABEL_SA));
   assert_int_equal(pendres_phase_diagram_ending(NULL, NULL, 0.0), PENDRES_LABEL_PERIODIC);
-  assert_true(n == 0 && pendres_phase_record_bytes(NULL) == NULL);
-  assert_int_equal(pendres_phase_record_size(NULL), 0);
-  pendres_phase_record_free(NULL);
 }
 
 static void diagrams(void **state)
@@ -54,7 +45,9 @@ static void diagrams(void **state)
                                    .lines = 2, .line_value = value};
   pendres_phase_grid bad[] = {some, some, some, some, some, some, some, some, some, some};
   pendres_phase_diagram *d = NULL, *none = NULL;
-  pendres_phase_record *r = NULL;
+  size_t size = 1;
+  void *bytes = NULL;
+  pendres_phase_round round;
   bad[0].values = bad[1].lines = 0;
   bad[2].value = bad[3].line_value = NULL;
   bad[4].value = back;
@@ -64,24 +57,22 @@ static void diagrams(void **state)
   bad[8].options.parameter = PENDRES_DAMPING;
   bad[9].lines = (size_t)-1 / 2;
   for (size_t i = 0; i < COUNT(bad); i++) {
-    REFUSED(pendres_phase_diagram_compute(ctx, &bad[i], &none));
+    REFUSED(pendres_phase_diagram_find(ctx, &bad[i], &none));
     assert_int_equal(pendres_phase_diagram_create(&bad[i], &none), PENDRES_INVALID_ARGUMENT);
   }
-  REFUSED(pendres_phase_diagram_compute(ctx, NULL, &none));
-  REFUSED(pendres_phase_diagram_compute(ctx, &some, NULL));
+  REFUSED(pendres_phase_diagram_find(ctx, NULL, &none));
+  REFUSED(pendres_phase_diagram_find(ctx, &some, NULL));
   assert_int_equal(pendres_phase_diagram_create(NULL, &none), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_create(&some, NULL), PENDRES_INVALID_ARGUMENT);
   assert_null(none);
   assert_int_equal(pendres_phase_diagram_create(&some, &d), PENDRES_OK);
-  REFUSED(pendres_phase_diagram_compute_line(ctx, NULL, 0, &r));
-  REFUSED(pendres_phase_diagram_compute_line(ctx, d, 2, &r));
-  REFUSED(pendres_phase_diagram_compute_line(ctx, d, 0, NULL));
-  REFUSED(pendres_phase_diagram_complete_line(ctx, NULL, 0, &r));
-  REFUSED(pendres_phase_diagram_complete_line(ctx, d, 2, &r));
-  REFUSED(pendres_phase_diagram_complete_line(ctx, d, 0, NULL));
-  REFUSED(pendres_phase_diagram_follow_family(ctx, NULL, 0, &r));
-  REFUSED(pendres_phase_diagram_follow_family(ctx, d, 0, &r));
-  assert_true(r == NULL);
+  REFUSED(pendres_phase_diagram_work(ctx, d, 0, &size, &bytes)); /* no round has begun */
+  assert_int_equal(pendres_phase_diagram_next(d, &round), PENDRES_OK);
+  REFUSED(pendres_phase_diagram_work(ctx, NULL, 0, &size, &bytes));
+  REFUSED(pendres_phase_diagram_work(ctx, d, 2, &size, &bytes));
+  REFUSED(pendres_phase_diagram_work(ctx, d, 0, NULL, &bytes));
+  REFUSED(pendres_phase_diagram_work(ctx, d, 0, &size, NULL));
+  assert_true(bytes == NULL && size == 0);
   without_context(d);
   pendres_phase_diagram_free(d);
   pendres_phase_diagram_free(NULL);

@@ -32,7 +32,6 @@ static void nothing(void **state)
   assert_true(isnan(pendres_response_weakest_multiplier(NULL)));
   assert_null(pendres_orbit_quantity_get((size_t)-1));
   pendres_boundary_free(NULL);
-  pendres_branch_free(NULL);
   assert_int_equal(pendres_branch_count(NULL), 0);
   assert_null(pendres_branch_get(NULL, 0));
   assert_int_equal(pendres_branch_bifurcations(NULL), 0);
@@ -54,15 +53,11 @@ static void nothing(void **state)
   assert_int_equal(pendres_branches_count(NULL), 0);
   assert_null(pendres_branches_get(NULL, 0));
   assert_int_equal(pendres_branches_skipped(NULL), 0);
-  pendres_branches_pack(NULL, NULL);
-  assert_true(pendres_branches_packed_size(NULL) > 0);
-  pendres_curve_free(NULL);
   (void)pendres_curve_kind(NULL);
   assert_int_equal(pendres_curve_count(NULL), 0);
   assert_null(pendres_curve_get(NULL, 0));
   assert_int_equal(pendres_curve_cusps(NULL), 0);
   assert_null(pendres_curve_cusp(NULL, 0));
-  assert_int_equal(pendres_curve_parameter(NULL, -1), PENDRES_PARAMETER_COUNT);
   pendres_curves_free(NULL);
   assert_int_equal(pendres_curves_count(NULL), 0);
   assert_null(pendres_curves_get(NULL, 0));
@@ -91,10 +86,6 @@ static void no_handles(void **state)
   INVALID(pendres_parts_run(&(pendres_parts){ .n = 1, .threads = -1 }, no_work, NULL, NULL, 0));
   INVALID(pendres_parts_run(&(pendres_parts){ .n = 1, .options = { .tolerance = NAN } }, no_work,
                             NULL, NULL, 0));
-  pendres_branches *branches = NULL;
-  INVALID(pendres_branches_unpack(64, NULL, &branches));
-  INVALID(pendres_branches_unpack(0, &wrong, &branches));
-  INVALID(pendres_branches_unpack(sizeof wrong, &wrong, NULL));
   pendres_context_free(NULL);
   assert_non_null(pendres_context_message(NULL));
   assert_null(pendres_context_options(NULL));

@@ -7,6 +7,8 @@
 
 #include "context_fixture.h"
 
+#include "continuation/sets.h"
+
 static const double low = 0.74, high = 1.46;
 
 /* Begin and end of each part are bifurcations, or the range's ends. */

@@ -12,6 +12,8 @@
 
 #include "branch_fixture.h"
 
+#include "continuation/sets.h"
+
 /* The lopsided well x - 0.6 x^2 + x^3/2 under a parametric drive: rest is an orbit at every b. */
 static pendres_pendulum lopsided(double b, double torque)
 {

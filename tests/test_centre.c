@@ -10,6 +10,7 @@
 #include <pendres/pendres.h>
 
 #include "check.h"
+#include "continuation/sets.h"
 #include "model/model.h"
 
 static const double pi = 3.14159265358979323846;

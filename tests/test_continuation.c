@@ -7,6 +7,8 @@
  */
 #include "continuation_fixture.h"
 
+#include "continuation/sets.h"
+
 /* One point from two tolerances and two methods: the same within the stated errors. */
 static void tolerances_and_methods_agree(void **state)
 {

@@ -3,6 +3,8 @@
  */
 #include "continuation_fixture.h"
 
+#include "continuation/sets.h"
+
 /* Also where the values of two numbers of steps agree by chance: this one was once off by 25 times
    its estimate, the difference between the two. */
 static void a_fold_is_not_known_better_than_its_point(void **state)

@@ -14,6 +14,7 @@
 
 #include "branch_fixture.h"
 #include "continuation/branch.h"
+#include "continuation/sets.h"
 
 static const double half_pi = 1.57079632679489661923;
 

@@ -5,6 +5,7 @@
  * code), Floquet theory of Mathieu's equation (GSL).
  */
 #include "check.h"
+#include "continuation/sets.h"
 
 #include <math.h>
 #include <string.h>

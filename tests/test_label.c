@@ -7,6 +7,7 @@
 #include <pendres/resonance.h>
 
 #include "check.h"
+#include "analysis/phase_diagram/line.h"
 #include "orbits/label.h"
 
 enum { LINE = 6 };

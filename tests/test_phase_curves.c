@@ -6,6 +6,7 @@
 
 #include "oracle.h"
 #include "analysis/phase_diagram/line.h"
+#include "continuation/sets.h"
 
 /* ---- what curves through other dampings know ---- */
 
@@ -181,6 +182,22 @@ static void above_the_cusp_there_is_no_distinction(void **state)
   pendres_context_free(ctx);
 }
 
+/* All tasks of a round, from the last to the first. What one has made is refused if a byte of it is
+   missing; if `torn`, at other places too. */
+static void do_round(pendres_context *ctx, pendres_phase_diagram *d, size_t tasks, int torn)
+{
+  for (size_t i = tasks; i-- > 0;) {
+    size_t size;
+    void *bytes;
+    check_ok(pendres_phase_diagram_work(ctx, d, i, &size, &bytes));
+    for (size_t part = torn ? 0 : size - 1; part < size; part += 1 + size / 50)
+      assert_int_equal(pendres_phase_diagram_take(d, i, part, bytes), PENDRES_INVALID_ARGUMENT);
+    assert_int_equal(pendres_phase_diagram_take(d, i, size - 1, bytes), PENDRES_INVALID_ARGUMENT);
+    check_ok(pendres_phase_diagram_take(d, i, size, bytes));
+    free(bytes);
+  }
+}
+
 /* One call, and its pieces with another context, give the same bytes; the folds and the cusp are
    those of the reference. */
 static void whole_diagrams(void **state)
@@ -196,38 +213,17 @@ static void whole_diagrams(void **state)
   grid.options.ensemble.members = 20;
   pendres_context *ctx = context_of(1e-8), *other = context_of(1e-8);
   pendres_phase_diagram *whole = NULL, *parts = NULL;
-  size_t families = 0;
+  pendres_phase_round round;
   int rounds = 0;
-  check_ok(pendres_phase_diagram_compute(ctx, &grid, &whole));
+  check_ok(pendres_phase_diagram_find(ctx, &grid, &whole));
   check_ok(pendres_phase_diagram_create(&grid, &parts));
-  for (size_t i = LINES; i-- > 0;) {
-    pendres_phase_record *r = NULL;
-    check_ok(pendres_phase_diagram_compute_line(other, parts, i, &r));
-    check_ok(pendres_phase_diagram_take_line(parts, i, pendres_phase_record_size(r),
-                                             pendres_phase_record_bytes(r)));
-    assert_int_equal(pendres_phase_diagram_take_line(parts, i, pendres_phase_record_size(r) - 1,
-                                                     pendres_phase_record_bytes(r)),
-                     PENDRES_INVALID_ARGUMENT);
-    pendres_phase_record_free(r);
+  for (;; rounds++) {
+    check_ok(pendres_phase_diagram_next(parts, &round));
+    if (round.tasks == 0) break;
+    do_round(other, parts, round.tasks, 1);
   }
-  while (pendres_phase_diagram_find_families(parts, &families) == PENDRES_OK && families > 0) {
-    for (size_t i = families; i-- > 0;) {
-      pendres_phase_record *r = NULL;
-      check_ok(pendres_phase_diagram_follow_family(other, parts, i, &r));
-      check_ok(pendres_phase_diagram_take_family(parts, i, pendres_phase_record_size(r),
-                                                 pendres_phase_record_bytes(r)));
-      pendres_phase_record_free(r);
-    }
-    for (size_t i = 0; i < LINES; i++) {
-      pendres_phase_record *r = NULL;
-      check_ok(pendres_phase_diagram_complete_line(other, parts, i, &r));
-      check_ok(pendres_phase_diagram_take_line(parts, i, pendres_phase_record_size(r),
-                                               pendres_phase_record_bytes(r)));
-      pendres_phase_record_free(r);
-    }
-    rounds++;
-  }
-  assert_true(rounds > 0);
+  assert_int_equal(round.work, PENDRES_PHASE_DONE);
+  assert_true(rounds >= 3);
   for (size_t i = 0; i < LINES * VALUES; i++) {
     const pendres_phase_point *p = pendres_phase_diagram_point(whole, i);
     assert_memory_equal(p, pendres_phase_diagram_point(parts, i), sizeof *p);
@@ -236,7 +232,7 @@ static void whole_diagrams(void **state)
                                 : i == 1 ? PENDRES_REGIME_LA
                                          : PENDRES_REGIME_SINGLE);
   }
-  const pendres_cusp *cusp = pendres_phase_diagram_cusp(whole);
+  const pendres_cusp *cusp = pendres_phase_diagram_get(whole).cusp;
   check_near(cusp->value[1], cusp_damping, cusp->value_error[1] + 1e-15);
   check_near(cusp->value[0], cusp_frequency, cusp->value_error[0] + 1e-15);
   const pendres_bifurcation *sa = pendres_phase_diagram_fold(whole, 0, PENDRES_LABEL_SA);
@@ -248,17 +244,6 @@ static void whole_diagrams(void **state)
   pendres_phase_diagram_free(parts);
   pendres_context_free(ctx);
   pendres_context_free(other);
-}
-
-static void take_lines(pendres_context *ctx, pendres_phase_diagram *d, size_t lines)
-{
-  for (size_t i = 0; i < lines; i++) {
-    pendres_phase_record *r = NULL;
-    check_ok(pendres_phase_diagram_compute_line(ctx, d, i, &r));
-    check_ok(pendres_phase_diagram_take_line(d, i, pendres_phase_record_size(r),
-                                             pendres_phase_record_bytes(r)));
-    pendres_phase_record_free(r);
-  }
 }
 
 /* Families know nothing of each other, and are taken from the last to the first; together they have
@@ -273,31 +258,37 @@ static void families_make_the_same_curves(void **state)
   pendres_curve_options options = {.second = PENDRES_DAMPING};
   pendres_context *ctx = context_of(1e-8);
   pendres_phase_diagram *d = NULL;
-  pendres_phase_record *r = NULL;
   pendres_curves *want = NULL;
-  size_t families = 0, n = 0;
+  pendres_phase_round round;
+  size_t size;
+  void *bytes;
   check_ok(pendres_phase_diagram_create(&grid, &d));
-  take_lines(ctx, d, 2);
-  check_ok(pendres_phase_diagram_find_families(d, &families));
-  for (size_t i = families; i-- > 0;) {
-    check_ok(pendres_phase_diagram_follow_family(ctx, d, i, &r));
-    const size_t size = pendres_phase_record_size(r);
-    const void *bytes = pendres_phase_record_bytes(r);
+  check_ok(pendres_phase_diagram_next(d, &round));
+  assert_true(round.work == PENDRES_PHASE_LINES && round.tasks == 2);
+  do_round(ctx, d, round.tasks, 0);
+  check_ok(pendres_phase_diagram_next(d, &round));
+  assert_int_equal(round.work, PENDRES_PHASE_CURVES);
+  const size_t families = round.tasks;
+  /* None may be taken twice, and the next round waits for all. */
+  check_ok(pendres_phase_diagram_work(ctx, d, 0, &size, &bytes));
+  check_ok(pendres_phase_diagram_take(d, 0, size, bytes));
+  assert_int_equal(pendres_phase_diagram_take(d, 0, size, bytes), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_next(d, &round), PENDRES_INVALID_ARGUMENT);
+  free(bytes);
+  for (size_t i = families; i-- > 1;) {
+    check_ok(pendres_phase_diagram_work(ctx, d, i, &size, &bytes));
     for (size_t torn = 0; torn < size; torn += 1 + size / 50)
-      assert_int_equal(pendres_phase_diagram_take_family(d, i, torn, bytes),
-                       PENDRES_INVALID_ARGUMENT);
-    check_ok(pendres_phase_diagram_take_family(d, i, size, bytes));
-    assert_int_equal(pendres_phase_diagram_take_family(d, i, size, bytes),
-                     PENDRES_INVALID_ARGUMENT);
-    pendres_phase_record_free(r);
+      assert_int_equal(pendres_phase_diagram_take(d, i, torn, bytes), PENDRES_INVALID_ARGUMENT);
+    check_ok(pendres_phase_diagram_take(d, i, size, bytes));
+    free(bytes);
   }
   pendres_phase_reach(PENDRES_DRIVE_FREQUENCY, 1, frequency[0], frequency[2],
                       &options.low[0], &options.high[0]);
   pendres_phase_reach(PENDRES_DAMPING, 1, damping[0], damping[1],
                       &options.low[1], &options.high[1]);
-  const pendres_bifurcation *all = pendres_phase_diagram_bifurcations(d, &n);
-  check_ok(pendres_curves_find(ctx, n, all, &options, &want));
-  const pendres_curves *found = pendres_phase_diagram_curves(d);
+  const pendres_phase_curves of = pendres_phase_diagram_get(d);
+  const pendres_curves *found = of.curves;
+  check_ok(pendres_curves_find(ctx, of.bifurcations, of.bifurcation, &options, &want));
   assert_int_equal(pendres_curves_count(found), pendres_curves_count(want));
   assert_true(pendres_curves_count(found) > families && families > 3);
   for (size_t i = 0; i < pendres_curves_count(want); i++) {
@@ -337,7 +328,7 @@ static void stiffening_oscillator(void **state)
     .across = PENDRES_DAMPING, .lines = DAMPINGS, .line_value = damping};
   pendres_context *ctx = context_of(1e-9);
   pendres_phase_diagram *d = NULL;
-  check_ok(pendres_phase_diagram_compute(ctx, &grid, &d));
+  check_ok(pendres_phase_diagram_find(ctx, &grid, &d));
   for (size_t i = 0; i < FREQUENCIES; i++) {
     assert_int_equal(pendres_phase_diagram_point(d, i)->exact, want[i]);
     assert_int_equal(pendres_phase_diagram_point(d, i)->regime, want[i]);
@@ -372,13 +363,12 @@ static void points_fail_alone(void **state)
   grid.options.ensemble.members = 4;
   pendres_context *ctx = context_of(1e-8);
   pendres_phase_diagram *d = NULL;
-  pendres_phase_record *r = NULL;
+  pendres_phase_round round;
   const char *words = NULL;
   check_ok(pendres_phase_diagram_create(&grid, &d));
   check_ok(pendres_phase_diagram_leave_out(d, 1));
-  check_ok(pendres_phase_diagram_compute_line(ctx, d, 0, &r));
-  check_ok(pendres_phase_diagram_take_line(d, 0, pendres_phase_record_size(r),
-                                           pendres_phase_record_bytes(r)));
+  check_ok(pendres_phase_diagram_next(d, &round));
+  do_round(ctx, d, round.tasks, 0);
   assert_int_equal(pendres_phase_diagram_outcome(d, 0, &words), PENDRES_INVALID_ARGUMENT);
   assert_true(words != NULL && strlen(words) > 0);
   assert_int_equal(pendres_phase_diagram_outcome(d, 1, &words), PENDRES_UNSUPPORTED);
@@ -387,7 +377,6 @@ static void points_fail_alone(void **state)
   assert_true(isnan(pendres_phase_diagram_point(d, 0)->mean_loop_area));
   assert_true(isnan(pendres_phase_diagram_point(d, 1)->mean_loop_area));
   assert_true(pendres_phase_diagram_point(d, 2)->mean_loop_area > 0.0);
-  pendres_phase_record_free(r);
   pendres_phase_diagram_free(d);
   pendres_context_free(ctx);
 }

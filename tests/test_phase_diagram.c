@@ -6,6 +6,8 @@
  */
 #include "phase_diagram_fixture.h"
 
+#include "analysis/phase_diagram/line.h"
+
 static pendres_phase_point point_at(pendres_context *ctx, double damping, double frequency,
                                     size_t members)
 {

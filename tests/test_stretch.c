@@ -12,6 +12,8 @@
 
 #include "context_fixture.h"
 
+#include "continuation/sets.h"
+
 /* Up and down over n values between two; the caller frees. No point is left out. */
 static pendres_hysteresis *sweep(pendres_context *ctx, const pendres_pendulum *p,
                                  const pendres_branch_options *range, size_t n, double x)

@@ -4,6 +4,8 @@
  */
 #include "units_fixture.h"
 
+#include "continuation/sets.h"
+
 static void ask_attractors(const problem *q)
 {
   enum { N = 20 };

@@ -4,6 +4,8 @@
  */
 #include "units_fixture.h"
 
+#include "analysis/phase_diagram/line.h"
+
 static void note_response(notes *to, const pendres_response *r)
 {
   NOTE(r->mean_loop_area, 2, -2);

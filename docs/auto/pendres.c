@@ -52,12 +52,12 @@ static pendres_orbit orbit(double damping, double drive, double frequency, int l
   return o;
 }
 
-static pendres_branch *branch_of(const pendres_orbit *start, pendres_parameter parameter,
-                                 double low, double high)
+static pendres_branches *branch_of(const pendres_orbit *start, pendres_parameter parameter,
+                                   double low, double high)
 {
   const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high};
-  pendres_branch *b = NULL;
-  fail_if(pendres_branch_follow(ctx, 1, start, &options, &b));
+  pendres_branches *b = NULL;
+  fail_if(pendres_branches_find(ctx, 1, start, &options, &b));
   return b;
 }
 
@@ -76,7 +76,8 @@ static void s_shape(double damping)
   static const char *const orbits[] = {"orbit_sa", "orbit_saddle", "orbit_la"};
   static const char *const areas[] = {"orbit_sa_area", "orbit_saddle_area", "orbit_la_area"};
   const pendres_orbit start = orbit(damping, 0.2, 0.75, 0);
-  pendres_branch *b = branch_of(&start, PENDRES_DRIVE_FREQUENCY, 0.6, 0.9);
+  pendres_branches *set_b = branch_of(&start, PENDRES_DRIVE_FREQUENCY, 0.6, 0.9);
+  const pendres_branch *b = pendres_branches_get(set_b, 0);
   for (size_t i = 0; i < 2 && i < pendres_branch_bifurcations(b); i++) {
     const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
     print_at(folds[i], damping, "", f->value, f->value_error);
@@ -91,7 +92,7 @@ static void s_shape(double damping)
       print_multipliers(orbits[i], &there[i]);
     }
   }
-  pendres_branch_free(b);
+  pendres_branches_free(set_b);
 }
 
 static void fold_and_cusp(double drive, double frequency)
@@ -112,13 +113,14 @@ static void doubling(const char *name, const pendres_bifurcation *at, double low
   char area[64];
   pendres_orbit born;
   fail_if(pendres_branch_switch(ctx, at, &born));
-  pendres_branch *b = branch_of(&born, at->parameter, low, high);
+  pendres_branches *set_b = branch_of(&born, at->parameter, low, high);
+  const pendres_branch *b = pendres_branches_get(set_b, 0);
   const pendres_bifurcation *d = first_of(b, PENDRES_PERIOD_DOUBLING);
   print(name, d->value, d->value_error);
   snprintf(area, sizeof area, "%s_area", name);
   print(area, d->orbit.loop_area, d->orbit.loop_area_error);
   print_multipliers(name, &d->orbit);
-  pendres_branch_free(b);
+  pendres_branches_free(set_b);
 }
 
 /* Folds along the frequency of an oscillator with a polynomial force, from the orbit at `low` on.
@@ -133,7 +135,8 @@ static void polynomial(const char *name, pendres_pendulum p, double low, double 
   pendres_status outcome = PENDRES_OK;
   fail_if(pendres_strobe_advance(ctx, 1, &p, &g.x, &g.v, 300, NULL));
   fail_if(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
-  pendres_branch *b = branch_of(&o, PENDRES_DRIVE_FREQUENCY, 0.9 * low, high);
+  pendres_branches *set_b = branch_of(&o, PENDRES_DRIVE_FREQUENCY, 0.9 * low, high);
+  const pendres_branch *b = pendres_branches_get(set_b, 0);
   for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
     const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
     if (f->kind != PENDRES_FOLD) continue;
@@ -142,7 +145,7 @@ static void polynomial(const char *name, pendres_pendulum p, double low, double 
     snprintf(whole, sizeof whole, "%s_fold_%zu_area", name, i + 1);
     print(whole, f->orbit.loop_area, f->orbit.loop_area_error);
   }
-  pendres_branch_free(b);
+  pendres_branches_free(set_b);
 }
 
 int main(void)
@@ -154,18 +157,20 @@ int main(void)
   fold_and_cusp(0.1, 0.85);
   for (size_t i = 0; i < 3; i++) {
     const pendres_orbit la = orbit(breaking[i], 0.2, 0.78, 1);
-    pendres_branch *b = branch_of(&la, PENDRES_DRIVE_FREQUENCY, 0.4, 0.8);
+    pendres_branches *set_b = branch_of(&la, PENDRES_DRIVE_FREQUENCY, 0.4, 0.8);
+  const pendres_branch *b = pendres_branches_get(set_b, 0);
     const pendres_bifurcation *at = first_of(b, PENDRES_SYMMETRY_BREAKING);
     print_at("symmetry_", breaking[i], "", at->value, at->value_error);
     if (breaking[i] == 0.12) doubling("doubling_0.12", at, 0.4, 0.8);
-    pendres_branch_free(b);
+    pendres_branches_free(set_b);
   }
   const pendres_orbit start = orbit(0.5, 0.9, 2.0 / 3.0, 0);
-  pendres_branch *b = branch_of(&start, PENDRES_DRIVE_AMPLITUDE, 0.8, 1.2);
+  pendres_branches *set_b = branch_of(&start, PENDRES_DRIVE_AMPLITUDE, 0.8, 1.2);
+  const pendres_branch *b = pendres_branches_get(set_b, 0);
   const pendres_bifurcation *at = first_of(b, PENDRES_SYMMETRY_BREAKING);
   print("baker_gollub_symmetry", at->value, at->value_error);
   doubling("baker_gollub_doubling", at, 0.8, 1.2);
-  pendres_branch_free(b);
+  pendres_branches_free(set_b);
   const pendres_pendulum duffing = {.drive_amplitude = 0.3, .force_coefficients = {1.0, 0.0, 1.0}};
   const pendres_pendulum helmholtz = {.damping = 0.1, .force_coefficients = {1.0, -1.0}};
   static const double damping[] = {0.1, 0.2}, drive[] = {0.06, 0.07};

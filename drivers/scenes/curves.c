@@ -82,7 +82,7 @@ static void write_table(const scene_lines *l, const char *dimension, size_t n,
 /* All points of the curves of folds, or of the others. */
 static size_t take_curves(const scene_lines *l, int folds, row *rows)
 {
-  const pendres_curves *curves = pendres_phase_diagram_curves(l->diagram);
+  const pendres_curves *curves = pendres_phase_diagram_get(l->diagram).curves;
   size_t n = 0;
   int number = 0;
   for (size_t i = 0; i < pendres_curves_count(curves); i++) {
@@ -111,8 +111,9 @@ static void write_curves(const scene_lines *l, int folds)
 /* The bifurcations met along the lines. */
 static void write_bifurcations(const scene_lines *l)
 {
-  size_t n = 0;
-  const pendres_bifurcation *b = pendres_phase_diagram_bifurcations(l->diagram, &n);
+  const pendres_phase_curves of = pendres_phase_diagram_get(l->diagram);
+  const pendres_bifurcation *b = of.bifurcation;
+  const size_t n = of.bifurcations;
   row *rows = scene_array(l->run, n, sizeof *rows);
   for (size_t i = 0; rows != NULL && i < n; i++) {
     rows[i] = row_of(l, &b[i].orbit, (const double[2]){b[i].value_error, 0.0}, b[i].kind,
@@ -133,7 +134,7 @@ static void put_scalar(const scene_lines *l, const char *name, const char *long_
 
 static void write_cusp(const scene_lines *l)
 {
-  const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
+  const pendres_cusp *c = pendres_phase_diagram_get(l->diagram).cusp;
   const scene_place place =
     c != NULL ? scene_lines_place(l, &c->orbit.pendulum, c->value_error) : (scene_place){0};
   for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++) {
@@ -156,7 +157,7 @@ static void write_failed(const scene_lines *l)
   pendres_store_spec spec = {.name = "curves_failed",
                              .long_name = "why the curves of bifurcations are not whole"};
   const int8_t reason =
-    (int8_t)scene_failure_of(pendres_phase_diagram_curves_outcome(l->diagram, NULL));
+    (int8_t)scene_failure_of(pendres_phase_diagram_get(l->diagram).outcome);
   scene_failure_flags(&spec);
   scene_put(l->run, &spec, &reason, NULL, 1);
 }
@@ -189,7 +190,7 @@ void scene_curves_write_paper(const scene_lines *l)
     return;
   const double f0 = l->grid.pendulum.drive_amplitude;
   const int main_case = fabs(f0 - 0.2) < 1e-9, inset = fabs(f0 - 0.1) < 1e-9;
-  const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
+  const pendres_cusp *c = pendres_phase_diagram_get(l->diagram).cusp;
   if (c != NULL && (main_case || inset))
     values[n++] = (scene_printed){.name = "critical_damping",
                                   .printed = main_case ? 0.164 : 0.099,

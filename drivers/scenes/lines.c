@@ -55,12 +55,12 @@ int scene_lines_changes(const scene_lines *l, pendres_parameter parameter)
 
 /* ---- tasks --------------------------------------------------------------------------------- */
 
-static pendres_status hand_over(pendres_status status, pendres_phase_record *r, farm_record *out)
+/* What a task of the library's has made becomes a record; it is freed. */
+static pendres_status hand_over(pendres_status status, size_t size, void *bytes, farm_record *out)
 {
-  const size_t size = pendres_phase_record_size(r);
   if (status == PENDRES_OK && farm_record_resize(out, size) == NULL) status = PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK) memcpy(out->data, pendres_phase_record_bytes(r), size);
-  pendres_phase_record_free(r);
+  if (status == PENDRES_OK) memcpy(out->data, bytes, size);
+  free(bytes);
   return status;
 }
 
@@ -75,28 +75,33 @@ pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point)
 /* Compute a line as a whole, in a diagram of its own; where its budget ends it, it has no
    points. */
 static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_context *ctx,
-                                    pendres_phase_diagram *alone, farm_record *out,
-                                    pendres_phase_record **r)
+                                    pendres_phase_diagram *alone, farm_record *out)
 {
+  size_t size;
+  void *bytes;
   scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
-  pendres_status status = pendres_phase_diagram_compute_line(ctx, alone, 0, r);
-  if (!farm_gave_up(out, status)) return status;
-  farm_lost(out, NULL, 0);
-  for (size_t k = 0; k < l->grid.values; k++) (void)pendres_phase_diagram_leave_out(alone, k);
-  return pendres_phase_diagram_compute_line(ctx, alone, 0, r);
+  pendres_status status = pendres_phase_diagram_work(ctx, alone, 0, &size, &bytes);
+  if (farm_gave_up(out, status)) {
+    farm_lost(out, NULL, 0);
+    for (size_t k = 0; k < l->grid.values; k++) (void)pendres_phase_diagram_leave_out(alone, k);
+    status = pendres_phase_diagram_work(ctx, alone, 0, &size, &bytes);
+  }
+  return hand_over(status, size, bytes, out);
 }
 
 /* Compute a line that its budget has ended, without the points that use up a budget of their
    own. */
 static pendres_status compute_by_points(const scene_lines *l, size_t task, pendres_context *ctx,
-                                        farm_record *out, pendres_phase_record **r)
+                                        farm_record *out)
 {
   const size_t values = l->grid.values;
   pendres_phase_diagram *alone = NULL;
   pendres_phase_grid grid = l->grid;
   grid.lines = 1;
   grid.line_value = &l->grid.line_value[task];
+  pendres_phase_round round;
   pendres_status status = pendres_phase_diagram_create(&grid, &alone);
+  if (status == PENDRES_OK) status = pendres_phase_diagram_next(alone, &round);
   for (size_t k = 0; k < values && status == PENDRES_OK; k++) {
     const size_t point = task * values + k;
     const pendres_pendulum p = scene_lines_pendulum(l, point);
@@ -113,7 +118,7 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
     if (left_out || scene_failure_of(status) != SCENE_FAILURE_NONE) status = PENDRES_OK;
     if (left_out) (void)pendres_phase_diagram_leave_out(alone, k);
   }
-  if (status == PENDRES_OK) status = compute_alone(l, task, ctx, alone, out, r);
+  if (status == PENDRES_OK) status = compute_alone(l, task, ctx, alone, out);
   pendres_phase_diagram_free(alone);
   return status;
 }
@@ -121,11 +126,12 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const scene_lines *l = arg;
-  pendres_phase_record *r = NULL;
+  size_t size;
+  void *bytes;
   scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
-  pendres_status status = pendres_phase_diagram_compute_line(ctx, l->diagram, task, &r);
-  if (farm_gave_up(out, status)) status = compute_by_points(l, task, ctx, out, &r);
-  return hand_over(status, r, out);
+  const pendres_status status = pendres_phase_diagram_work(ctx, l->diagram, task, &size, &bytes);
+  if (farm_gave_up(out, status)) return compute_by_points(l, task, ctx, out);
+  return hand_over(status, size, bytes, out);
 }
 
 /* A line that its budget has ended stays as it was: its record is empty. */
@@ -133,12 +139,22 @@ static pendres_status complete(const void *arg, size_t task, pendres_context *ct
                                farm_record *out)
 {
   const scene_lines *l = arg;
-  pendres_phase_record *r = NULL;
+  size_t size;
+  void *bytes;
   scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
-  const pendres_status status = pendres_phase_diagram_complete_line(ctx, l->diagram, task, &r);
-  if (!farm_gave_up(out, status)) return hand_over(status, r, out);
+  const pendres_status status = pendres_phase_diagram_work(ctx, l->diagram, task, &size, &bytes);
+  if (!farm_gave_up(out, status)) return hand_over(status, size, bytes, out);
   farm_lost(out, NULL, 0);
   return PENDRES_OK;
+}
+
+static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const scene_lines *l = arg;
+  size_t size;
+  void *bytes;
+  const pendres_status status = pendres_phase_diagram_work(ctx, l->diagram, task, &size, &bytes);
+  return hand_over(status, size, bytes, out);
 }
 
 /* The library looks at its own bytes when it takes them. */
@@ -156,7 +172,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   const size_t first = task * l->grid.values;
   pendres_status status = PENDRES_OK;
   if (in->size > 0)
-    status = pendres_phase_diagram_take_line(l->diagram, task, in->size, in->data);
+    status = pendres_phase_diagram_take(l->diagram, task, in->size, in->data);
   for (size_t i = first; i < first + l->grid.values && status == PENDRES_OK; i++) {
     const int lost = in->size == 0 ||
                      pendres_phase_diagram_outcome(l->diagram, i, NULL) == PENDRES_UNSUPPORTED;
@@ -166,35 +182,31 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   return status;
 }
 
-static pendres_status follow_family(const void *arg, size_t task, pendres_context *ctx,
-                                    farm_record *out)
+static pendres_status take_curves(void *arg, size_t task, const farm_record *in)
 {
   const scene_lines *l = arg;
-  pendres_phase_record *r = NULL;
-  const pendres_status status = pendres_phase_diagram_follow_family(ctx, l->diagram, task, &r);
-  return hand_over(status, r, out);
+  return pendres_phase_diagram_take(l->diagram, task, in->size, in->data);
 }
 
-static pendres_status take_family(void *arg, size_t task, const farm_record *in)
+/* Compute lines, follow curves through the bifurcations of all lines, and complete the lines by
+   them, until nothing new is found. */
+static void do_rounds(scene_lines *l)
 {
-  const scene_lines *l = arg;
-  return pendres_phase_diagram_take_family(l->diagram, task, in->size, in->data);
-}
-
-/* Follow curves through the bifurcations of all lines, and complete the lines by them, until
-   nothing new is found. */
-static void follow_curves(scene_lines *l)
-{
-  farm_stage curves = {.what = "families of curves", .cheap = 1, .record_size = 1,
-                       .task = follow_family, .check = check, .collect = take_family, .arg = l};
-  const farm_stage lines = {.what = "lines", .tasks = l->grid.lines, .task = complete,
-                            .check = check, .collect = collect, .arg = l};
+  const farm_stage stages[PENDRES_PHASE_WORK_COUNT] = {
+    [PENDRES_PHASE_LINES] = {.what = "lines", .task = compute, .collect = collect},
+    [PENDRES_PHASE_CURVES] = {.what = "families of curves", .cheap = 1, .record_size = 1,
+                              .task = follow, .collect = take_curves},
+    [PENDRES_PHASE_COMPLETION] = {.what = "lines", .task = complete, .collect = collect}};
   while (scene_going(l->run)) {
-    const pendres_status status = pendres_phase_diagram_find_families(l->diagram, &curves.tasks);
+    pendres_phase_round round;
+    const pendres_status status = pendres_phase_diagram_next(l->diagram, &round);
     if (status != PENDRES_OK) scene_fail(l->run, status, "out of memory for bifurcations");
-    if (curves.tasks == 0) return;
-    scene_compute(l->run, &curves);
-    scene_compute(l->run, &lines);
+    if (round.tasks == 0) return;
+    farm_stage stage = stages[round.work];
+    stage.tasks = round.tasks;
+    stage.check = check;
+    stage.arg = l;
+    scene_compute(l->run, &stage);
   }
 }
 
@@ -241,12 +253,11 @@ static void judge(scene_lines *l)
 /* Tell once that there may be more curves. */
 static void judge_curves(scene_lines *l)
 {
-  const char *message = NULL;
-  const scene_failure reason =
-    scene_failure_of(pendres_phase_diagram_curves_outcome(l->diagram, &message));
+  const pendres_phase_curves c = pendres_phase_diagram_get(l->diagram);
+  const scene_failure reason = scene_failure_of(c.outcome);
   if (reason == SCENE_FAILURE_NONE) return;
   l->run->failed_points++;
-  scene_failure_tell(l->run, reason, message, "curves of bifurcations");
+  scene_failure_tell(l->run, reason, c.message, "curves of bifurcations");
 }
 
 /* ---- all of it ----------------------------------------------------------------------------- */
@@ -264,9 +275,7 @@ void scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
     scene_fail(run, status, "a diagram of %zu points: %s", l->n, pendres_status_message(status));
   if (!scene_going(run)) return;
   leave_out(l);
-  scene_compute(run, &(farm_stage){.what = "lines", .tasks = l->grid.lines, .task = compute,
-                                   .check = check, .collect = collect, .arg = l});
-  follow_curves(l);
+  do_rounds(l);
   if (!scene_going(run)) return;
   for (size_t i = 0; i < l->n; i++) l->points[i] = *pendres_phase_diagram_point(l->diagram, i);
   judge_curves(l);
@@ -368,7 +377,7 @@ void scene_lines_write_doubts(const scene_lines *l)
 
 void scene_lines_print(const scene_lines *l, FILE *out)
 {
-  const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
+  const pendres_cusp *c = pendres_phase_diagram_get(l->diagram).cusp;
   const pendres_branch_point *p = NULL;
   const int32_t doubts = count_doubts(l, &p);
   char across[DECK_NAME], along[DECK_NAME];

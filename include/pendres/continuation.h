@@ -151,20 +151,6 @@ typedef struct pendres_branch_point {
 /** Opaque: a branch in order, from its end at the lower parameter or a fold onwards. */
 typedef struct pendres_branch pendres_branch;
 
-/**
- * Follow the branches of n orbits, both ways, stable and unstable parts, side by side; with
- * their folds, period doublings and symmetry breakings located to the tolerance.
- *
- * starts[n] are read; out[n] is written, each to be freed by pendres_branch_free, all NULL on
- * failure. A branch depends on its own start alone. Two starts on one branch give it twice.
- * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_NOT_CONVERGED (a start is no orbit), those of the
- * integration. PENDRES_OK also where some point's error exceeds the tolerance: the errors say so.
- */
-pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
-                                     const pendres_branch_options *options, pendres_branch **out);
-/** NULL is allowed. */
-void pendres_branch_free(pendres_branch *branch);
-
 /** How many points a branch has; 0 for NULL. */
 size_t pendres_branch_count(const pendres_branch *branch);
 /** Point number i, owned by the branch; NULL out of range. */
@@ -221,24 +207,18 @@ typedef struct pendres_branches pendres_branches;
 /**
  * The branches that n orbits lie on, each once: an orbit is passed over if it, or its mirror image,
  * lies on a branch that was found already. The orbits that an ensemble settles on thus lead to all
- * branches that it reaches, isolas included; pendres_branches_extend() may find others.
+ * branches that it reaches, isolas included.
  * The orbits may differ only in the parameter. *out is to be freed by pendres_branches_free().
  * An orbit from which no branch can be followed (since it is about to vanish) is passed over and
- * counted as skipped. Errors are those of pendres_branch_follow().
+ * counted as skipped.
+ *
+ * Each branch is followed both ways, stable and unstable parts, with its folds, period doublings
+ * and symmetry breakings located to the tolerance. Errors: PENDRES_INVALID_ARGUMENT,
+ * PENDRES_NOT_CONVERGED (an orbit is none), those of the integration. PENDRES_OK also where some
+ * point's error exceeds the tolerance: the errors say so.
  */
 pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                      const pendres_branch_options *options, pendres_branches **out);
-/**
- * Add the branches that n bifurcations lie on, each once: one that a branch of the set has met
- * already is passed over. Bifurcations at which curves in two parameters cross a value of the
- * second one thus lead to branches on which none of the known orbits lies. options: those that the
- * set was found with. A bifurcation from which no branch can be followed counts as skipped. On
- * failure the set holds what was added so far. Errors are those of pendres_branch_follow().
- */
-pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
-                                       const pendres_bifurcation *bifurcations,
-                                       const pendres_branch_options *options,
-                                       pendres_branches *branches);
 /** NULL is allowed; frees the branches of the set too. */
 void pendres_branches_free(pendres_branches *branches);
 /** How many branches a set has; 0 for NULL. */
@@ -247,20 +227,6 @@ size_t pendres_branches_count(const pendres_branches *branches);
 const pendres_branch *pendres_branches_get(const pendres_branches *branches, size_t i);
 /** How many orbits and bifurcations no branch could be followed from; 0 for NULL. */
 size_t pendres_branches_skipped(const pendres_branches *branches);
-
-/**
- * Branches as plain bytes, to be handed to another process or kept in a file: pack writes as many
- * bytes as pendres_branches_packed_size() says, and unpack makes the same branches of them, to be
- * freed by pendres_branches_free. The bytes have the layout of this build of the library on this
- * kind of machine, and no checksum: a program that keeps them adds one.
- * branches NULL: no branches. Errors: PENDRES_INVALID_ARGUMENT (size and contents disagree; *out is
- * NULL), PENDRES_OUT_OF_MEMORY. Threads may pack the same branches at a time.
- */
-size_t pendres_branches_packed_size(const pendres_branches *branches);
-/** See pendres_branches_packed_size(). bytes NULL: nothing is done. */
-void pendres_branches_pack(const pendres_branches *branches, void *bytes);
-/** See pendres_branches_packed_size(). */
-pendres_status pendres_branches_unpack(size_t size, const void *bytes, pendres_branches **out);
 
 /**
  * The backbone of a damped pendulum: the drive frequency at which its orbit of period one lags
@@ -309,17 +275,6 @@ typedef struct pendres_curve_point {
 /** Opaque: a curve of folds, period doublings, symmetry breakings or branch points, in order. */
 typedef struct pendres_curve pendres_curve;
 
-/**
- * Follow n curves, both ways from where they start, side by side. out[n] is written, each to be
- * freed by pendres_curve_free, all NULL on failure. A curve depends on its own start alone.
- * Errors as for pendres_branch_follow.
- */
-pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
-                                    const pendres_bifurcation *starts,
-                                    const pendres_curve_options *options, pendres_curve **out);
-/** NULL is allowed. */
-void pendres_curve_free(pendres_curve *curve);
-
 /** What happens all along a curve; PENDRES_REGULAR for NULL. */
 pendres_special pendres_curve_kind(const pendres_curve *curve);
 /** How many points a curve has; 0 for NULL. */
@@ -330,8 +285,6 @@ const pendres_curve_point *pendres_curve_get(const pendres_curve *curve, size_t 
 size_t pendres_curve_cusps(const pendres_curve *curve);
 /** Cusp number i in the order of the curve, owned by it; NULL out of range. */
 const pendres_cusp *pendres_curve_cusp(const pendres_curve *curve, size_t i);
-/** The parameter that the curve's starts were found in (which = 0), and the second (1). */
-pendres_parameter pendres_curve_parameter(const pendres_curve *curve, int which);
 
 /**
  * All bifurcations of a curve at a value of its second parameter, in the order of the curve; each
@@ -346,16 +299,12 @@ typedef struct pendres_curves pendres_curves;
 
 /**
  * The curves that n bifurcations lie on, each once; those that hardly reach beyond the
- * bifurcation itself are left out. Errors as for pendres_curve_follow.
+ * bifurcation itself are left out. Each is followed both ways from where it starts. Errors as for
+ * pendres_branches_find(). *out is to be freed by pendres_curves_free().
  */
 pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
                                    const pendres_bifurcation *bifurcations,
                                    const pendres_curve_options *options, pendres_curves **out);
-/** Add the curves of n more bifurcations, with the options that the set was found with. On failure
-    the set holds what was added so far. Errors as for pendres_curve_follow. */
-pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
-                                     const pendres_bifurcation *bifurcations,
-                                     const pendres_curve_options *options, pendres_curves *curves);
 /** NULL is allowed; frees the curves of the set too. */
 void pendres_curves_free(pendres_curves *curves);
 /** How many curves a set has; 0 for NULL. */

@@ -5,20 +5,21 @@
  * Owns: the regimes of the paper's Fig. 8, found in two ways: from what the members of an
  * ensemble settle on (the paper's way), and from the branches of these orbits, bounded by folds and
  * symmetry breakings (the exact way). The two differ where a state exists but no member starts in
- * its basin. A branch that no member of a line reaches at all is found from neighbouring lines, see
- * pendres_phase_line_complete().
+ * its basin. A branch that no member of a line reaches at all is found from neighbouring lines:
+ * where a curve of bifurcations that was followed from another line crosses this one at a fold or a
+ * symmetry breaking of orbits that can be SA or LA, and the line's branches have none there. A
+ * branch that none of the curves bounds stays unknown.
  *
  * A diagram has two parameters. Its points lie on lines: along a line the drive frequency or the
- * drive amplitude changes, from line to line another parameter. pendres_phase_diagram_compute()
- * computes all of it on one thread. A program that has threads of its own does the same in steps:
+ * drive amplitude changes, from line to line another parameter. pendres_phase_diagram_find()
+ * computes all of it on one thread. A program that has threads of its own does the same in rounds:
  *
- *   1. pendres_phase_diagram_create()
- *   2. pendres_phase_diagram_compute_line() for every line, in any order, on any threads, each with
- *      a context of its own; it makes a record, which pendres_phase_diagram_take_line() takes
- *   3. pendres_phase_diagram_find_families(), on one thread; if there are any families:
- *   4. pendres_phase_diagram_follow_family() for every family, as lines in step 2; it makes a
- *      record, which pendres_phase_diagram_take_family() takes
- *   5. pendres_phase_diagram_complete_line() for every line, as in step 2; then step 3 again
+ *     pendres_phase_diagram_create(&grid, &diagram);
+ *     while (pendres_phase_diagram_next(diagram, &round) == PENDRES_OK && round.tasks > 0)
+ *       for each task below round.tasks, in any order, on any threads, each with its own context:
+ *         pendres_phase_diagram_work(ctx, diagram, task, &size, &bytes);
+ *         pendres_phase_diagram_take(diagram, task, size, bytes);   on one thread at a time
+ *         free(bytes);
  *
  * SA and LA are named as everywhere: of the orbits of period one without winding that coexist, the
  * one of smallest amplitude is SA, the others are LA; a pair of mirror images counts as one state.
@@ -109,46 +110,6 @@ typedef struct pendres_phase_options {
                                     pendres_branch_options; 0: the default */
 } pendres_phase_options;
 
-/**
- * A line of the diagram: n pendulums that differ in options->parameter alone, whose values ascend.
- *
- * @param ctx       belongs to one thread at a time
- * @param n         how many pendulums; none is allowed
- * @param pendulums [n], read
- * @param options   read
- * @param out       [n], written
- * @param branches  may be NULL; receives all branches that the members' orbits lie on, which reach
- *                  beyond the line's values; to be freed by pendres_branches_free(); NULL on
- *                  failure
- * @return PENDRES_INVALID_ARGUMENT, or a failure of the integration; then out is not meaningful
- */
-pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                                  const pendres_phase_options *options, pendres_phase_point *out,
-                                  pendres_branches **branches);
-
-/**
- * Complete a line by curves of bifurcations that were followed from other lines. Where such a
- * curve crosses the line at a fold or a symmetry breaking of orbits that can be SA or LA, and the
- * line's branches have no such bifurcation there, the branch through it is added and the points are
- * judged anew. A branch that no member of this line reaches is found in this way if one of the
- * curves bounds it, and stays unknown otherwise. Members are computed once more only where the fold
- * at which SA ends was unknown.
- *
- * @param ctx      belongs to one thread at a time
- * @param n        how many points
- * @param curves   of bifurcations, whose first parameter is the line's and whose second is another
- *                 one; all other parameters must be the line's; read; NULL: there are none
- * @param options  those that the line was computed with
- * @param points   [n], of pendres_phase_line(), brought up to date
- * @param branches of pendres_phase_line(), brought up to date
- * @return PENDRES_INVALID_ARGUMENT, or a failure of the integration; then points are not meaningful
- */
-pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
-                                           const pendres_curves *curves,
-                                           const pendres_phase_options *options,
-                                           pendres_phase_point *points,
-                                           pendres_branches *branches);
-
 /* ---- Whole diagrams ---- */
 
 /** The points of a diagram. A point has the number line * values + place on the line. */
@@ -175,11 +136,11 @@ typedef struct pendres_phase_diagram pendres_phase_diagram;
  * @return PENDRES_INVALID_ARGUMENT if the grid is not valid, PENDRES_OUT_OF_MEMORY,
  *         PENDRES_INTERRUPTED
  */
-pendres_status pendres_phase_diagram_compute(pendres_context *ctx, const pendres_phase_grid *grid,
+pendres_status pendres_phase_diagram_find(pendres_context *ctx, const pendres_phase_grid *grid,
                                              pendres_phase_diagram **out);
 
-/** Make a diagram of which nothing is computed yet: step 1. Arguments and errors are those of
-    pendres_phase_diagram_compute(); there is no context, and so no message. */
+/** Make a diagram of which nothing is computed yet. Arguments and errors are those of
+    pendres_phase_diagram_find(); there is no context, and so no message. */
 pendres_status pendres_phase_diagram_create(const pendres_phase_grid *grid,
                                             pendres_phase_diagram **out);
 /** Free a diagram and all that it owns. NULL is allowed. */
@@ -190,75 +151,59 @@ void pendres_phase_diagram_free(pendres_phase_diagram *diagram);
     has no such point. */
 pendres_status pendres_phase_diagram_leave_out(pendres_phase_diagram *diagram, size_t point);
 
-/** Opaque: what was computed of a line, or of a family of bifurcations, as plain bytes. */
-typedef struct pendres_phase_record pendres_phase_record;
+/** What the tasks of a round are. */
+typedef enum pendres_phase_work {
+  PENDRES_PHASE_DONE = 0,   /**< there are none: the diagram is complete */
+  PENDRES_PHASE_LINES,      /**< a line each, by its members and their branches */
+  PENDRES_PHASE_CURVES,     /**< a family of bifurcations each,
+  the curves through which are followed;
+                                 no curve through a bifurcation of one family leads to one of
+                                 another. Families that take longer come first */
+  PENDRES_PHASE_COMPLETION, /**< a line each, completed by the curves */
+  PENDRES_PHASE_WORK_COUNT  /**< how many there are */
+} pendres_phase_work;
 
-/** How many bytes a record has; 0 for NULL. Only the same build of the library can read them. */
-size_t pendres_phase_record_size(const pendres_phase_record *record);
-/** The bytes, owned by the record; NULL for NULL. They may be copied, kept, and sent elsewhere. */
-const void *pendres_phase_record_bytes(const pendres_phase_record *record);
-/** Free a record. NULL is allowed. */
-void pendres_phase_record_free(pendres_phase_record *record);
+/** A round: tasks that do not depend on each other. */
+typedef struct pendres_phase_round {
+  pendres_phase_work work; /**< what they are */
+  size_t tasks;            /**< how many */
+} pendres_phase_round;
 
 /**
- * Compute a line: step 2. The diagram is only read, so several threads may compute different lines
- * of it at once.
+ * Begin the next round, when what the tasks of the last one have made is taken: the lines first,
+ * then curves and the completion of lines in turns, until the lines show no bifurcation that was
+ * not known, or all rounds are done. A line that was not taken stays as it was; families must all
+ * be taken. No other thread may use the diagram meanwhile.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT (also if a family was not taken), PENDRES_OUT_OF_MEMORY.
+ */
+pendres_status pendres_phase_diagram_next(pendres_phase_diagram *diagram,
+                                          pendres_phase_round *round);
+
+/**
+ * Do a task of the present round. The diagram is only read, so several threads may do different
+ * tasks of it at once. What fails of a point, line or family alone is part of what is made: see
+ * pendres_phase_diagram_outcome(). A line that cannot be completed stays as it was; if a curve
+ * cannot be followed, the rest of its family is not followed either.
  *
  * @param ctx     belongs to one thread at a time
  * @param diagram read
- * @param line    number of the line
- * @param out     receives the record, to be freed by pendres_phase_record_free(); NULL on failure
- * @return what ends the whole computation: PENDRES_INVALID_ARGUMENT (no such line),
+ * @param task    number of the task
+ * @param size    written: how many bytes
+ * @param bytes   receives them, to be freed by free(), NULL on failure. They may be kept, and sent
+ *                elsewhere; only the same build of the library can read them
+ * @return what ends the whole computation: PENDRES_INVALID_ARGUMENT (no such task),
  *         PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED
  */
-pendres_status pendres_phase_diagram_compute_line(pendres_context *ctx,
-                                                  const pendres_phase_diagram *diagram, size_t line,
-                                                  pendres_phase_record **out);
+pendres_status pendres_phase_diagram_work(pendres_context *ctx,
+                                          const pendres_phase_diagram *diagram, size_t task,
+                                          size_t *size, void **bytes);
 
-/** Take over what was computed of a line: the bytes of its record. No other thread may use the
-    diagram meanwhile. Returns PENDRES_INVALID_ARGUMENT if there is no such line or the bytes are
-    not those of such a record, PENDRES_OUT_OF_MEMORY. */
-pendres_status pendres_phase_diagram_take_line(pendres_phase_diagram *diagram, size_t line,
-                                               size_t size, const void *bytes);
-
-/**
- * Gather the bifurcations of all lines: step 3. *families receives how many families they form,
- * where no curve through a bifurcation of one family leads to one of another (bifurcations of
- * orbits of different periods, say). If it is 0 the diagram is complete: the lines show no
- * bifurcation that was not known, or all rounds are done. Families that take longer to follow come
- * first. No other thread may use the diagram meanwhile.
- *
- * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
- */
-pendres_status pendres_phase_diagram_find_families(pendres_phase_diagram *diagram,
-                                                   size_t *families);
-
-/**
- * Follow the curves through the bifurcations of a family, as far as they are not known: step 4.
- * The diagram is only read, so several threads may follow different families of it at once. *out is
- * to be freed by pendres_phase_record_free(), NULL on failure; ctx belongs to one thread at a time.
- * If a curve cannot be followed, the rest of its family is not followed either, and
- * pendres_phase_diagram_curves_outcome() says why.
- *
- * Errors: PENDRES_INVALID_ARGUMENT (no such family), PENDRES_INTERRUPTED, PENDRES_OUT_OF_MEMORY.
- */
-pendres_status pendres_phase_diagram_follow_family(pendres_context *ctx,
-                                                   const pendres_phase_diagram *diagram,
-                                                   size_t family, pendres_phase_record **out);
-
-/** Take over what was followed of a family, in any order of the families; when all are taken the
-    diagram has the curves. No other thread may use the diagram meanwhile. Returns
-    PENDRES_INVALID_ARGUMENT if there is no such family, it was taken already, or the bytes are not
-    those of such a record; PENDRES_OUT_OF_MEMORY. */
-pendres_status pendres_phase_diagram_take_family(pendres_phase_diagram *diagram, size_t family,
-                                                 size_t size, const void *bytes);
-
-/** Complete a line by the curves (pendres_phase_line_complete()): step 5. Arguments and errors are
-    those of pendres_phase_diagram_compute_line(). A line that cannot be completed stays as it was,
-    and the outcome of its points says why. */
-pendres_status pendres_phase_diagram_complete_line(pendres_context *ctx,
-                                                   const pendres_phase_diagram *diagram,
-                                                   size_t line, pendres_phase_record **out);
+/** Take over what a task of the present round has made, in any order. No other thread may use the
+    diagram meanwhile. Returns PENDRES_INVALID_ARGUMENT if there is no such task, a family was taken
+    already, or the bytes are not those of such a task; PENDRES_OUT_OF_MEMORY. */
+pendres_status pendres_phase_diagram_take(pendres_phase_diagram *diagram, size_t task, size_t size,
+                                          const void *bytes);
 
 /** A point, owned by the diagram; NULL if there is no such point. One without results has
     PENDRES_REGIME_OTHER as both regimes, and NaN as its numbers. */
@@ -276,22 +221,21 @@ pendres_status pendres_phase_diagram_outcome(const pendres_phase_diagram *diagra
 const pendres_branches *pendres_phase_diagram_branches(const pendres_phase_diagram *diagram,
                                                        size_t line);
 
-/** The curves through all bifurcations, owned by the diagram; NULL before any was followed. */
-const pendres_curves *pendres_phase_diagram_curves(const pendres_phase_diagram *diagram);
+/** What a diagram has found beside its points and branches; all of it is owned by the diagram, and
+    holds until its next round begins. */
+typedef struct pendres_phase_curves {
+  const pendres_curves *curves; /**< through all bifurcations; NULL before any was followed */
+  pendres_status outcome;       /**< of the curves, as for a point: where it is not PENDRES_OK there
+                                     may be more curves than were found */
+  const char *message;          /**< a sentence on that; NULL where there is none */
+  size_t bifurcations;          /**< of the lines' branches: how many, ... */
+  const pendres_bifurcation *bifurcation; /**< ... and which, line after line */
+  const pendres_cusp *cusp;     /**< at which SA and LA become one: of several, the last on the way
+                                     out of the region where both exist. NULL if none was found */
+} pendres_phase_curves;
 
-/** What became of the curves, as for a point: where it is not PENDRES_OK there may be more curves
-    than were found. */
-pendres_status pendres_phase_diagram_curves_outcome(const pendres_phase_diagram *diagram,
-                                                    const char **message);
-
-/** All bifurcations of the lines, line after line; *n of them, owned by the diagram, until curves
-    are followed again. */
-const pendres_bifurcation *pendres_phase_diagram_bifurcations(const pendres_phase_diagram *diagram,
-                                                              size_t *n);
-
-/** The cusp at which SA and LA become one: of several, the last on the way out of the region where
-    both exist. Owned by the diagram; NULL if none was found. */
-const pendres_cusp *pendres_phase_diagram_cusp(const pendres_phase_diagram *diagram);
+/** These results; all zero without a diagram. */
+pendres_phase_curves pendres_phase_diagram_get(const pendres_phase_diagram *diagram);
 
 /** Which state ends in a fold of the diagram, whose orbit and curvature are given (see
     pendres_bifurcation): PENDRES_LABEL_SA or PENDRES_LABEL_LA; PENDRES_LABEL_PERIODIC for orbits

@@ -82,14 +82,37 @@ def phase_line(p, ensemble=None, *, parameter="drive_frequency", spacing=0.0, co
     """Which states exist along a line of pendulums that differ in one parameter, "drive_frequency"
     or "drive_amplitude", ascending: (points, branches). points have regime (pendres.Regime, by the
     ensemble), exact (by the branches), sa_fraction, ...; branches as of branches()."""
-    from ._curves import Branches
-    pendulums = np.ascontiguousarray(as_pendulums(p))
-    how = filled("pendres_phase_options", {"parameter": parameter, "spacing": spacing,
-                                           "ensemble": as_ensemble(ensemble)[()]})
-    out = array("pendres_phase_point", pendulums.shape)
-    found = make(Branches, c.phase_line, default_context(context), pendulums.size, pendulums,
-                 how, out)
-    return record(out), found.list()
+    from ._curves import Branch
+    pendulums = np.ascontiguousarray(as_pendulums(p)).ravel()
+    if isinstance(parameter, str) and parameter not in ("drive_frequency", "drive_amplitude"):
+        raise ValueError(f"parameter is drive_frequency or drive_amplitude, not '{parameter}'")
+    values, dampings = (np.ascontiguousarray(pendulums[name]) for name in (parameter, "damping"))
+    for name in pendulums.dtype.names:
+        if name != parameter and np.any(pendulums[name] != pendulums[name][:1]):
+            raise ValueError(f"the pendulums of a line differ in {parameter} alone, not in {name}")
+    grid = array("pendres_phase_grid", 1)
+    filled("pendres_phase_options", {"parameter": parameter, "spacing": spacing,
+                                     "ensemble": as_ensemble(ensemble)[()]}, grid["options"][0])
+    filled("pendres_phase_grid", {
+        "pendulum": pendulums[0], "values": values.size, "value": values.ctypes.data,
+        "across": "damping", "lines": 1, "line_value": dampings.ctypes.data}, grid)
+    ctx = default_context(context)
+    found = make(PhaseDiagram, c.phase_diagram_find, ctx, grid)
+    for i in range(values.size):
+        failed = c.phase_diagram_outcome(found, i, None)
+        if failed:
+            raise failed
+    points = stacked("pendres_phase_point", [
+        c.phase_diagram_point(found, i) for i in range(values.size)])
+    all_branches = c.phase_diagram_branches(found, 0)
+    return points, [Branch(c.branches_get(all_branches, i), found)
+                    for i in range(c.branches_count(all_branches))]
+
+
+class PhaseDiagram(Handle):
+    """A phase diagram, as the library has it."""
+
+    ctype = "pendres_phase_diagram"
 
 
 class Basins:

@@ -7,6 +7,7 @@
 
 #include "base/grow.h"
 #include "continuation/crossing.h"
+#include "continuation/curve.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/accuracy.h"

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "continuation/curve.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"

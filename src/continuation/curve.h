@@ -224,4 +224,34 @@ pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *curve)
  */
 pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *curve);
 
+/*
+ * Follow the branches of n orbits, both ways, stable and unstable parts, side by side; with
+ * their folds, period doublings and symmetry breakings located to the tolerance.
+ *
+ * starts[n] are read; out[n] is written, each to be freed by pendres_branch_free, all NULL on
+ * failure. A branch depends on its own start alone. Two starts on one branch give it twice.
+ * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_NOT_CONVERGED (a start is no orbit), those of the
+ * integration. PENDRES_OK also where some point's error exceeds the tolerance: the errors say so.
+ */
+pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+                                     const pendres_branch_options *options, pendres_branch **out);
+
+/* NULL is allowed. */
+void pendres_branch_free(pendres_branch *branch);
+
+/*
+ * Follow n curves, both ways from where they start, side by side. out[n] is written, each to be
+ * freed by pendres_curve_free, all NULL on failure. A curve depends on its own start alone.
+ * Errors as for pendres_branch_follow.
+ */
+pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
+                                    const pendres_bifurcation *starts,
+                                    const pendres_curve_options *options, pendres_curve **out);
+
+/* NULL is allowed. */
+void pendres_curve_free(pendres_curve *curve);
+
+/* The parameter that the curve's starts were found in (which = 0), and the second (1). */
+pendres_parameter pendres_curve_parameter(const pendres_curve *curve, int which);
+
 #endif

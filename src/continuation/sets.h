@@ -43,4 +43,36 @@ size_t pendres_curves_packed_size(const pendres_curves *curves);
 void pendres_curves_pack(const pendres_curves *curves, void *bytes);
 pendres_status pendres_curves_unpack(size_t size, const void *bytes, pendres_curves **out);
 
+/*
+ * Add the branches that n bifurcations lie on, each once: one that a branch of the set has met
+ * already is passed over. Bifurcations at which curves in two parameters cross a value of the
+ * second one thus lead to branches on which none of the known orbits lies. options: those that the
+ * set was found with. A bifurcation from which no branch can be followed counts as skipped. On
+ * failure the set holds what was added so far. Errors are those of pendres_branch_follow().
+ */
+pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
+                                       const pendres_bifurcation *bifurcations,
+                                       const pendres_branch_options *options,
+                                       pendres_branches *branches);
+
+/* Add the curves of n more bifurcations, with the options that the set was found with. On failure
+    the set holds what was added so far. Errors as for pendres_curve_follow. */
+pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
+                                     const pendres_bifurcation *bifurcations,
+                                     const pendres_curve_options *options, pendres_curves *curves);
+
+/*
+ * Branches as plain bytes, to be handed to another process or kept in a file: pack writes as many
+ * bytes as pendres_branches_packed_size() says, and unpack makes the same branches of them, to be
+ * freed by pendres_branches_free. The bytes have the layout of this build of the library on this
+ * kind of machine, and no checksum: a program that keeps them adds one.
+ * branches NULL: no branches. Errors: PENDRES_INVALID_ARGUMENT (size and contents disagree; *out is
+ * NULL), PENDRES_OUT_OF_MEMORY. Threads may pack the same branches at a time.
+ */
+size_t pendres_branches_packed_size(const pendres_branches *branches);
+/* See pendres_branches_packed_size(). bytes NULL: nothing is done. */
+void pendres_branches_pack(const pendres_branches *branches, void *bytes);
+/* See pendres_branches_packed_size(). */
+pendres_status pendres_branches_unpack(size_t size, const void *bytes, pendres_branches **out);
+
 #endif

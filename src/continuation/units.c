@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "continuation/curve.h"
 #include "engine/context_internal.h"
 
 typedef void convert(const pendres_scales *scales, const pendres_dimensions *d, size_t n,

@@ -18,6 +18,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "continuation/sets.h"
+
 static const double two_pi = 6.28318530717958647693;
 
 enum { POINTS = 6, BIFURCATIONS = 6, HOW = 700 };

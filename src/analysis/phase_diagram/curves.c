@@ -89,10 +89,9 @@ static pendres_status note_family(pendres_phase_diagram *d, size_t i, size_t *ca
   return PENDRES_OK;
 }
 
-pendres_status pendres_phase_diagram_find_families(pendres_phase_diagram *d, size_t *families)
+pendres_status pendres_phase_find_families(pendres_phase_diagram *d, size_t *families)
 {
-  if (families != NULL) *families = 0;
-  if (d == NULL || families == NULL) return PENDRES_INVALID_ARGUMENT;
+  *families = 0;
   const size_t before = d->bifurcations;
   size_t capacity = 0;
   free_families(d);
@@ -121,7 +120,7 @@ static char *put(char *to, const void *from, size_t size)
   return to + size;
 }
 
-static pendres_status pack(const pendres_phase_family *f, pendres_phase_record **out)
+static pendres_status pack(const pendres_phase_family *f, pendres_phase_bytes *out)
 {
   const char *words = f->mark.message != NULL ? f->mark.message : "";
   head h;
@@ -130,9 +129,10 @@ static pendres_status pack(const pendres_phase_family *f, pendres_phase_record *
   h.words = strlen(words) + 1;
   h.curves = pendres_curves_packed_size(f->curves);
   h.outcome = f->mark.outcome;
-  *out = pendres_phase_record_create(sizeof h + h.words + h.curves);
-  if (*out == NULL) return PENDRES_OUT_OF_MEMORY;
-  char *to = put((*out)->bytes, &h, sizeof h);
+  out->size = sizeof h + h.words + h.curves;
+  out->bytes = malloc(out->size);
+  if (out->bytes == NULL) return PENDRES_OUT_OF_MEMORY;
+  char *to = put(out->bytes, &h, sizeof h);
   to = put(to, words, h.words);
   pendres_curves_pack(f->curves, to);
   return PENDRES_OK;
@@ -199,14 +199,10 @@ static pendres_status follow(pendres_door *door, const pendres_phase_diagram *d,
   return status;
 }
 
-static pendres_status follow_family(pendres_context *ctx, const pendres_phase_diagram *d,
-                                    size_t family, pendres_phase_record **out)
+pendres_status pendres_phase_follow_family(pendres_context *ctx, const pendres_phase_diagram *d,
+                                           size_t family, pendres_phase_bytes *out)
 {
   pendres_door door;
-  if (out != NULL) *out = NULL;
-  if (d == NULL || out == NULL || family >= d->families)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "phase diagram: no diagram, no such family, or no place for it");
   pendres_phase_family f = {.curves = NULL};
   pendres_door_open(&door, ctx, &d->bifurcation[d->family[family].first].orbit.pendulum);
   PENDRES_DOOR_CALL(&door, follow(&door, d, family, &f));
@@ -216,13 +212,6 @@ static pendres_status follow_family(pendres_context *ctx, const pendres_phase_di
   pendres_curves_free(f.curves);
   pendres_phase_mark_free(&f.mark);
   return status;
-}
-
-pendres_status pendres_phase_diagram_follow_family(pendres_context *ctx,
-                                                   const pendres_phase_diagram *d, size_t family,
-                                                   pendres_phase_record **out)
-{
-  return PENDRES_CONTEXT_CALL(ctx, follow_family(ctx, d, family, out));
 }
 
 /* ---- all of them ---- */
@@ -268,11 +257,10 @@ static pendres_status join(pendres_phase_diagram *d)
   return status;
 }
 
-pendres_status pendres_phase_diagram_take_family(pendres_phase_diagram *d, size_t family,
-                                                 size_t size, const void *bytes)
+pendres_status pendres_phase_take_family(pendres_phase_diagram *d, size_t family, size_t size,
+                                         const void *bytes)
 {
-  if (d == NULL || bytes == NULL || family >= d->families || d->family[family].curves != NULL)
-    return PENDRES_INVALID_ARGUMENT;
+  if (d->family[family].curves != NULL) return PENDRES_INVALID_ARGUMENT;
   const pendres_status status = unpack(size, bytes, &d->family[family]);
   if (status != PENDRES_OK) return status;
   return ++d->families_taken == d->families ? join(d) : PENDRES_OK;

@@ -37,15 +37,13 @@ pendres_status pendres_phase_done_create(size_t values, pendres_phase_done *out)
 pendres_status pendres_phase_done_copy(const pendres_phase_done *from, pendres_phase_done *to);
 void pendres_phase_done_free(pendres_phase_done *line);
 
-/* Plain bytes; NULL: out of memory. To be freed by pendres_phase_record_free(). */
-struct pendres_phase_record {
+/* Plain bytes, to be freed by free(). */
+typedef struct pendres_phase_bytes {
   size_t size;
-  char bytes[];
-};
-pendres_phase_record *pendres_phase_record_create(size_t size);
+  void *bytes;
+} pendres_phase_bytes;
 
-/* A record to be freed by pendres_phase_record_free(). */
-pendres_status pendres_phase_done_pack(const pendres_phase_done *line, pendres_phase_record **out);
+pendres_status pendres_phase_done_pack(const pendres_phase_done *line, pendres_phase_bytes *out);
 
 /* PENDRES_INVALID_ARGUMENT: the bytes are no record of a line of so many values. On failure there
    is nothing to be freed. */
@@ -62,6 +60,8 @@ typedef struct pendres_phase_family {
 
 struct pendres_phase_diagram {
   pendres_phase_grid grid;
+  pendres_phase_round round;   /* the present one; no tasks: before the first, or all is done */
+  int begun;
   pendres_phase_done *line;    /* [lines] */
   pendres_phase_point nothing; /* what stands for a point that has no results */
   pendres_bifurcation *bifurcation; /* of all lines, in their order */
@@ -80,6 +80,18 @@ struct pendres_phase_diagram {
 /* Whether a failure is caused by the parameters, and not by the machine or the caller: the rest of
    the diagram is then computed all the same. */
 int pendres_phase_is_own(pendres_status status);
+
+/* Gather the bifurcations of all lines. *families receives how many families they form, 0 if there
+   is no new one, or all rounds are done. */
+pendres_status pendres_phase_find_families(pendres_phase_diagram *d, size_t *families);
+
+/* Follow the curves through the bifurcations of a family, as far as they are not known. */
+pendres_status pendres_phase_follow_family(pendres_context *ctx, const pendres_phase_diagram *d,
+                                           size_t family, pendres_phase_bytes *out);
+
+/* Take over what was followed of a family; with the last of them the diagram has the curves. */
+pendres_status pendres_phase_take_family(pendres_phase_diagram *d, size_t family, size_t size,
+                                         const void *bytes);
 
 /* Free what the curves hold of a diagram. */
 void pendres_phase_curves_free(pendres_phase_diagram *diagram);

@@ -10,6 +10,7 @@
 #include "model/model.h"
 #include "model/parameter.h"
 #include "analysis/resonance/response_members.h"
+#include "continuation/sets.h"
 #include "orbits/label.h"
 
 enum { MOST_CROSSINGS = 16 };

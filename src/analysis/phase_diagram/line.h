@@ -31,4 +31,44 @@ int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter);
    at stronger damping, higher frequencies or weaker drives; never for any other parameter. */
 int pendres_phase_beyond(pendres_parameter across, double value, double cusp);
 
+/*
+ * A line of the diagram: n pendulums that differ in options->parameter alone, whose values ascend.
+ *
+ * @param ctx       belongs to one thread at a time
+ * @param n         how many pendulums; none is allowed
+ * @param pendulums [n], read
+ * @param options   read
+ * @param out       [n], written
+ * @param branches  may be NULL; receives all branches that the members' orbits lie on, which reach
+ *                    beyond the line's values; to be freed by pendres_branches_free(); NULL on
+ *                  failure
+ * @return PENDRES_INVALID_ARGUMENT, or a failure of the integration; then out is not meaningful
+ */
+pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                                  const pendres_phase_options *options, pendres_phase_point *out,
+                                  pendres_branches **branches);
+
+/*
+ * Complete a line by curves of bifurcations that were followed from other lines. Where such a
+ * curve crosses the line at a fold or a symmetry breaking of orbits that can be SA or LA, and the
+ * line's branches have no such bifurcation there, the branch through it is added and the points are
+ * judged anew. A branch that no member of this line reaches is found in this way if one of the
+ * curves bounds it, and stays unknown otherwise. Members are computed once more only where the fold
+ * at which SA ends was unknown.
+ *
+ * @param ctx      belongs to one thread at a time
+ * @param n        how many points
+ * @param curves   of bifurcations, whose first parameter is the line's and whose second is another
+ *                 one; all other parameters must be the line's; read; NULL: there are none
+ * @param options  those that the line was computed with
+ * @param points   [n], of pendres_phase_line(), brought up to date
+ * @param branches of pendres_phase_line(), brought up to date
+ * @return PENDRES_INVALID_ARGUMENT, or a failure of the integration; then points are not meaningful
+ */
+pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
+                                           const pendres_curves *curves,
+                                           const pendres_phase_options *options,
+                                           pendres_phase_point *points,
+                                           pendres_branches *branches);
+
 #endif

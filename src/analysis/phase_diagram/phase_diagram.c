@@ -184,41 +184,23 @@ static pendres_status complete(pendres_context *ctx, const pendres_phase_diagram
   return mark_line(ctx, status, l);
 }
 
-/* A line's record: computed from nothing, or completed by the curves. */
-static pendres_status record_line(pendres_context *ctx, const pendres_phase_diagram *d, size_t line,
-                                  int by_curves, pendres_phase_record **out)
+/* What is made of a line: computed from nothing, or completed by the curves. */
+static pendres_status make_line(pendres_context *ctx, const pendres_phase_diagram *d, size_t line,
+                                pendres_phase_bytes *out)
 {
-  if (out != NULL) *out = NULL;
-  if (d == NULL || out == NULL || line >= d->grid.lines)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "phase diagram: no diagram, no such line, or no place for it");
   pendres_phase_done l;
   pendres_status status = pendres_phase_done_copy(&d->line[line], &l);
   if (status == PENDRES_OK)
-    status = by_curves ? complete(ctx, d, &d->line[line], &l) : fill_line(ctx, &d->grid, line, &l);
+    status = d->round.work == PENDRES_PHASE_COMPLETION ? complete(ctx, d, &d->line[line], &l)
+                                                       : fill_line(ctx, &d->grid, line, &l);
   if (status == PENDRES_OK) status = pendres_phase_done_pack(&l, out);
   pendres_phase_done_free(&l);
   return status;
 }
 
-pendres_status pendres_phase_diagram_compute_line(pendres_context *ctx,
-                                                  const pendres_phase_diagram *d, size_t line,
-                                                  pendres_phase_record **out)
+static pendres_status take_line(pendres_phase_diagram *d, size_t line, size_t size,
+                                const void *bytes)
 {
-  return PENDRES_CONTEXT_CALL(ctx, record_line(ctx, d, line, 0, out));
-}
-
-pendres_status pendres_phase_diagram_complete_line(pendres_context *ctx,
-                                                   const pendres_phase_diagram *d, size_t line,
-                                                   pendres_phase_record **out)
-{
-  return PENDRES_CONTEXT_CALL(ctx, record_line(ctx, d, line, 1, out));
-}
-
-pendres_status pendres_phase_diagram_take_line(pendres_phase_diagram *d, size_t line, size_t size,
-                                               const void *bytes)
-{
-  if (d == NULL || line >= d->grid.lines || bytes == NULL) return PENDRES_INVALID_ARGUMENT;
   pendres_phase_done l;
   const pendres_status status = pendres_phase_done_unpack(d->grid.values, size, bytes, &l);
   if (status != PENDRES_OK) return status;
@@ -227,43 +209,73 @@ pendres_status pendres_phase_diagram_take_line(pendres_phase_diagram *d, size_t 
   return PENDRES_OK;
 }
 
+/* ---- rounds ---- */
+
+/* Lines, then curves and what they tell of lines in turns. */
+pendres_status pendres_phase_diagram_next(pendres_phase_diagram *d, pendres_phase_round *round)
+{
+  const pendres_phase_round none = {PENDRES_PHASE_DONE, 0};
+  if (round != NULL) *round = none;
+  if (d == NULL || round == NULL || d->families > 0) return PENDRES_INVALID_ARGUMENT;
+  pendres_phase_round next = none;
+  pendres_status status = PENDRES_OK;
+  if (!d->begun) {
+    next = (pendres_phase_round){PENDRES_PHASE_LINES, d->grid.lines};
+  } else if (d->round.work == PENDRES_PHASE_CURVES) {
+    next = (pendres_phase_round){PENDRES_PHASE_COMPLETION, d->grid.lines};
+  } else if (d->round.work != PENDRES_PHASE_DONE) {
+    status = pendres_phase_find_families(d, &next.tasks);
+    if (next.tasks > 0) next.work = PENDRES_PHASE_CURVES;
+  }
+  if (status != PENDRES_OK) return status;
+  d->begun = 1;
+  *round = d->round = next;
+  return PENDRES_OK;
+}
+
+static pendres_status work(pendres_context *ctx, const pendres_phase_diagram *d, size_t task,
+                           size_t *size, void **bytes)
+{
+  pendres_phase_bytes out = {0, NULL};
+  if (size != NULL) *size = 0;
+  if (bytes != NULL) *bytes = NULL;
+  if (d == NULL || size == NULL || bytes == NULL || task >= d->round.tasks)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "phase diagram: no diagram, no such task, or no place for it");
+  const pendres_status status = d->round.work == PENDRES_PHASE_CURVES
+                                  ? pendres_phase_follow_family(ctx, d, task, &out)
+                                  : make_line(ctx, d, task, &out);
+  *size = out.size;
+  *bytes = out.bytes;
+  return status;
+}
+
+pendres_status pendres_phase_diagram_work(pendres_context *ctx, const pendres_phase_diagram *d,
+                                          size_t task, size_t *size, void **bytes)
+{
+  return PENDRES_CONTEXT_CALL(ctx, work(ctx, d, task, size, bytes));
+}
+
+pendres_status pendres_phase_diagram_take(pendres_phase_diagram *d, size_t task, size_t size,
+                                          const void *bytes)
+{
+  if (d == NULL || bytes == NULL || task >= d->round.tasks) return PENDRES_INVALID_ARGUMENT;
+  if (d->round.work != PENDRES_PHASE_CURVES) return take_line(d, task, size, bytes);
+  return task < d->families ? pendres_phase_take_family(d, task, size, bytes)
+                            : PENDRES_INVALID_ARGUMENT;
+}
+
 /* ---- all of it ---- */
 
-static pendres_status do_line(pendres_context *ctx, pendres_phase_diagram *d, size_t line,
-                              int by_curves)
+static pendres_status do_round(pendres_context *ctx, pendres_phase_diagram *d, size_t tasks)
 {
-  pendres_phase_record *r = NULL;
-  pendres_status status = record_line(ctx, d, line, by_curves, &r);
-  if (status == PENDRES_OK) {
-    const void *bytes = pendres_phase_record_bytes(r);
-    status = pendres_phase_diagram_take_line(d, line, pendres_phase_record_size(r), bytes);
-  }
-  pendres_phase_record_free(r);
-  return status;
-}
-
-static pendres_status do_family(pendres_context *ctx, pendres_phase_diagram *d, size_t family)
-{
-  pendres_phase_record *r = NULL;
-  pendres_status status = pendres_phase_diagram_follow_family(ctx, d, family, &r);
-  if (status == PENDRES_OK) {
-    const void *bytes = pendres_phase_record_bytes(r);
-    status = pendres_phase_diagram_take_family(d, family, pendres_phase_record_size(r), bytes);
-  }
-  pendres_phase_record_free(r);
-  return status;
-}
-
-/* Curves, and the lines that they complete, until they tell nothing more. */
-static pendres_status do_curves(pendres_context *ctx, pendres_phase_diagram *d)
-{
-  size_t families = 1;
   pendres_status status = PENDRES_OK;
-  while (families > 0 && status == PENDRES_OK) {
-    status = pendres_phase_diagram_find_families(d, &families);
-    for (size_t i = 0; i < families && status == PENDRES_OK; i++) status = do_family(ctx, d, i);
-    for (size_t i = 0; i < d->grid.lines && families > 0 && status == PENDRES_OK; i++)
-      status = do_line(ctx, d, i, 1);
+  for (size_t i = 0; i < tasks && status == PENDRES_OK; i++) {
+    size_t size;
+    void *bytes;
+    status = work(ctx, d, i, &size, &bytes);
+    if (status == PENDRES_OK) status = pendres_phase_diagram_take(d, i, size, bytes);
+    free(bytes);
   }
   return status;
 }
@@ -280,15 +292,17 @@ static pendres_status compute(pendres_context *ctx, const pendres_phase_grid *gr
   pendres_status status = pendres_phase_diagram_create(grid, &d);
   if (status != PENDRES_OK)
     return pendres_context_fail(ctx, status, "out of memory for a phase diagram");
-  for (size_t i = 0; i < grid->lines && status == PENDRES_OK; i++) status = do_line(ctx, d, i, 0);
-  if (status == PENDRES_OK) status = do_curves(ctx, d);
+  for (pendres_phase_round round = {.tasks = 1}; round.tasks > 0 && status == PENDRES_OK;) {
+    status = pendres_phase_diagram_next(d, &round);
+    if (status == PENDRES_OK) status = do_round(ctx, d, round.tasks);
+  }
   if (status != PENDRES_OK) pendres_phase_diagram_free(d);
   else *out = d;
   return status;
 }
 
-pendres_status pendres_phase_diagram_compute(pendres_context *ctx, const pendres_phase_grid *grid,
-                                             pendres_phase_diagram **out)
+pendres_status pendres_phase_diagram_find(pendres_context *ctx, const pendres_phase_grid *grid,
+                                          pendres_phase_diagram **out)
 {
   return PENDRES_CONTEXT_CALL(ctx, compute(ctx, grid, out));
 }
@@ -322,28 +336,13 @@ const pendres_branches *pendres_phase_diagram_branches(const pendres_phase_diagr
   return d != NULL && line < d->grid.lines ? d->line[line].branches : NULL;
 }
 
-const pendres_curves *pendres_phase_diagram_curves(const pendres_phase_diagram *d)
+pendres_phase_curves pendres_phase_diagram_get(const pendres_phase_diagram *d)
 {
-  return d != NULL ? d->curves : NULL;
-}
-
-pendres_status pendres_phase_diagram_curves_outcome(const pendres_phase_diagram *d,
-                                                    const char **message)
-{
-  if (message != NULL) *message = NULL;
-  return d != NULL ? outcome_of(&d->curves_mark, message) : PENDRES_INVALID_ARGUMENT;
-}
-
-const pendres_bifurcation *pendres_phase_diagram_bifurcations(const pendres_phase_diagram *d,
-                                                              size_t *n)
-{
-  if (n != NULL) *n = d != NULL ? d->bifurcations : 0;
-  return d != NULL ? d->bifurcation : NULL;
-}
-
-const pendres_cusp *pendres_phase_diagram_cusp(const pendres_phase_diagram *d)
-{
-  return d != NULL && d->has_cusp ? &d->cusp : NULL;
+  if (d == NULL) return (pendres_phase_curves){.curves = NULL};
+  return (pendres_phase_curves){
+    .curves = d->curves, .outcome = d->curves_mark.outcome, .message = d->curves_mark.message,
+    .bifurcations = d->bifurcations, .bifurcation = d->bifurcation,
+    .cusp = d->has_cusp ? &d->cusp : NULL};
 }
 
 pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *d, const pendres_orbit *o,

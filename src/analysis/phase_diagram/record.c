@@ -9,32 +9,11 @@
 #include <string.h>
 
 #include "analysis/phase_diagram/internal.h"
+#include "continuation/sets.h"
 
 typedef struct head {
   size_t values, count, branches; /* points; those that have results; bytes */
 } head;
-
-pendres_phase_record *pendres_phase_record_create(size_t size)
-{
-  pendres_phase_record *r = malloc(sizeof *r + size);
-  if (r != NULL) r->size = size;
-  return r;
-}
-
-size_t pendres_phase_record_size(const pendres_phase_record *r)
-{
-  return r != NULL ? r->size : 0;
-}
-
-const void *pendres_phase_record_bytes(const pendres_phase_record *r)
-{
-  return r != NULL ? r->bytes : NULL;
-}
-
-void pendres_phase_record_free(pendres_phase_record *r)
-{
-  free(r);
-}
 
 /* ---- marks ---- */
 
@@ -81,11 +60,11 @@ void pendres_phase_done_free(pendres_phase_done *l)
 
 pendres_status pendres_phase_done_copy(const pendres_phase_done *from, pendres_phase_done *to)
 {
-  pendres_phase_record *r = NULL;
+  pendres_phase_bytes r = {0, NULL};
   *to = (pendres_phase_done){.values = 0};
   pendres_status status = pendres_phase_done_pack(from, &r);
-  if (status == PENDRES_OK) status = pendres_phase_done_unpack(from->values, r->size, r->bytes, to);
-  pendres_phase_record_free(r);
+  if (status == PENDRES_OK) status = pendres_phase_done_unpack(from->values, r.size, r.bytes, to);
+  free(r.bytes);
   return status;
 }
 
@@ -102,15 +81,15 @@ static const char *words_of(const pendres_phase_mark *m)
   return m->message != NULL ? m->message : "";
 }
 
-pendres_status pendres_phase_done_pack(const pendres_phase_done *l, pendres_phase_record **out)
+pendres_status pendres_phase_done_pack(const pendres_phase_done *l, pendres_phase_bytes *out)
 {
   const head h = {l->values, l->count, pendres_branches_packed_size(l->branches)};
   size_t size = sizeof h + h.values * sizeof *l->place + h.count * sizeof *l->points + h.branches;
   for (size_t k = 0; k < h.values; k++)
     size += sizeof l->mark[k].outcome + strlen(words_of(&l->mark[k])) + 1;
-  *out = pendres_phase_record_create(size);
-  if (*out == NULL) return PENDRES_OUT_OF_MEMORY;
-  char *to = put((*out)->bytes, &h, sizeof h);
+  *out = (pendres_phase_bytes){size, malloc(size)};
+  if (out->bytes == NULL) return PENDRES_OUT_OF_MEMORY;
+  char *to = put(out->bytes, &h, sizeof h);
   to = put(to, l->place, h.values * sizeof *l->place);
   to = put(to, l->points, h.count * sizeof *l->points);
   pendres_branches_pack(l->branches, to);

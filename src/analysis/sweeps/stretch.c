@@ -10,6 +10,7 @@
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "analysis/chaos/lyapunov_move.h"
+#include "continuation/sets.h"
 
 /* A branch is not followed where errors grow by more than this in a map: it has long been
    unstable. */
