@@ -1,7 +1,7 @@
 /*
  * test_linear.c -- oscillators under a linear force, whose motion grows without bound in the
  * tongues of parametric resonance: against characteristic values of Mathieu's equation, and against
- * an integration that shares nothing with the library.
+ * an integration that shares nothing with the library; and at rest.
  */
 #include "check.h"
 
@@ -179,10 +179,45 @@ static void response(void **state)
   pendres_context_free(ctx);
 }
 
+/* What rests dissipates nothing. Rounding moves it at its own frequency, here some six times that
+   of the drive that does not drive: speeds then have so much more of it than places. */
+static void rest_dissipates_nothing(void **state)
+{
+  static const struct {
+    double a1, damping, frequency, torque, x, v, tolerance;
+  } cases[] = {
+    {1665517.0556048499, 3605.4886076342309, 205.10288159516026, -3130382473.5875106,
+     -2584.4633044782945, 6839388.3873940324, 1.9910852708535799e-09},
+    {537391739.38797307, 53328.558285457708, 4500.3170718002884, 354942920.38559419,
+     0.69582953644462875, -3155.8705689074068, 3.2978762475378451e-11},
+    {0.0019439156686559102, 0.012787580441936548, 0.0055333257367304193, 0.17375054653236321,
+     150.75419217262353, -4.7468773137602458, 3.7965484907739939e-09},
+    {1.4341843578561111e-12, 3.4534242301403392e-06, 1.7628200030028026e-07,
+     9.3446012711767336e-13, -0.54970407227221019, -1.9400812177830802e-07,
+     1.2168470171197158e-10}};
+  (void)state;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    pendres_pendulum p = oscillator(cases[i].damping, cases[i].frequency, 0.0);
+    pendres_context *ctx = NULL;
+    pendres_orbit o;
+    pendres_status outcome;
+    p.force_coefficients[0] = cases[i].a1;
+    p.torque = cases[i].torque;
+    const pendres_orbit_guess guess = {
+      .pendulum = p, .x = cases[i].x, .v = cases[i].v, .period = 1};
+    check_ok(pendres_context_create(&(pendres_options){.tolerance = cases[i].tolerance}, &ctx));
+    check_ok(
+      pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_FREQUENCY_SLOPE, &o, &outcome));
+    assert_int_equal(outcome, PENDRES_OK);
+    assert_true(o.dissipation <= o.dissipation_error);
+    pendres_context_free(ctx);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(map), cmocka_unit_test(mathieu), cmocka_unit_test(all_escape),
-    cmocka_unit_test(response)};
+    cmocka_unit_test(response), cmocka_unit_test(rest_dissipates_nothing)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

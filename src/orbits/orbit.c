@@ -150,6 +150,16 @@ static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fi
   return spectrum;
 }
 
+/* At rest each step rounds the same pattern: it may be the worst one, four times the mean. */
+static const double worst = 4.0;
+
+/* Whether an orbit moves by no more than rounding: what steps leave of it, all together. */
+static int rests(const pendres_newton_candidate *c, const result *fine, double last_place)
+{
+  return c->guess->winding == 0 &&
+         !(fine->measures.amplitude > worst * last_place * fine->noise.along);
+}
+
 /*
  * How much more the steps of an orbit leave than those of one that swings. At rest each rounds a
  * number of the full size, twice what it is in the mean of a swing, and the same pattern of
@@ -162,11 +172,9 @@ static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fi
 static double excess_of_rounding(const pendres_newton_candidate *c, const result *fine,
                                  double last_place, double noise)
 {
-  static const double worst = 4.0;
   const pendres_pendulum *p = &c->guess->pendulum;
   double force, slope;
-  const int swings = fine->measures.amplitude > worst * last_place * fine->noise.along;
-  if (c->guess->winding != 0 || swings) return pendres_model_is_linear(p) ? 0.5 * worst : 1.0;
+  if (!rests(c, fine, last_place)) return pendres_model_is_linear(p) ? 0.5 * worst : 1.0;
   pendres_model_force(p, fine->y, &force, &slope);
   const double steps = c->steps * p->drive_frequency / (two_pi * sqrt(fabs(slope)));
   return fmax(fmin(steps / noise, noise), worst);
@@ -179,6 +187,7 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   const double noise = sqrt(c->steps * (double)c->guess->period); /* steps round at random */
   const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
   double last_place = fmax(rounding * size, DBL_TRUE_MIN);
+  const int still = rests(c, fine, last_place);
   last_place *= excess_of_rounding(c, fine, last_place, noise);
   const double there = hypot(fine->y - coarse->y, fine->w - coarse->w);
   const double along = pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
@@ -198,7 +207,8 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
                              .fine_measures = &fine->measures,
                              .at_start = {apart, last_place * fine->noise.start},
                              .along = {apart, last_place * fine->noise.along},
-                             .spectrum = spectrum_of(coarse, fine, rounding * noise)};
+                             .spectrum = spectrum_of(coarse, fine, rounding * noise),
+                             .rests = still};
   left_over(coarse, fine, two.left);
   pendres_orbit_set(&two, o);
   set_slope(coarse, fine, &two.along, rounding * noise, o, rounded);

@@ -197,6 +197,9 @@ void pendres_orbit_set(const pendres_orbit_twice *two, pendres_orbit *o)
   o->steps = two->steps;
   /* The mean angle belongs into well 0. */
   const long turns = set_measures(two->coarse_measures, two->fine_measures, &two->along, o);
+  /* What moves by rounding alone may be faster than rounding of its place tells, by the ratio of
+     its own frequency to the drive's; but all that it is seen to dissipate is an error. */
+  if (two->rests) o->dissipation_error = fmax(o->dissipation_error, 2.0 * o->dissipation);
   set_point(two, turns, o);
   set_spectrum(&two->spectrum, &two->at_start, o);
   o->frequency_derivative[0] = o->frequency_derivative[1] = NAN;

@@ -48,6 +48,7 @@ typedef struct pendres_orbit_twice {
   const pendres_orbit_measures *coarse_measures, *fine_measures;
   pendres_orbit_uncertainty at_start, along; /* at phase 0, and anywhere */
   pendres_orbit_spectrum spectrum;
+  int rests; /* it moves by rounding alone */
 } pendres_orbit_twice;
 
 /* Set all fields of the orbit and their errors; the slopes become NaN. */

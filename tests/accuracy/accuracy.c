@@ -33,6 +33,8 @@ static const section sections[] = {
   {"search", accuracy_search},
   {"ensembles", accuracy_ensembles},
   {"sweeps", accuracy_sweeps},
+  {"ramps", accuracy_ramps},
+  {"switching", accuracy_switching},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 

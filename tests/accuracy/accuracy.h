@@ -109,6 +109,21 @@ accuracy_units accuracy_near_units(accuracy_units u);
 /* An orbit that was found in units so long, in those of the draw. */
 pendres_orbit accuracy_out_of_units(const pendres_orbit *o, accuracy_units u);
 
+/* ---- an own simulation ---- */
+
+/* A pendulum, whose parameter may move by `rate` each drive period from a value on. */
+typedef struct accuracy_own {
+  pendres_pendulum pendulum;
+  pendres_parameter parameter;
+  double from, rate;
+  int steps; /* a drive period, of order four */
+} accuracy_own;
+
+/* Drive period `number` from the state x, v on, with noise unless that is NULL; and the first
+   harmonic of x during it. */
+void accuracy_own_period(const accuracy_own *own, long number, accuracy_random *noise, double s[2],
+                         double harmonic[2]);
+
 /* ---- sections ---- */
 
 void accuracy_orbits(accuracy *a);
@@ -122,6 +137,8 @@ void accuracy_resonance(accuracy *a);
 void accuracy_search(accuracy *a);
 void accuracy_ensembles(accuracy *a);
 void accuracy_sweeps(accuracy *a);
+void accuracy_ramps(accuracy *a);
+void accuracy_switching(accuracy *a);
 
 /* ---- for main ---- */
 
