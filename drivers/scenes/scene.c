@@ -231,6 +231,7 @@ double scene_fixed(const deck *d, deck_axis_id axis)
   const int coefficients = pendres_model_of(d->pendulum.force)->coefficients;
   if (a->count > 0) return a->count == 1 && !deck_has_axis(d, axis) ? a->value[0] : NAN;
   if (axis == DECK_AXIS_DRIVE_PERIOD) return d->drive_period;
+  if ((int)parameter >= PENDRES_PARAMETER_FOLLOWED) return NAN; /* another one stands for it */
   const double value = pendres_parameter_get(parameter, &d->pendulum);
   if (info->coefficient > 0) return info->coefficient <= coefficients ? value : NAN;
   return value != 0.0 || info->plain ? value : NAN;
