@@ -1,4 +1,4 @@
-/* point.c -- the point that a task works on; see pool_internal.h and farm_point(). */
+/* point.c -- the point that a task is computing; see pool_internal.h and farm_point(). */
 #include "farm/pool_internal.h"
 
 #include <stdarg.h>

@@ -88,11 +88,11 @@ void pool_finish(pool *c, size_t task, pendres_status status, farm_record *recor
  * computed with a budget is reproduced only where none was ended.
  */
 
-/* Is the point under way to be given up? Asked now and then by the thread that computes it, `now`
-   being its milliseconds; tells the user of a costly point, once. */
+/* Whether the current point is to be given up. Called now and then by the thread that computes it,
+   `now` being its milliseconds; tells the user of a costly point, once. */
 int point_over(farm_watch *w, long long now);
 
-/* Nothing is under way any more; what was is part of the mean from now on. */
+/* The current point has ended and is part of the mean from now on. */
 void point_end(farm_watch *w);
 
 #endif

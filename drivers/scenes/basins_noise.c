@@ -219,7 +219,7 @@ static const scene_column columns[] = {
    .long_name = "steps a drive period of the noisy integrator"},
   PLAIN(escapes, offsetof(row, escapes), "trajectories that left for another attractor or well"),
   PLAIN(escape_exposure, OF(escape_exposure), "time that trajectories were watched"),
-  {.name = "escape_rate", .long_name = "escapes a unit time", .value = OF(escape_rate.value),
+  {.name = "escape_rate", .long_name = "escapes per unit time", .value = OF(escape_rate.value),
    .error = OF(escape_rate.error)},
   PLAIN(escape_rate_lower, OF(escape_rate.lower), "lower end of its 95 % confidence interval"),
   PLAIN(escape_rate_upper, OF(escape_rate.upper), "upper end of its 95 % confidence interval"),

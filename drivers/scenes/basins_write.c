@@ -130,7 +130,7 @@ static const scene_column of_attractors[] = {
   PLAIN(winding, SCENE_NUMBER, orbit.winding, "whole turns in that time"),
   OF_ORBIT(x, "position at drive phase 0, in well 0", "rad"),
   OF_ORBIT(v, "velocity at drive phase 0", "1"),
-  OF_ATTRACTOR(lyapunov, lyapunov, "largest Lyapunov exponent a unit time"),
+  OF_ATTRACTOR(lyapunov, lyapunov, "largest Lyapunov exponent per unit time"),
   OF_ATTRACTOR(drift, drift, "mean whole turns a drive period, of chaos"),
   PLAIN(watched_periods, SCENE_PLAIN, watched_periods,
         "drive periods that chaos was watched for without ending, all walkers together"),

@@ -169,7 +169,7 @@ static int has_exponents(const deck *d)
 }
 
 static const scene_column of_points[] = {
-  {.name = "lyapunov", .long_name = "largest Lyapunov exponent a unit time", .units = "1",
+  {.name = "lyapunov", .long_name = "largest Lyapunov exponent per unit time", .units = "1",
    .when = has_exponents, .value = offsetof(scene_along_row, of.attractor.lyapunov),
    .error = offsetof(scene_along_row, of.attractor.lyapunov_error)},
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),

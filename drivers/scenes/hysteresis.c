@@ -29,7 +29,7 @@ static const scene_column of_points[] = {
   SCENE_ALONG_COLUMN(mean_velocity, mean_velocity, "mean velocity of x", "1"),
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(scene_along_row, winding, "whole turns until the orbit closes", "1"),
-  SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent a unit time", "1"),
+  SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent per unit time", "1"),
 };
 
 static const char *const directions[DIRECTIONS] = {"up", "down"};

@@ -109,7 +109,7 @@ static const char *words_for(scene_failure reason)
 }
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(row, lyapunov, "largest Lyapunov exponent a unit time", "1"),
+  SCENE_COLUMN(row, lyapunov, "largest Lyapunov exponent per unit time", "1"),
   SCENE_COLUMN(row, rotation, "mean whole turns a drive period", "1"),
   SCENE_COLUMN(row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(row, winding, "whole turns until the orbit closes", "1"),

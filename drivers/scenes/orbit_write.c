@@ -71,7 +71,7 @@ static void put_scalars(scene_run *run, const orbit_work *w)
       o->winding == 0 ? (double)f->well : NAN, 0.0, CLOSED },
     { SCALAR("settling_periods", "drive periods from the start to the trapping region", "1"),
       waited, 0.0, ALWAYS },
-    { SCALAR("lyapunov_exponent", "largest Lyapunov exponent a unit time", "1"), f->lyapunov,
+    { SCALAR("lyapunov_exponent", "largest Lyapunov exponent per unit time", "1"), f->lyapunov,
       f->lyapunov_error, ALWAYS },
     { SCALAR("drift", "mean whole turns a drive period, of chaos", "1"), f->drift,
       f->drift_error, CHAOTIC },

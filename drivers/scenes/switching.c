@@ -244,7 +244,7 @@ static void compute(scene_run *run, work *w)
   {.name = label, .long_name = words, .type = what, \
    .value = offsetof(pendres_switching_rate, field)}
 static const scene_column of_rates[] = {
-  {.name = "rate_*", .long_name = "transitions a unit time",
+  {.name = "rate_*", .long_name = "transitions per unit time",
    .value = offsetof(pendres_switching_rate, value),
    .error = offsetof(pendres_switching_rate, error)},
   RATE("rate_*_lower", "lower end of the rate's confidence interval,", SCENE_PLAIN, lower),

@@ -1,6 +1,6 @@
 /**
  * @file attractor.h
- * @brief What pendulums settle on, checked rather than hoped for.
+ * @brief The attractors on which pendulums settle, and checks that they do.
  *
  * Owns: the set of attractors of one parameter set, their trapping ellipses, and the labels of
  * pendulums.
@@ -21,7 +21,7 @@
  * above the margin of a twentieth of the radius.
  * What has not settled within its budget of periods is unresolved, never guessed.
  *
- * The error of the integration is carried along with each pendulum. Only if it is small against the
+ * The error of the integration is propagated with each pendulum. Only if it is small against the
  * ellipse, and was small on the way, is the label certain (pendres_outcome.certain); pendulums for
  * which it is not are integrated again, more and more exactly, down to rounding.
  *
@@ -42,33 +42,31 @@ extern "C" {
 /**
  * Labels. Of the orbits of one drive period without winding that coexist at a pendulum's
  * parameters, the one of smallest amplitude is SA, those of larger amplitude are LA, whatever the
- * drive; a pair of mirror images counts as one, where there is mirror symmetry. An orbit that is
- * alone continues one of the two if both coexist at other parameters: what is found at one set of
- * parameters does not tell. Under the
- * weak drives of the paper (|F0| <= 0.25) it is SA if it lags less than pi/3 behind the drive (or
- * is at rest), else LA, which comes to the same; under stronger ones it is PERIODIC until
- * pendres_response_name() or a phase diagram has seen it among its neighbours.
+ * drive; a pair of mirror images counts as one, where there is mirror symmetry. A single orbit
+ * continues one of the two if both coexist at other parameters, which cannot be decided from one
+ * set of parameters. With the weak drives of the paper (|F0| <= 0.25) it is SA if its phase lag is
+ * less than pi/3 (or it is at rest), otherwise LA, which is equivalent; with stronger ones it is
+ * PERIODIC until pendres_response_name() or a phase diagram has compared it with its neighbours.
  */
 typedef enum pendres_label {
   PENDRES_LABEL_SA = 0,         /**< small amplitude */
   PENDRES_LABEL_LA = 1,         /**< large amplitude */
   PENDRES_LABEL_PERIODIC = 2,   /**< any other closed orbit, or one without a name */
-  PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0; in hysteresis.h
+  PENDRES_LABEL_RUNNING = 3,    /**< closes up to whole turns: winding not 0; in hysteresis.h
                                      also without a drive, in a period of its own */
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
   PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
-  PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity, from where a force that drives
-                                     outwards does not let it return, or growing for ever under a
-                                     linear force: no attractor */
-  PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation under a drive that is not locked to it; told by
-                                         lyapunov.h and hysteresis.h alone */
+  PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity and too far out to return, or growing
+                                     without bound under a linear force: not an attractor */
+  PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation that is not locked to the drive; found only by
+                                         lyapunov.h and hysteresis.h */
   PENDRES_LABEL_COUNT           /**< how many there are; not a label */
 } pendres_label;
 
 /** An attractor of one parameter set. */
 typedef struct pendres_attractor {
-  pendres_label label;      /**< what it is called */
-  pendres_orbit orbit;      /**< for a chaotic attractor pendulum and means over time a drive cycle:
+  pendres_label label;      /**< its label */
+  pendres_orbit orbit;      /**< for a chaotic attractor its pendulum and means over a drive cycle:
                                  loop_area, dissipation, mean_power, and amplitude (half peak to
                                  peak within a cycle, cycles from drive phases 0 and pi on), with
                                  errors that hold with a confidence of 99.9 %; the rest is NaN */
@@ -80,8 +78,9 @@ typedef struct pendres_attractor {
   double drift;             /**< mean whole turns a drive period of a chaotic motion; NaN of closed
                                  orbits */
   double drift_error;       /**< its error, which holds with a confidence of 99.9 % */
-  double watched_periods;   /**< drive periods, added up over replicas, that a chaotic attractor was
-                                 watched for without one leaving it; NaN of closed orbits */
+  double watched_periods;   /**< drive periods, summed over replicas, for which a chaotic attractor
+                                 was followed without any of them leaving it; NaN of closed orbits
+                                 */
   double escape_rate_bound; /**< a chaotic motion that ended at a larger rate, a drive period, would
                                  have been seen to end with a probability of 95 %; smaller rates
                                  are not excluded; NaN of closed orbits */
@@ -100,20 +99,20 @@ const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, s
 /** Instead of the number of an attractor. */
 enum {
   PENDRES_ATTRACTOR_UNKNOWN = -1, /**< unresolved */
-  PENDRES_ATTRACTOR_ESCAPED = -2  /**< on no attractor, but on the way to infinity */
+  PENDRES_ATTRACTOR_ESCAPED = -2  /**< on the way to infinity, not on an attractor */
 };
 
 /**
- * What became of a pendulum. It has escaped where the force drives it outwards for ever, whatever
- * the drive does: at |b| < 1, to the right, with phi(x) = -f(x), from X on where for all x >= X
- * phi(x) > 0 and phi(x) (1 - |b|) + I - |F0| > 0, and v >= 0; to the left likewise. There v cannot
- * fall below 0 again, since at v = 0 the acceleration is positive, and x goes to infinity. X is
- * what the force's model says (pendres_model, `outward`): of a polynomial Fujiwara's bound of the
- * zeros of both, of a force of one's own what its header has; a force without it has no escapes.
- * Under a linear force, a polynomial of a1 alone, all motions have the same Floquet multipliers. If
- * one of these is larger than 1 by more than its error, as in a tongue of parametric resonance, all
- * pendulums have escaped before their first period, but for those on the unstable orbit exactly,
- * which are not told apart.
+ * The outcome for a pendulum. It has escaped where the force drives it outwards for ever, whatever
+ * the drive does: for |b| < 1 to the right, with phi(x) = -f(x), beyond an X such that for all
+ * x >= X phi(x) > 0 and phi(x) (1 - |b|) + I - |F0| > 0, and v >= 0; to the left likewise. There v
+ * cannot fall below 0 again, since at v = 0 the acceleration is positive, and x goes to infinity. X
+ * comes from the force's model (pendres_model, `outward`): for a polynomial it is Fujiwara's bound
+ * of the zeros of both expressions, for a force with a header of its own the value that this
+ * gives; without it there are no escapes. Under a linear force, a polynomial with a1 only, all
+ * motions have the same Floquet multipliers. If one of these is larger than 1 by more than its
+ * error, as in a tongue of parametric resonance, all pendulums have escaped before their first
+ * period, including those exactly on the unstable orbit, which are not distinguished.
  */
 typedef struct pendres_outcome {
   pendres_label label;   /**< that of its attractor; ESCAPE or UNRESOLVED if there is none */
@@ -129,9 +128,9 @@ typedef struct pendres_outcome {
 
 /**
  * Find the attractors of one parameter set from n initial guesses x[n], v[n] at drive phase 0 (n =
- * 0: a built-in set of 36 over a turn, and 36 in each well of another force that has a barrier;
- * what attracts few states may be missed). *out is to be freed by pendres_attractors_free.
- * PENDRES_OK also when an initial guess stayed unresolved.
+ * 0: a built-in set of 36 over a turn, and 36 in each well of another force that has a barrier; an
+ * attractor with a small basin may be missed). *out is to be freed by pendres_attractors_free.
+ * PENDRES_OK also if an initial guess stayed unresolved.
  */
 pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
                                        const double *x, const double *v,
@@ -139,7 +138,7 @@ pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendu
 
 /**
  * Label n pendulums of the parameter set that `set` was found for. Only attractors in the set
- * are seen: what goes elsewhere is unresolved. outcome[n] is written.
+ * are known: pendulums that go elsewhere are unresolved. outcome[n] is written.
  */
 pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_attractors *set,
                                          size_t n, const double *x, const double *v,
@@ -159,7 +158,7 @@ pendres_status pendres_attractors_point(pendres_context *ctx, const pendres_attr
 
 /**
  * Largest modulus of a Floquet multiplier of any closed orbit in a set: that of the attractor which
- * draws pendulums in most slowly. NaN if there is none.
+ * pendulums approach most slowly. NaN if there is none.
  */
 double pendres_attractors_weakest_multiplier(const pendres_attractors *set);
 

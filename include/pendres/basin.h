@@ -15,7 +15,7 @@
  *   4. what is still unresolved: pendres_basin_extend; if it finds an attractor, all again
  *
  * pendres_basin_compute does these steps on one thread for a grid that fits into memory.
- * Results depend on the grid, its attractors and the tolerance alone, not on how it is cut.
+ * Results depend only on the grid, its attractors and the tolerance, not on how it is divided.
  */
 #ifndef PENDRES_BASIN_H
 #define PENDRES_BASIN_H
@@ -29,7 +29,7 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/** When two states are alike: what statistics count as one end. */
+/** When two states are alike: what statistics count as the same outcome. */
 typedef enum pendres_basin_end {
   PENDRES_BASIN_BY_ATTRACTOR = 0, /**< when they settle on the same attractor modulo one turn */
   PENDRES_BASIN_BY_WELL,          /**< when they settle on it in the same well, too */
@@ -42,24 +42,24 @@ typedef struct pendres_basin_grid {
   size_t nv;       /**< how many velocities */
   const double *x; /**< [nx] positions, rad; not owned */
   const double *v; /**< [nv] velocities; not owned */
-  pendres_basin_end by; /**< what statistics of the grid count as one end; labels do not depend on
-                             it */
+  pendres_basin_end by; /**< what statistics of the grid count as the same outcome; labels do not
+                             depend on it */
 } pendres_basin_grid;
 
 /** How a state was found. */
 typedef enum pendres_basin_how {
   PENDRES_BASIN_INTEGRATED = 0, /**< by integration, and it is certain */
-  PENDRES_BASIN_FILLED = 1,  /**< taken over from its surroundings (refinement alone) */
+  PENDRES_BASIN_FILLED = 1,  /**< copied from its neighbours (only in refinement) */
   PENDRES_BASIN_DEFERRED = 2, /**< not settled within the short budget of pendres_basin_rows */
   PENDRES_BASIN_UNCERTAIN = 3, /**< integrated, but may belong to another basin: the errors that it
                                     carried were not small (pendres_outcome.certain) */
   PENDRES_BASIN_HOW_COUNT      /**< how many there are */
 } pendres_basin_how;
 
-/** What became of a state; compact, since there are many. */
+/** The outcome for a state; compact, since there are many. */
 typedef struct pendres_basin_state {
-  int32_t well;             /**< as in pendres_outcome; a state that settles in a well beyond those
-                                 that 32 bits number is unresolved */
+  int32_t well;             /**< as in pendres_outcome; a state that settles in a well whose number
+                                 needs more than 32 bits is unresolved */
   int32_t settling_periods; /**< -1: unresolved; -2: filled */
   int16_t attractor;        /**< index in the set; PENDRES_ATTRACTOR_UNKNOWN (deferred, too) or
                                  PENDRES_ATTRACTOR_ESCAPED */
@@ -76,7 +76,7 @@ pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pend
 
 /**
  * Rows first .. first + rows - 1 of a grid; state[rows * nv] is written. Where very many do not
- * settle soon they are given all their budget at once, and none is deferred.
+ * settle soon they are given all their budget immediately, and none is deferred.
  */
 pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,
                                   const pendres_basin_grid *grid, size_t first, size_t rows,
@@ -125,13 +125,13 @@ void pendres_basin_plan_free(pendres_basin_plan *plan);
  * numbers in the grid, *n of them, owned by the plan. *n = 0: all states are known.
  */
 pendres_status pendres_basin_plan_next(pendres_basin_plan *plan, size_t *n, const size_t **index);
-/** Take over the results for these states, in their order. */
+/** Give the plan the results for these states, in their order. */
 pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
                                          const pendres_basin_state *state);
 
 /**
  * Draw up to n different states that were filled in, evenly over the rows; *drawn receives how
- * many. The caller integrates them and hands the results to pendres_basin_plan_verify(), which
+ * many. The caller integrates them and passes the results to pendres_basin_plan_verify(), which
  * counts those that had been filled in wrongly; the others stay filled in. If any were wrong,
  * pendres_basin_plan_next() asks for all filled-in states within one lattice spacing around them,
  * and for a lattice of half the spacing everywhere. With the default stride, therefore, after at
@@ -139,8 +139,8 @@ pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
  */
 pendres_status pendres_basin_plan_sample(pendres_basin_plan *plan, size_t n, uint64_t seed,
                                          size_t *drawn, const size_t **index);
-/** Take over the results for the states drawn by pendres_basin_plan_sample(); *missed receives how
-    many of them had been filled in wrongly. */
+/** Give the plan the results for the states drawn by pendres_basin_plan_sample(); *missed receives
+    how many of them had been filled in wrongly. */
 pendres_status pendres_basin_plan_verify(pendres_basin_plan *plan,
                                          const pendres_basin_state *state, size_t *missed);
 
@@ -168,10 +168,10 @@ enum {
 /** Statistics of a grid. Two states are alike when they have the same attractor, or, by well, the
     same attractor and well. */
 typedef struct pendres_basin_statistics {
-  size_t states;                   /**< how many were looked at */
-  size_t unresolved;               /**< those of them of which nothing is known */
+  size_t states;                   /**< number of states of the grid */
+  size_t unresolved;               /**< how many of them are unresolved */
   double entropy;                  /**< basin entropy: mean over boxes of 5 x 5 states of
-                                        -sum p log p, p the shares of ends in the box */
+                                        -sum p log p, p the shares of outcomes in the box */
   double entropy_error;            /**< its error */
   double boundary_entropy;         /**< the same over boxes with unlike states; more than log 2: a
                                         fractal boundary. NaN without any */
@@ -184,11 +184,11 @@ typedef struct pendres_basin_statistics {
   double uncertainty_exponent_error; /**< its error */
   int scales;                      /**< how many distances there are */
   double distance[PENDRES_BASIN_SCALES];  /**< [scales] distances d in v */
-  double uncertain[PENDRES_BASIN_SCALES]; /**< [scales] f: share of states with an unlike one so far
-                                               away */
+  double uncertain[PENDRES_BASIN_SCALES]; /**< [scales] f: share of states with an unlike one at
+                                               that distance */
   double uncertain_error[PENDRES_BASIN_SCALES]; /**< [scales] errors of these */
   size_t uncertain_states;         /**< integrated ones that may belong to another basin */
-  size_t escaped;                  /**< those on their way to infinity: an end of their own */
+  size_t escaped;                  /**< those on their way to infinity: a separate outcome */
   double escape_fraction;          /**< their share of the window's area */
   double escape_fraction_error;    /**< its error */
 } pendres_basin_statistics;
@@ -205,12 +205,12 @@ typedef struct pendres_basin_well {
  * Opaque: sums over the rows of a grid. Where v is not evenly spaced there is no uncertainty
  * exponent.
  *
- * Errors hold for the sampling of the window by this grid: what the same grid finds that is shifted
- * by a part of its step. They are standard errors from the scatter between groups of rows around
- * their trend, of fractions two of them; NaN where a grid has fewer than 20 rows. States that are
- * uncertain count in all of them. An uncertainty exponent's error contains what slopes differ by
- * over the distances used. It cannot know of a limit far below the grid's
- * step: pendres_basin_uncertainty looks there.
+ * Errors are those of sampling the window by this grid: the scatter of results over grids that are
+ * shifted by a fraction of their step. They are standard errors from the scatter between groups of
+ * rows around their trend, for fractions two standard errors; NaN where a grid has fewer than 20
+ * rows. Uncertain states contribute to all of them. The error of an uncertainty exponent includes
+ * the differences between slopes over the distances used. It does not include the distance from a
+ * limit far below the grid's step, which pendres_basin_uncertainty() examines.
  *
  * Sources: Daza, Wagemakers, Georgeot, Guéry-Odelin, Sanjuán, Scientific Reports 6 (2016) 31416;
  * McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125.
@@ -245,7 +245,7 @@ pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
 pendres_status pendres_basin_sums_counts(const pendres_basin_sums *sums, size_t *states);
 /**
  * The wells that states go to, by attractor, then by well: *n of them, owned by the sums, valid
- * until the next call. Fractions and counts of attractors are modulo one turn, as are all
+ * until the next call. Fractions and counts of attractors are modulo one turn, and so are all
  * statistics unless they are by well.
  */
 pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
@@ -271,7 +271,7 @@ typedef struct pendres_basin_window {
 /** Random states of a window, each with neighbours at v + distance[k] and v - distance[k]. */
 typedef struct pendres_basin_sample {
   size_t n;               /**< how many states */
-  uint64_t seed;          /**< what they depend on, beside the window */
+  uint64_t seed;          /**< of the random numbers */
   int scales;             /**< how many distances, PENDRES_BASIN_SCALES at most */
   const double *distance; /**< [scales], not kept; meaningless near rounding, some 1e-12 */
 } pendres_basin_sample;
@@ -282,9 +282,9 @@ typedef struct pendres_basin_sample {
  * uncertain at nearly all distances, only the first of them are used; the field `states` says how
  * many. The fields states, unresolved, uncertain_states, uncertainty_exponent, distance and
  * uncertain are set; others are NaN or 0. Whatever the tolerance, labels are made certain down to
- * rounding; states whose end rounding decides, or that settle too late, count in the errors.
+ * rounding; states whose outcome depends on rounding, or that settle too late, enter the errors.
  * PENDRES_NOT_FOUND: there are too few distances at which the boundary is met often enough for a
- * count, but by fewer than half of the states (shares near one are no power of the distance).
+ * count, but by fewer than half of the states (shares near one are not a power of the distance).
  */
 pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
                                          const pendres_basin_window *window,
@@ -292,10 +292,11 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
                                          pendres_basin_statistics *out);
 
 /**
- * Have the uncertainty exponent of a grid's statistics from random states of its window, where
- * these tell more of that limit than the grid does. A fractal boundary fills a grid at every
- * distance that the grid has, or is not yet the power that it becomes, while random states meet it
- * at distances far below the grid's step; a smooth one they meet too rarely there.
+ * Replace the uncertainty exponent of a grid's statistics by that from random states of its window,
+ * where these give more information on that limit than the grid. A fractal boundary may fill a grid
+ * at every distance that the grid has, or its share may not yet be a power of the distance, while
+ * random states meet it at distances far below the grid's step; a smooth boundary they meet too
+ * rarely there.
  *
  * @param ctx        belongs to one thread at a time; its tolerance changes nothing
  * @param set        the attractors that the grid was settled on; read
@@ -303,7 +304,7 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
  * @param statistics those of pendres_basin_sums_result(); replaced are uncertainty_exponent,
  *                   scales, distance and uncertain, with their errors, or nothing is
  * @param states     written: how many random states these are from; 0: they are the grid's own
- * @return PENDRES_OK also where random states tell nothing; PENDRES_INVALID_ARGUMENT (ctx, set,
+ * @return PENDRES_OK also where random states give no exponent; PENDRES_INVALID_ARGUMENT (ctx, set,
  *         grid, its values, statistics or states are NULL, or the grid spans no window), and
  *         failures of the integration: the statistics are as they were. Bounded in work as
  *         pendres_basin_uncertainty() is.

@@ -7,8 +7,8 @@
  * mapping it one drive period back gives more of it.
  *
  * The stroboscopic map backwards is the map of the same pendulum with negative damping, seen
- * in a mirror: time -> -time turns (damping, v) into (-damping, -v) and leaves the drive, which
- * is even in time, alone. Going back, errors across the manifold shrink.
+ * in a mirror: time -> -time changes (damping, v) into (-damping, -v) and leaves the drive, which
+ * is even in time, unchanged. Backwards in time, errors across the manifold shrink.
  *
  * Serves all pendulums and forces. With another force than the pendulum's a state that has left may
  * come back from any distance, so the curve is followed as far as twice the window's size around
@@ -28,7 +28,7 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/** What is wanted. Zero in a field means the default. */
+/** Options. Zero in a field means the default. */
 typedef struct pendres_boundary_options {
   double x_low;         /**< window in which points are kept, rad; where x_low and x_high are 0: one
                              turn around well 0, of a polynomial pi times its unit of length
@@ -40,7 +40,7 @@ typedef struct pendres_boundary_options {
                              of time; default 0.05 units of length */
   double deviation;     /**< of the polyline from the curve between its points, likewise; default
                              1e-5 */
-  size_t most_points;   /**< grown before giving up; default 400000 */
+  size_t most_points;   /**< number of points after which the curve ends; default 400000 */
 } pendres_boundary_options;
 
 /** A curve in one or more pieces. Made and freed by the library, which alone may change it. */
@@ -69,9 +69,9 @@ pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *at
  * turns included. options may be NULL. *out is to be freed by pendres_boundary_free.
  *
  * A manifold that accumulates on itself or on another one (in a fractal boundary or in endless
- * strands) has no end: what fits into most_points, and starts at points that doubles tell apart,
- * is given, and `complete` is 0.
- * Errors: PENDRES_INVALID_ARGUMENT (no saddle, or an empty window), those of the integration.
+ * strands) has no end: the part that fits into most_points, and starts at points that are distinct
+ * in double precision, is given, and `complete` is 0.
+ * Errors: PENDRES_INVALID_ARGUMENT (not a saddle, or an empty window), those of the integration.
  */
 pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
                                      const pendres_boundary_options *options,

@@ -7,7 +7,7 @@
  *
  * Thread safety: a context belongs to one thread at a time; two contexts never
  * share anything. Results do not depend on which context computed them. A context that is in use,
- * by another thread or by the call which asks the present function (see
+ * by another thread or by the call that has called the present function (see
  * pendres_context_set_interrupt), is refused with PENDRES_BUSY by every function that computes.
  */
 #ifndef PENDRES_CONTEXT_H
@@ -29,8 +29,8 @@ typedef struct pendres_context pendres_context;
 /**
  * How pendulums are advanced. The first is the default and by far the fastest, and the only one
  * whose steps are chosen such that results meet the tolerance; with the others it is the tolerance
- * of each step. Advancing, settling and free oscillations go by the method; orbits, their measures,
- * branches, trajectories that are recorded and boundaries have fixed steps whatever it is.
+ * of each step. Advancing, settling and free oscillations use the method; orbits, their measures,
+ * branches, recorded trajectories and boundaries always have fixed steps.
  */
 typedef enum pendres_method {
   PENDRES_BLOCK_FIXED = 0, /**< blocks on ARKODE, fixed steps, reset every period */
@@ -38,8 +38,8 @@ typedef enum pendres_method {
   PENDRES_SINGLE,          /**< one adaptive ARKODE problem a pendulum */
   PENDRES_CVODE_ADAMS,     /**< one CVODE Adams problem a pendulum */
   PENDRES_CVODE_BDF,       /**< one CVODE BDF problem a pendulum, Newton with the exact Jacobian */
-  PENDRES_NAIVE,           /**< one ARKODE problem a pendulum, all but the tolerance as it comes:
-                                what the others are measured against */
+  PENDRES_NAIVE,           /**< one ARKODE problem a pendulum, with ARKODE's defaults except for the
+                                tolerance: the baseline of benchmarks */
   PENDRES_METHOD_COUNT     /**< how many there are; not a method */
 } pendres_method;
 
@@ -60,11 +60,11 @@ typedef enum pendres_table {
 
 /** What a caller may choose. Zero in any field means the default. */
 typedef struct pendres_options {
-  double tolerance;     /**< of the results, absolute: a length as x is, of which areas, velocities
-                             and others have what follows in a pendulum's units
-                             (pendres_units_of); at least 1e-13 of its unit of length, or
-                             computations refuse it; more than 1e-2 of it counts as that. Default:
-                             1e-8 of that unit, whatever it is */
+  double tolerance;     /**< absolute tolerance of the results: a length, like x; that of areas,
+                             velocities and others follows with the pendulum's units
+                             (pendres_units_of). At least 1e-13 of the unit of length, otherwise
+                             computations refuse it; more than 1e-2 of it counts as 1e-2. Default:
+                             1e-8 of that unit */
   pendres_method method; /**< how pendulums are advanced */
   pendres_table table;  /**< Butcher table of the methods on ARKODE */
   int steps_per_period; /**< overrides the choice made from the tolerance */
@@ -72,9 +72,9 @@ typedef struct pendres_options {
   long period_budget;   /**< drive periods after which a pendulum is unresolved; default
                              from damping and tolerance */
   double exponent_error; /**< relative standard error of a chaotic attractor's exponent at which its
-                             averages may end, at most 1. What is told of the attractor then comes
-                             from fewer periods as well (watched_periods). Default: averages are as
-                             long as telling lasting chaos from chaos that ends takes */
+                             averages may end, at most 1. The other results for the attractor then
+                             come from fewer periods as well (watched_periods). Default: averages
+                             are as long as needed to distinguish lasting from transient chaos */
   uint64_t seed;        /**< of all random numbers of noisy trajectories (langevin.h): any value;
                              zero is a seed like any other */
 } pendres_options;
@@ -85,10 +85,11 @@ typedef struct pendres_cost {
   double rhs_evaluations;   /**< right-hand sides, one a lane, stage and step */
   double steps;             /**< steps of the integrators, over all lanes, without rejected ones */
   double newton_steps;      /**< Newton iterations on the stroboscopic map */
-  double settled_pendulums; /**< pendulums that were asked what they settle on */
+  double settled_pendulums; /**< pendulums for which it was computed what they settle on */
 } pendres_cost;
 
-/** NULL when the options are valid, else a static sentence on what is wrong. NULL: defaults. */
+/** NULL if the options are valid, otherwise a static sentence that says what is wrong. options may
+    be NULL: defaults. */
 const char *pendres_options_check(const pendres_options *options);
 
 /**
@@ -104,8 +105,8 @@ pendres_status pendres_context_create(const pendres_options *options, pendres_co
 void pendres_context_free(pendres_context *ctx);
 
 /**
- * The sentence on how the last computation failed; "" if it did not. Owned by the context, valid
- * until its next use. While the context is in use: that it is.
+ * The message of the last computation if it failed, otherwise "". Owned by the context, valid until
+ * its next use. While the context is in use, the message says so.
  */
 const char *pendres_context_message(const pendres_context *ctx);
 
@@ -118,10 +119,10 @@ void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost);
 void pendres_context_cost_reset(pendres_context *ctx);
 
 /**
- * A function that is asked now and then, within long drive periods too, whether to go on: it
- * returns nonzero to stop, and the computation then ends with PENDRES_INTERRUPTED. NULL removes
- * it. arg is kept, not owned. Within that function the context is in use, and may be asked for its
- * cost and options alone. A context in use keeps the function that it has.
+ * Set a function that is called now and then, within long drive periods, too: it returns nonzero to
+ * stop, and the computation then ends with PENDRES_INTERRUPTED. NULL removes it. arg is kept, not
+ * owned. Within that function the context is in use, and only its cost and options may be asked
+ * for. A context in use keeps the function that it has.
  */
 void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg);
 

@@ -11,8 +11,8 @@
  *
  *   loop area     A = (1/q) closed integral of F dx, F = F0 cos theta
  *   dissipation   D = (gamma/q) closed integral of v^2 dt; equal to A on a closed orbit, with a
- *                 torque or a parametric drive to A and what these give: the difference is a free
- *                 check (energy balance)
+ *                 torque or a parametric drive to A plus the work of these: the difference is a
+ *                 check at no cost (energy balance)
  *   mean power    P = A omega / (2 pi)
  *   amplitude     half the peak-to-peak of the angle (of its periodic part if p != 0)
  *   first harmonic of the angle, a cos theta + b sin theta = R cos(theta - phi):
@@ -80,31 +80,32 @@ typedef struct pendres_orbit {
   int steps;                 /**< steps a period of the finer computation */
   double harmonics_rest;     /**< bounds what the harmonics that are not kept add to the angle,
                                   averaged over the drive cycles */
-  double torque_work;        /**< what the torque gives a drive cycle, 2 pi I p / q, exactly */
-  double parametric_work;    /**< what the parametric drive gives a drive cycle, in m g l */
+  double torque_work;        /**< work of the torque per drive cycle, exactly 2 pi I p / q */
+  double parametric_work;    /**< work of the parametric drive per drive cycle, in m g l */
   double parametric_work_error; /**< its error */
 } pendres_orbit;
 
-/** A measure of orbits: what it is, and where it stands in a pendres_orbit. */
+/** A measure of orbits: its meaning, and its position in a pendres_orbit. */
 typedef struct pendres_orbit_quantity {
   const char *name;       /**< of the field, and of variables in files */
-  const char *long_name;  /**< in a few words */
+  const char *long_name;  /**< short description */
   const char *units;      /**< "rad", or "1": those of the equation */
   const char *definition; /**< as a formula in words */
   const char *coordinate; /**< the same where x is no angle; NULL: the same words */
   size_t value;           /**< offset in bytes of the value, a double */
   size_t error;           /**< offset of its error; PENDRES_ORBIT_EXACT: it is
-                               exact but for rounding */
-  int principal;          /**< 1: belongs to the few that tell orbits apart at first sight */
+                               exact except for rounding */
+  int principal;          /**< 1: one of the few by which orbits are most easily distinguished */
   int of_forces;          /**< 1: zero without a torque, a parametric drive or another force */
 } pendres_orbit_quantity;
 
-/** In the place of the offset of an error. */
+/** Stands in place of the offset of an error. */
 #define PENDRES_ORBIT_EXACT ((size_t)-1)
 
 /**
  * The measures of orbits by number, from 0 on; NULL beyond the last. Nothing is to be freed; any
- * thread may call it. A program that lists or stores measures so has those of later versions, too.
+ * thread may call it. A program that lists or stores measures in this way includes those of later
+ * versions, too.
  */
 const pendres_orbit_quantity *pendres_orbit_quantity_get(size_t number);
 
@@ -128,7 +129,7 @@ typedef enum pendres_orbit_want {
  *
  * guess[n] is read; out[n] and outcome[n] are written. outcome[i] is PENDRES_OK, or
  * PENDRES_NOT_CONVERGED where Newton's method found no orbit near the guess, or one so close to
- * its end in a fold that it cannot be told from the ghost beyond (out[i] is then undefined), or
+ * a fold that it cannot be distinguished from its ghost beyond it (out[i] is then undefined), or
  * PENDRES_TOLERANCE_UNREACHABLE where an orbit was found but its estimated error exceeds the
  * tolerance (out[i] is complete, errors say how far).
  * Returns PENDRES_OK unless nothing could be computed at all.
@@ -140,11 +141,11 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
 /**
  * Samples of an orbit over its period: count equally spaced points a drive period, count * q in
  * all, at theta = 2 pi k / count. x[], v[] of that length are written; either may be NULL. They
- * come from the Fourier series of the orbit, which is integrated anew with orbit->steps steps a
+ * come from the Fourier series of the orbit, which is integrated again with orbit->steps steps per
  * period. At drive phase 0 they are as exact as orbit->x, elsewhere to about the tolerance at which
- * the orbit was found. If error is not NULL they are made to the context's tolerance, at least
- * twice as dear, and it receives estimates of the largest error of any x[], error[0], and of any
- * v[], error[1].
+ * the orbit was found. If error is not NULL they are computed to the context's tolerance, at twice
+ * the cost or more, and error[0] and error[1] receive estimates of the largest error of any x[] and
+ * of any v[].
  */
 pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
                                     double *x, double *v, double error[2]);
@@ -160,12 +161,13 @@ typedef struct pendres_orbit_stretch {
 /**
  * Record a closed orbit over some drive periods, with an error for each point: point k, at drive
  * phase 2 pi k / samples after that of the first period, goes to out->x[k] and out->v[k],
- * k < periods * samples. Arrays are the caller's. Positions go on from period to period as far as
- * the orbit winds; they are not wrapped.
+ * k < periods * samples. Arrays are the caller's. Positions continue from period to period as the
+ * orbit winds; they are not wrapped.
  *
  * The points are those of pendres_orbit_sample() with 1.4 times the orbit's steps. Their errors are
  * the difference from those with the orbit's own steps, twice the error of its point, and rounding;
- * if out->x_error is NULL they are not made. Pieces of a record have the same bytes as one whole.
+ * if out->x_error is NULL they are not computed. The pieces of a record have the same bytes as the
+ * whole.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, with a message; otherwise those of pendres_orbit_sample(). What
  * was written is then to be ignored. Thread safety: as for the context.

@@ -17,16 +17,16 @@
  *       = torque + drive_amplitude cos(drive_frequency t)
  *
  * where f is -cos x, a polynomial a1 x + a2 x^2 + ... + a5 x^5, or one of PENDRES_FORCE_LIST.
- * Terms whose fields are zero are left out. A function that does not take every model says so;
- * docs/models.md tells which equations of the literature are among them.
+ * Terms whose fields are zero are left out. A function that does not accept every model says so;
+ * docs/models.md lists the equations of the literature that are among them.
  *
  * All quantities are dimensionless: times are in units of 1/omega_0, where omega_0 is the angular
  * frequency of small oscillations, energies and torques in units of m g l (mass, gravity, length).
- * With a polynomial they are in units of the caller's, of any size (pendres_units_of).
+ * With a polynomial they are in the caller's units, of any size (pendres_units_of).
  * The potential is V(x) = -sin x. Wells lie at x = pi/2 + 2 pi n (n is the well number), the
  * barrier tops, 2 above them, at x = -pi/2 + 2 pi n. The pendulum's angle is y = x - pi/2.
  * The mirror symmetry is y -> -y together with half a drive period's delay; that of other forces
- * may be about another place (pendres_model).
+ * may have another centre (pendres_model).
  *
  * Thread safety: all functions are pure. Only pendres_pendulum_check() tells whether parameters are
  * valid; the others give NaN or 0 where there is no such force.
@@ -41,8 +41,8 @@
 extern "C" {
 #endif
 
-/** Forces that have a header of their own: X(code, name). src/model/forces.h tells how another is
-    added. */
+/** Forces that have a header of their own: X(code, name). src/model/forces.h describes how to add
+    another one. */
 #define PENDRES_FORCE_LIST(X) \
   X(SQUID, squid)
 
@@ -65,16 +65,16 @@ typedef enum pendres_force {
 enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< most coefficients that a force may have */ };
 
 /**
- * Where a force drives a pendulum away for ever: a distance z0 from y = 0, to the right (side = 1)
- * or to the left (side = -1), such that the outward force -side f(side z) exceeds both `need` and 0
- * at all distances z > z0. INFINITY where there is none.
+ * Where a force drives a pendulum to infinity: a distance z0 from y = 0, to the right (side = 1) or
+ * to the left (side = -1), such that the outward force -side f(side z) exceeds both `need` and 0 at
+ * all distances z > z0. INFINITY where there is none.
  */
 typedef double pendres_force_outward(const double *coefficients, double side, double need);
 
 /**
  * Where a force less a torque is odd: the c of y = c + z for which f(c + z) - torque changes its
- * sign with z; of several the one nearest to `near`. NaN if there is none. Coefficients that were
- * rounded to doubles count as those that they stand for.
+ * sign with z; if there are several, the one nearest to `near`. NaN if there is none. The test
+ * allows for the rounding of the coefficients to doubles.
  */
 typedef double pendres_force_centre(const double *coefficients, double torque, double near);
 
@@ -82,13 +82,12 @@ typedef double pendres_force_centre(const double *coefficients, double torque, d
 typedef struct pendres_model {
   const char *name;  /**< in decks and messages: "pendulum", "polynomial", ... */
   double period;     /**< period of the coordinate x, 2 pi for the pendulum; 0: x has none */
-  double origin;     /**< where y = x - origin is counted from: pi/2 for the pendulum, 0 for a
-                          polynomial */
+  double origin;     /**< the origin of y = x - origin: pi/2 for the pendulum, 0 for a polynomial */
   int angle;         /**< 1: x is an angle, in rad; 0: a length in units of its own */
   int coefficients;  /**< how many coefficients it has, a1, ..., 0 to PENDRES_FORCE_COEFFICIENTS */
-  pendres_force_outward *outward; /**< tells where pendulums begin to escape to infinity; NULL: none
-                                       escape, or it is not known where */
-  pendres_force_centre *centre;   /**< tells where it is odd; NULL: nowhere */
+  pendres_force_outward *outward; /**< gives the distance beyond which pendulums escape to infinity;
+                                       NULL: none escape, or the distance is not known */
+  pendres_force_centre *centre;   /**< gives the point about which it is odd; NULL: none */
 } pendres_model;
 
 /** The parameters of one pendulum. Where all fields after temperature are zero it is the plain
@@ -102,8 +101,7 @@ typedef struct pendres_pendulum {
   double torque;          /**< I, any finite value, in m g l: constant, added to the drive */
   double parametric_amplitude; /**< b, any finite value: f is multiplied by 1 + b cos(omega t) */
   pendres_force force;    /**< which force f it has */
-  int unused;             /**< 0; without it the compiler would leave a gap of undefined bytes here,
-                               and equal pendulums might differ as bytes */
+  int unused;             /**< 0; instead of padding, so that equal pendulums have equal bytes */
   double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< a1, a2, ...: as many as the force has;
                                                               the others are zero */
 } pendres_pendulum;
@@ -121,18 +119,18 @@ typedef struct pendres_units {
 } pendres_units;
 
 /**
- * The units in which a pendulum is computed, whatever those of its parameters are. A pendulum and a
- * force with a sine have 1 and 1. A polynomial has the power of two below the length at which its
- * lowest term equals its highest, and that next to the time 1/sqrt(f'(x)) at that length. A lowest
- * term that is below 2^-40 of another at the length that the others give is passed over, as one
- * that rounding leaves where a coefficient moves through 0. A single power, which has no such
- * length, has that at which it equals the larger of drive and torque or, without these, that at
- * which its rate equals the damping; a linear force then 1. {1, 1} if p is NULL, or its force is
- * none.
+ * The canonical units, in which a pendulum is computed whatever the units of its parameters are.
+ * For a pendulum and a force with a sine both are 1. For a polynomial the length is the power of
+ * two below the length at which its lowest term equals its highest, and the time the power of two
+ * nearest to 1/sqrt(f'(x)) at that length. A lowest term is ignored if it is less than 2^-40 of
+ * another at the length that follows from the others: it may be what rounding leaves of a
+ * coefficient that passes through 0. For a single power, which has no such length, it is the length
+ * at which it equals the larger of drive and torque or, without these, at which its rate equals the
+ * damping; for a linear force without them it is 1. {1, 1} if p is NULL or has no valid force.
  *
- * Lengths of order one in this library's words are lengths of this unit: context.h tells how
+ * Where this library speaks of lengths of order one, they are in this unit: context.h describes how
  * tolerances depend on it. Multiplying a problem's units by powers of two multiplies all of its
- * results by powers of two, and changes no digit of them.
+ * results by powers of two, and does not change their digits.
  */
 pendres_units pendres_units_of(const pendres_pendulum *p);
 
@@ -140,15 +138,15 @@ pendres_units pendres_units_of(const pendres_pendulum *p);
 const pendres_model *pendres_model_of(pendres_force force);
 
 /** 1 if p has the mirror symmetry, y -> 2 c - y half a drive period later: no parametric drive, and
-    a force that less the torque is odd about c. Of the pendulum c = 0 without a torque, of a
+    a force which minus the torque is odd about c. For the pendulum without a torque c = 0; for a
     polynomial it may be anywhere: a Duffing oscillator keeps its symmetry if its coordinate is
-    shifted. 0 if p has not, or is NULL. */
+    shifted. 0 if p does not have it, or is NULL. */
 int pendres_pendulum_symmetric(const pendres_pendulum *p);
 
-/** 1 if the force of p drives it to infinity from some position on, whatever the drives do: noise
-    carries such a pendulum there in the end. 0 if p is NULL, if there is no such position, and if
-    none is known: where |parametric_amplitude| >= 1 reverses the force, or a force of one's own has
-    no `outward`. */
+/** 1 if the force of p drives it to infinity beyond some position, whatever the drives do: noise
+    eventually carries such a pendulum there. 0 if p is NULL, if there is no such position, and if
+    none is known: where |parametric_amplitude| >= 1 reverses the force, or a force in a header of
+    its own has no `outward`. */
 int pendres_pendulum_leaves(const pendres_pendulum *p);
 
 /**

@@ -16,15 +16,16 @@
  *   chaotic      yes           yes         no   (has no well to be shifted to)
  *   chaotic with a drift: as running; unresolved: in none
  *
- * Of a chaotic member the means over time on its attractor count, a drive cycle: the work of the
- * drive (loop area, power), half peak to peak of the angle (amplitude); attractor.h has their
- * errors, which are statistical. Where no member enters a mean it is NaN, as in an ensemble that is
- * all chaotic the loop and its phase lag. Errors allow for the share of unresolved members, of
- * those whose state is uncertain, and for the sampling of an area of starts.
+ * A chaotic member contributes time averages over its attractor, per drive cycle: the work of the
+ * drive (loop area, power) and half the peak to peak of the angle (amplitude); their errors, which
+ * are statistical, are described in attractor.h. A mean that no member enters is NaN, such as the
+ * loop and its phase lag in an ensemble of which all members are chaotic. Errors allow for the
+ * share of unresolved members, for members whose state is uncertain, and for the sampling of an
+ * area of starts.
  *
  * With thermal noise every member starts on the attractor that it settles on without noise, and is
- * then followed wherever noise takes it. So trajectories start on the attractors in the members'
- * proportions, and means over them are weighted with the members' shares.
+ * then followed wherever noise takes it. Trajectories therefore start on the attractors in the
+ * proportions of the members, and means over them are weighted with the members' shares.
  *
  * Thread safety: that of the context (context.h).
  */

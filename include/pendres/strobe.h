@@ -27,24 +27,24 @@ extern "C" {
  * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: twice the
  * distance between the first run and better ones, which may be off by half as much themselves. With
  * fixed steps there is one better run, with twice the steps a period. With adaptive steps there are
- * two, with a tenth and a hundredth of the tolerance (1e-6 at most), and, but for CVODE's methods,
- * at least 1.4 times and twice the steps. The estimate covers discretisation and rounding,
- * amplified as each trajectory amplifies them. Where the runs lose each other on the way, even if
- * they meet again, the estimate is infinite: nothing is known then, which is not a failure of the
- * function. With fixed steps the call takes three times as long as without an estimate. Runs with
- * adaptive steps are compared at 64 strobes at most.
+ * two, with a tenth and a hundredth of the tolerance (1e-6 at most), and, except for CVODE's
+ * methods, at least 1.4 times and twice the steps. The estimate covers discretisation and rounding,
+ * amplified as each trajectory amplifies them. Where the runs separate on the way, even if
+ * they meet again, the estimate is infinite: the result is then unknown, which is not a failure of
+ * the function. With fixed steps the call takes three times as long as without an estimate. Runs
+ * with adaptive steps are compared at 64 strobes at most.
  *
- * The steps a period of each pendulum depend on its own parameters, its initial speed
- * and the tolerance alone; so do the results, whatever the other pendulums.
+ * The steps per period of each pendulum depend only on its own parameters, its initial speed
+ * and the tolerance; so do the results, which do not depend on the other pendulums.
  *
  * A damped pendulum without a drive is put to rest when both x - pi/2 and v / drive_frequency are
- * below 1e-290. Other states that take denormal numbers (drives below some 1e-300) are right, but
+ * below 1e-290. Other states with denormal numbers (drives below some 1e-300) are correct, but
  * take up to a hundred times as long.
  *
  * Errors: PENDRES_INVALID_ARGUMENT (message names the pendulum; nothing was changed), also where
- * double precision cannot say what is asked: positions beyond 1e15, where a tenth of a radian is
- * lost, parameters and speeds that lead there within a period, or a damping of more than 1e15 times
- * the drive frequency; PENDRES_INTEGRATION_FAILED, also where a state is no number at the end;
+ * double precision is not sufficient: positions beyond 1e15, where a tenth of a radian is lost,
+ * parameters and speeds that lead there within a period, or a damping of more than 1e15 times the
+ * drive frequency; PENDRES_INTEGRATION_FAILED, also where a state is not a number at the end;
  * PENDRES_TOLERANCE_UNREACHABLE, PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED. On any of these x and
  * v are unchanged.
  */
@@ -52,12 +52,12 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
                                       const pendres_pendulum *pendulums, double *x, double *v,
                                       long periods, double *error);
 
-/** Where a motion is recorded: arrays of the caller. */
+/** The caller's arrays in which a motion is recorded. */
 typedef struct pendres_record {
   double *x;       /**< positions, in rad; not wrapped */
   double *v;       /**< velocities, in rad per unit time */
-  double *x_error; /**< errors of x; NULL: not wanted */
-  double *v_error; /**< errors of v; NULL where x_error is */
+  double *x_error; /**< errors of x; NULL: not computed */
+  double *v_error; /**< errors of v; NULL if x_error is NULL */
 } pendres_record;
 
 /**
@@ -67,8 +67,8 @@ typedef struct pendres_record {
  * periods * samples + 1 values.
  *
  * Errors are estimates: a second run with twice the steps is compared with the first, and rounding
- * is carried along by the variational equation. Where the runs have lost each other, and from there
- * on, both are infinite. If they are not wanted, that run is not made.
+ * is propagated by the variational equation. Where the runs have separated, and from there on, both
+ * are infinite. Without errors the second run is not made.
  *
  * The steps are fixed ones and end on each point, whatever the context's method: nothing is
  * interpolated. Their choice and the statuses returned are those of pendres_strobe_advance().
@@ -78,11 +78,11 @@ pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulu
                                      const pendres_state *start, long periods, int samples,
                                      const pendres_record *out);
 
-/** Where one of the two runs of a recording stands. The library's own. */
+/** The present state of one of the two runs of a recording. For use by the library only. */
 typedef struct pendres_recording_place {
   double y;   /**< angle, within half a turn of zero */
   double w;   /**< its slope by drive phase */
-  long turns; /**< whole turns beside y */
+  long turns; /**< whole turns taken out of y */
 } pendres_recording_place;
 
 /**
@@ -101,13 +101,13 @@ typedef struct pendres_recording {
   pendres_recording_place place; /**< of the run that is recorded */
   pendres_recording_place finer; /**< of the run that it is compared with */
   double noise[3];               /**< covariance of the rounding of the latter */
-  int lost;                      /**< 1: the runs have lost each other, and errors are infinite from
-                                      here on; the second run ends with that */
+  int lost;                      /**< 1: the runs have separated, and errors are infinite from here
+                                      on; the second run has ended */
 } pendres_recording;
 
 /**
  * Begin a record of a pendulum from a state at drive phase 0, which is to have `periods` drive
- * periods in all: the steps are so fine that errors may add up over all of them. *out is written on
+ * periods in all: steps are chosen such that errors may add up over all of them. *out is written on
  * PENDRES_OK. The other statuses are those of pendres_strobe_record(). Thread safety is that of the
  * context.
  */
@@ -116,9 +116,9 @@ pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendu
                                        pendres_recording *out);
 
 /**
- * Go on by some periods. Arrays are as of pendres_strobe_record(), of periods * samples + 1 values:
- * the first is the last of the piece before. All pieces together are the same bytes as the record
- * in one piece. After a piece without errors those of later pieces are infinite.
+ * Continue by some periods. Arrays are those of pendres_strobe_record(), of periods * samples + 1
+ * values: the first is the last of the piece before. All pieces together are the same bytes as the
+ * record in one piece. After a piece without errors those of later pieces are infinite.
  *
  * On a failure *recording is unchanged. Thread safety: as for the context.
  */

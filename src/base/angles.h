@@ -8,7 +8,7 @@
 
 static const double two_pi = 2.0 * PENDRES_PI, pi = PENDRES_PI, half_pi = 0.5 * PENDRES_PI;
 
-/* A difference of angles without the whole turns in it: half a turn at most, either way. */
+/* A difference of angles, reduced by whole turns to at most half a turn either way. */
 static inline double pendres_less_turns(double difference, double turn)
 {
   return difference - turn * rint(difference / turn);

@@ -40,7 +40,7 @@ pendres_status pendres_langevin_check_ends(pendres_context *ctx, const pendres_l
 
 /* How the caller's functions see trajectories that are behind the door. */
 
-/* Between a function of the caller's and the trajectories of a stretch. */
+/* Between a function of the caller's and the trajectories of a run of pendulums. */
 typedef struct pendres_noise_window {
   pendres_door *door;
   const pendres_langevin_observer *observer;
@@ -50,7 +50,8 @@ typedef struct pendres_noise_window {
   size_t room;
 } pendres_noise_window;
 
-/* The observer of a stretch, for one of all trajectories in the caller's units; NULL for NULL. */
+/* The observer of a run of pendulums, for one of all trajectories in the caller's units; NULL for
+   NULL. */
 const pendres_langevin_observer *pendres_noise_observer(pendres_door *d,
                                                         const pendres_langevin_observer *observer,
                                                         pendres_noise_window *window);

@@ -45,8 +45,8 @@ typedef struct pendres_phase_bytes {
 
 pendres_status pendres_phase_done_pack(const pendres_phase_done *line, pendres_phase_bytes *out);
 
-/* PENDRES_INVALID_ARGUMENT: the bytes are no record of a line of so many values. On failure there
-   is nothing to be freed. */
+/* PENDRES_INVALID_ARGUMENT: the bytes are not a record of a line with this many values. On failure
+   there is nothing to be freed. */
 pendres_status pendres_phase_done_unpack(size_t values, size_t size, const void *bytes,
                                          pendres_phase_done *out);
 
