@@ -89,12 +89,46 @@ static void append_row(pendres_continuation_equations *e, const pendres_continua
   for (int k = 0; k < s->unknowns; k++) e->j[row][s->unknown[k]] = (nudged[k] - value) / nudge;
 }
 
-/* The equations of a branch point, all by one pivot; images: at the point, and nudged. */
-static void crossing_rows(const pendres_continuation_image *image,
-                          const pendres_continuation_system *s, pendres_continuation_equations *e)
+/* Append the equation of a condition's determinant. */
+static void determinant_row(const pendres_continuation_system *s,
+                            const pendres_continuation_image *image,
+                            pendres_continuation_equations *e)
+{
+  const pendres_continuation_rules *rules = pendres_continuation_rules_of(s->condition);
+  double nudged[PENDRES_U_COUNT];
+  for (int k = 0; k < s->unknowns; k++) nudged[k] = rules->determinant(&image[k + 1]);
+  append_row(e, s, rules->determinant(image), nudged);
+}
+
+static void critical_rows(const pendres_continuation_system *s,
+                          const pendres_continuation_image *image,
+                          const pendres_continuation_image *along,
+                          pendres_continuation_equations *e)
+{
+  (void)along;
+  plain_rows(image, e);
+  determinant_row(s, image, e);
+}
+
+static void cusp_rows(const pendres_continuation_system *s,
+                      const pendres_continuation_image *image,
+                      const pendres_continuation_image *along, pendres_continuation_equations *e)
+{
+  double nudged[PENDRES_U_COUNT];
+  critical_rows(s, image, along, e);
+  for (int k = 0; k < s->unknowns; k++) nudged[k] = stencil_value(along + (k + 1) * STENCIL);
+  append_row(e, s, stencil_value(along), nudged);
+}
+
+/* Of a branch point, all by one pivot. */
+static void crossing_rows(const pendres_continuation_system *s,
+                          const pendres_continuation_image *image,
+                          const pendres_continuation_image *along,
+                          pendres_continuation_equations *e)
 {
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(image, s->unknown[2]);
   double rows[PENDRES_U_COUNT + 1][4];
+  (void)along;
   for (int k = 0; k <= s->unknowns; k++) pendres_crossing_rows(&pivot, &image[k], rows[k]);
   e->equations = 1;
   e->image = *image;
@@ -105,6 +139,18 @@ static void crossing_rows(const pendres_continuation_image *image,
     for (int k = 0; k < s->unknowns; k++) nudged[k] = rows[k + 1][row];
     append_row(e, s, rows[0][row], nudged);
   }
+}
+
+const pendres_continuation_rules *
+pendres_continuation_rules_of(pendres_continuation_condition condition)
+{
+  static const pendres_continuation_rules rules[PENDRES_CONDITION_COUNT] = {
+    [PENDRES_CONDITION_NONE] = {.unknowns = 2},
+    [PENDRES_CONDITION_FOLD] = {3, pendres_continuation_map_fold, 0, critical_rows},
+    [PENDRES_CONDITION_FLIP] = {3, pendres_continuation_map_flip, 0, critical_rows},
+    [PENDRES_CONDITION_CUSP] = {4, pendres_continuation_map_fold, 1, cusp_rows},
+    [PENDRES_CONDITION_CROSSING] = {3, NULL, 0, crossing_rows}};
+  return &rules[condition];
 }
 
 /* The images at all stencils of the points, each along its null vector. */
@@ -132,12 +178,11 @@ pendres_status pendres_continuation_equations_at(pendres_context *ctx,
                                                  const double (*u)[PENDRES_U_COUNT],
                                                  pendres_continuation_equations *out)
 {
-  const pendres_continuation_condition condition = s->condition;
-  const size_t each = condition == PENDRES_CONDITION_NONE ? 1 : (size_t)s->unknowns + 1;
-  const int cusp = condition == PENDRES_CONDITION_CUSP;
+  const pendres_continuation_rules *rules = pendres_continuation_rules_of(s->condition);
+  const size_t each = rules->rows == NULL ? 1 : (size_t)s->unknowns + 1;
   workspace w = {0};
   pendres_status status =
-    workspace_create(ctx, n * each + 1, cusp ? n * each * STENCIL + 1 : 0, &w);
+    workspace_create(ctx, n * each + 1, rules->stencils ? n * each * STENCIL + 1 : 0, &w);
   if (status != PENDRES_OK) goto done;
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < each; k++) {
@@ -146,25 +191,13 @@ pendres_status pendres_continuation_equations_at(pendres_context *ctx,
     }
   status = pendres_continuation_map_images(ctx, s, n * each,
                                            (const double (*)[PENDRES_U_COUNT])w.u, w.image);
-  if (status == PENDRES_OK && cusp) status = look_around(ctx, s, n, each, &w);
-  if (status != PENDRES_OK) goto done;
-  for (size_t i = 0; i < n; i++) {
+  if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_continuation_image *image = w.image + i * each;
-    double value[PENDRES_U_COUNT + 1] = {0.0};
-    if (condition == PENDRES_CONDITION_CROSSING) {
-      crossing_rows(image, s, &out[i]);
-      continue;
-    }
-    plain_rows(image, &out[i]);
-    if (condition == PENDRES_CONDITION_NONE) continue;
-    for (size_t k = 0; k < each; k++)
-      value[k] = condition == PENDRES_CONDITION_FLIP ? pendres_continuation_map_flip(&image[k])
-                                                     : pendres_continuation_map_fold(&image[k]);
-    append_row(&out[i], s, value[0], value + 1);
-    if (!cusp) continue;
-    for (size_t k = 0; k < each; k++)
-      value[k] = stencil_value(w.around_image + (i * each + k) * STENCIL);
-    append_row(&out[i], s, value[0], value + 1);
+    const pendres_continuation_image *along =
+      rules->stencils ? w.around_image + i * each * STENCIL : NULL;
+    if (rules->rows != NULL) rules->rows(s, image, along, &out[i]);
+    else plain_rows(image, &out[i]);
   }
 done:
   workspace_free(&w);
@@ -198,10 +231,8 @@ pendres_continuation_system pendres_continuation_system_of(const pendres_continu
                                                            pendres_continuation_condition condition,
                                                            const int *unknown)
 {
-  /* Unknowns of the conditions. */
-  static const int counts[PENDRES_CONDITION_COUNT] = {2, 3, 3, 4, 3};
-  pendres_continuation_system system = {
-    .map = *map, .condition = condition, .unknowns = counts[condition]};
+  pendres_continuation_system system = {.map = *map, .condition = condition};
+  system.unknowns = pendres_continuation_rules_of(condition)->unknowns;
   for (int k = 0; k < system.unknowns; k++) system.unknown[k] = unknown[k];
   return system;
 }

@@ -18,6 +18,21 @@ typedef struct pendres_continuation_equations {
   pendres_continuation_image image;
 } pendres_continuation_equations;
 
+/* What a condition adds to G(z) = z. */
+typedef struct pendres_continuation_rules {
+  int unknowns; /* of a system of as many equations */
+  /* The determinant that vanishes; NULL: no determinant does. */
+  double (*determinant)(const pendres_continuation_image *image);
+  int stencils; /* whether images along null vectors are needed, too */
+  /* The equations of a point, from the images at it and at each nudged unknown, and along their null
+     vectors. NULL: there are none. */
+  void (*rows)(const pendres_continuation_system *system, const pendres_continuation_image *image,
+               const pendres_continuation_image *along, pendres_continuation_equations *e);
+} pendres_continuation_rules;
+
+const pendres_continuation_rules *
+pendres_continuation_rules_of(pendres_continuation_condition condition);
+
 /* A system of as many equations as unknowns, which are the first of `unknown`. Its steps are not
    chosen yet. */
 pendres_continuation_system pendres_continuation_system_of(const pendres_continuation_map *map,

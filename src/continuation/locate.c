@@ -81,9 +81,8 @@ static void residuals_of(const pendres_continuation_system *system,
   }
   off[0] = at->f[0] - solved->f[0];
   off[1] = at->f[1] - solved->f[1];
-  off[2] = condition == PENDRES_CONDITION_FLIP
-             ? pendres_continuation_map_flip(at) - pendres_continuation_map_flip(solved)
-             : pendres_continuation_map_fold(at) - pendres_continuation_map_fold(solved);
+  const pendres_continuation_rules *rules = pendres_continuation_rules_of(condition);
+  off[2] = rules->determinant != NULL ? rules->determinant(at) - rules->determinant(solved) : 0.0;
   off[3] = 0.0;
 }
 

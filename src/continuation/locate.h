@@ -15,7 +15,6 @@
 typedef struct pendres_located {
   pendres_continuation_pair pair;
   double error[PENDRES_EQUATIONS_MOST];
-  double curvature[2]; /* of a fold, at coarse and fine steps */
   int parted;          /* where two branches were to cross: they come close, and do not */
 } pendres_located;
 
