@@ -24,8 +24,8 @@ typedef struct pendres_continuation_rules {
   /* The determinant that vanishes; NULL: no determinant does. */
   double (*determinant)(const pendres_continuation_image *image);
   int stencils; /* whether images along null vectors are needed, too */
-  /* The equations of a point, from the images at it and at each nudged unknown, and along their null
-     vectors. NULL: there are none. */
+  /* The equations of a point, from the images at it and at each nudged unknown, and along their
+     null vectors. NULL: there are none. */
   void (*rows)(const pendres_continuation_system *system, const pendres_continuation_image *image,
                const pendres_continuation_image *along, pendres_continuation_equations *e);
 } pendres_continuation_rules;
