@@ -16,112 +16,53 @@ static const double program_memory = 19e6, thread_memory = 9e6;
 static const double program_seconds = 0.02;
 
 /* The damping at which the seconds a point of scene_size were measured. Below it pendulums settle
-   as much longer as it is weaker, down to where budgets of periods and searches end them; where
-   branches are followed they hardly do (measured at dampings down to 1e-5). */
-static const double usual_damping = 0.2, slowest = 300.0, slowest_branch = 5.0;
-
-/* Bytes that a grid's state adds to the compressed file where it differs from the one before; of a
-   basin's boundary, mostly; of a noisy strobe point, and of one among others that may repeat; of a
-   sample of an orbit beyond the first ones, which are stored with little gain. */
-static const double change_bytes = 1.3, boundary_bytes = 200e3, strobe_bytes = 7.0,
-                    repeated_bytes = 3.5, sample_bytes = 15.0;
-enum { FIRST_SAMPLES = 2000 };
-
-/* A diagram keeps the records of its lines, and its curves are longer the more orbits are in
-   these: bytes of memory a byte, and of output a byte of a line's. */
-static const double record_memory = 1.5, record_output = 0.57;
+   as much longer as it is weaker, down to where budgets of periods and searches end them. */
+static const double usual_damping = 0.2, slowest = 300.0;
 
 static const scene_size *size_of(const deck *d)
 {
   return &scene_find(d->kind)->size;
 }
 
-/* Points of the results' grid. */
+/* Points of the results. */
 static double points_of(const deck *d)
 {
   double points = 1.0;
+  if (size_of(d)->points != NULL) return size_of(d)->points(d);
   for (int axis = 0; axis < DECK_AXIS_COUNT; axis++)
     if (axis != DECK_AXIS_TEMPERATURE && d->axis[axis].count > 0)
       points *= (double)d->axis[axis].count;
-  if (d->kind == DECK_ORBIT) points = (double)d->orbit.periods * (double)d->orbit.samples;
-  if (d->kind == DECK_WORK_PRECISION) points *= (double)(1 + d->methods.count);
-  if (d->kind == DECK_HARD_CASES) points = d->cases.count > 0 ? (double)d->cases.count : 12.0;
   return points;
 }
 
-/* Values beside the grid's: strobe points of clouds, two numbers for each of two attractors, and
-   of a bifurcation diagram. */
-static double strobes_of(const deck *d)
+static double values_of(const deck *d)
 {
-  if (d->kind == DECK_BIFURCATION_DIAGRAM) return points_of(d) * (double)d->diagram.strobes * 2.0;
-  if (d->kind != DECK_BASINS || !deck_has_noise(d)) return 0.0;
-  return (double)d->axis[DECK_AXIS_TEMPERATURE].count * (double)d->basins.strobes * 4.0;
-}
-
-/* Bytes of a basin's states: by how many differ from their neighbours, or, where that is not known
-   or rows are not computed whole, by the resolution alone, which makes runs of equal states
-   longer. */
-static double states_output(const deck *d, const farm_trial *t)
-{
-  const double states = points_of(d), same = size_of(d)->point;
-  if (t != NULL && t->changes > 0.0 && !d->basins.refine)
-    return same * states + change_bytes * t->changes;
-  return states * (same + 150.0 / sqrt(states));
-}
-
-/* Bytes of a ramp, and of what noise does to it. */
-static double ramp_output(const deck *d)
-{
-  if (!deck_has_ramp(d)) return 0.0;
-  const double trajectories = deck_has_noise(d) ? (double)d->noise.trajectories : 0.0;
-  return 45.0 * 2.0 * (double)d->ramp.points + 14.0 * trajectories;
-}
-
-static double points_output(const deck *d, const farm_trial *t)
-{
-  const scene_size *r = size_of(d);
-  const double points = points_of(d);
-  switch (d->kind) {
-  case DECK_BASINS:
-    return states_output(d, t) + (d->basins.boundary ? boundary_bytes : 0.0);
-  case DECK_ORBIT:
-    return r->point * fmin(points, FIRST_SAMPLES) +
-           sample_bytes * fmax(points - FIRST_SAMPLES, 0.0);
-  case DECK_PHASE_DIAGRAM:
-    return r->point * points +
-           (t != NULL && t->tasks > 0 ? record_output * t->journal / (double)t->tasks : 0.0);
-  case DECK_HYSTERESIS: return r->point * points + ramp_output(d);
-  default: return r->point * points;
-  }
+  return size_of(d)->values != NULL ? size_of(d)->values(d) : 0.0;
 }
 
 /* Bytes of the output. t: what a trial has shown; NULL: none. */
 static double estimate_output(const deck *d, const farm_trial *t)
 {
-  const double strobe = d->kind == DECK_BIFURCATION_DIAGRAM ? repeated_bytes : strobe_bytes;
-  return size_of(d)->head + points_output(d, t) + strobe * strobes_of(d);
+  const scene_size *s = size_of(d);
+  const double points = points_of(d);
+  return s->head + s->point * points + s->value * values_of(d) +
+         (s->more_output != NULL ? s->more_output(d, t, points) : 0.0);
 }
 
 /* Bytes of memory with this number of threads. */
 static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 {
-  double grid = size_of(d)->memory * points_of(d);
-  /* Rows are written as they come; records that wait for their turn have this much (pool.c). */
-  if (d->kind == DECK_BASINS && !d->basins.refine) grid = fmin(grid, 64e6);
-  /* Whole points are in memory as long as they are few (scenes/temporary.h). */
-  if (d->kind == DECK_RESPONSE) grid += fmin(7e3 * points_of(d), 64e6);
-  if (d->kind == DECK_PHASE_DIAGRAM && t != NULL) grid += record_memory * t->journal;
-  return program_memory + thread_memory * threads + grid + 16.0 * strobes_of(d);
+  const scene_size *s = size_of(d);
+  const double points = points_of(d);
+  return program_memory + thread_memory * threads + s->memory * points + 16.0 * values_of(d) +
+         (s->more_memory != NULL ? s->more_memory(d, t, points) : 0.0);
 }
 
-/* Where not even a task could be tried it is a path's, whose points have a kilobyte each, and its
-   strobe points. */
 static double estimate_journal(const deck *d, const farm_trial *t)
 {
   if (t->what == NULL) return t->journal;
   if (t->tried > 0) return t->journal * size_of(d)->stages;
-  const int ways = d->kind == DECK_HYSTERESIS ? 2 : d->kind == DECK_BIFURCATION_DIAGRAM;
-  return 1.2e3 * ways * points_of(d) + 8.0 * strobes_of(d);
+  return size_of(d)->journal * points_of(d) + 8.0 * values_of(d);
 }
 
 /* How many times longer points take than at the usual damping, in the mean. */
@@ -129,9 +70,7 @@ static double slowness(const deck *d)
 {
   const deck_axis *a = &d->axis[DECK_AXIS_DAMPING];
   const size_t n = a->count > 0 ? a->count : 1;
-  const int branch = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
-                     d->kind == DECK_BRANCHES;
-  const double most = branch ? slowest_branch : slowest;
+  const double most = size_of(d)->slowest > 0.0 ? size_of(d)->slowest : slowest;
   const double unit = deck_pendulum_units(d).time;
   double sum = 0.0;
   for (size_t i = 0; i < n; i++) {

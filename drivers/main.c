@@ -279,12 +279,11 @@ static int leave_part(job *j)
 static void tell_without_effect(job *j)
 {
   const char *method = j->deck.precision.method;
-  const deck_kind k = j->deck.kind;
   if (j->options.budget > 0.0 && !j->scene->budget)
     progress_note(&j->progress, "--budget has no effect on scenes of this kind; "
                   "precision.period_budget limits the drive periods of a pendulum");
   if (method[0] == '\0' || strcmp(method, "block_fixed") == 0) return;
-  if (k == DECK_FREE_OSCILLATION || k == DECK_WORK_PRECISION || k == DECK_HARD_CASES) return;
+  if (j->scene->any_method) return;
   progress_note(&j->progress, "method '%s' advances and settles pendulums; orbits and their "
                 "measures are by fixed steps", method);
 }

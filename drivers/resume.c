@@ -8,6 +8,7 @@
 
 #include <pendres/store.h>
 
+#include "scenes/scene.h"
 #include "shard.h"
 
 enum { FAILED = 1, BAD_USAGE = 2 };
@@ -153,7 +154,7 @@ int resume_open(const deck *d, const options *o, progress *p, journal **out)
   char *path = NULL, *head = NULL;
   int code = FAILED;
   *out = NULL;
-  if (d->kind == DECK_WORK_PRECISION) { /* what is timed is not the same twice */
+  if (scene_find(d->kind)->timed) { /* what is timed is not the same twice */
     if (o->shards == 0 && !o->merge) return 0;
     progress_error(p, "methods are timed beside each other, not in parts");
     return BAD_USAGE;

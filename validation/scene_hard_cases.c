@@ -183,11 +183,18 @@ static void describe(const deck *d, FILE *out)
   fprintf(out, "\n");
 }
 
+static double cases_of(const deck *d)
+{
+  return d->cases.count > 0 ? (double)d->cases.count : 12.0;
+}
+
 const scene_kind scene_hard_cases = {
   .kind = DECK_HARD_CASES,
   .references = "N. J. Higham, Accuracy and Stability of Numerical Algorithms; "
                 "M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, chapter 17",
-  .size = {24e3, 100.0, 1e3, 1.0, 1.0, 10.0},
+  .size = {.head = 24e3, .point = 100.0, .memory = 1e3, .stages = 1.0, .after = 1.0,
+           .seconds = 10.0, .points = cases_of},
+  .any_method = 1,
   .describe = describe,
   .run = run_scene,
 };

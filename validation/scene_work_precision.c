@@ -376,11 +376,19 @@ done:
   return status;
 }
 
+static double runs_of(const deck *d)
+{
+  return (double)d->axis[DECK_AXIS_TOLERANCE].count * (double)(1 + d->methods.count);
+}
+
 const scene_kind scene_work_precision = {
   .kind = DECK_WORK_PRECISION,
   .references = "E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations "
                 "I, section II.10",
-  .size = {45e3, 200.0, 1e3, 0.0, 1.0, 0.5},
+  .size = {.head = 45e3, .point = 200.0, .memory = 1e3, .stages = 0.0, .after = 1.0,
+           .seconds = 0.5, .points = runs_of},
+  .timed = 1,
+  .any_method = 1,
   .describe = describe,
   .run = run_scene
 };

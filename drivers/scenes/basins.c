@@ -381,6 +381,32 @@ static pendres_status run_scene(scene_run *run)
   return run->status;
 }
 
+/* Strobe points of clouds: two numbers for each of two attractors. */
+static double strobes_of(const deck *d)
+{
+  if (!deck_has_noise(d)) return 0.0;
+  return 4.0 * (double)d->axis[DECK_AXIS_TEMPERATURE].count * (double)d->basins.strobes;
+}
+
+/* Bytes of states that differ from their neighbours in the compressed file, or, where that is not
+   known or rows are not computed whole, by the resolution alone, which makes runs of equal states
+   longer; and of a boundary, mostly. */
+static double more_output(const deck *d, const farm_trial *trial, double states)
+{
+  const double boundary = d->basins.boundary ? 200e3 : 0.0;
+  const int known = trial != NULL && trial->changes > 0.0 && !d->basins.refine;
+  return boundary + (known ? 1.3 * trial->changes : 150.0 * sqrt(states));
+}
+
+enum { STATE_MEMORY = 30 };
+
+/* Rows are written as they come; records that wait for their turn have 64 MB (farm/pool.c). */
+static double more_memory(const deck *d, const farm_trial *trial, double states)
+{
+  (void)trial;
+  return d->basins.refine ? 0.0 : fmin(64e6 - STATE_MEMORY * states, 0.0);
+}
+
 const scene_kind scene_basins = {
   .kind = DECK_BASINS,
   .references =
@@ -392,6 +418,9 @@ const scene_kind scene_basins = {
     "SC11 (2011); linear theory: N. G. van Kampen, Stochastic Processes in Physics and Chemistry, "
     "chapter VIII.6.",
   .budget = 1,
-  .size = {75e3, 0.12, 30.0, 1.0, 1.2, 4e-6},
+  .size = {.head = 75e3, .point = 0.12, .memory = STATE_MEMORY, .stages = 1.0, .after = 1.2,
+           .seconds = 4e-6, .values = strobes_of, .value = 7.0, .more_output = more_output,
+           .more_memory = more_memory},
+  .counts_escapes = 1,
   .describe = describe,
   .run = run_scene};

@@ -313,12 +313,29 @@ static void describe(const deck *d, FILE *out)
     fprintf(out, "bifurcations on the way, and the cascade of doublings of the first orbit\n");
 }
 
+/* Strobe points, of two numbers, which may repeat. */
+static double strobes_of(const deck *d)
+{
+  deck_axis_id axis[DECK_AXES];
+  (void)deck_axes(d, axis);
+  return 2.0 * (double)d->diagram.strobes * (double)d->axis[axis[0]].count;
+}
+
+/* Other scenes ask how long chaos lasts, too: their averages are as long as the library's. */
+static void options(const deck *d, pendres_options *out)
+{
+  out->exponent_error = d->diagram.exponents ? d->precision.exponent_error : 1.0;
+}
+
 const scene_kind scene_bifurcation_diagram = {
   .kind = DECK_BIFURCATION_DIAGRAM,
   .references = "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996); M. J. Feigenbaum, Journal "
                 "of Statistical Physics 19 (1978) 25",
   .budget = 1,
-  .size = {60e3, 200.0, 100e3, 2.0, 1.0, 0.3},
+  .size = {.head = 60e3, .point = 200.0, .memory = 100e3, .stages = 2.0, .after = 1.0,
+           .seconds = 0.3, .slowest = SCENE_SLOWEST_BRANCH, .journal = SCENE_PATH_JOURNAL,
+           .values = strobes_of, .value = 3.5},
+  .options = options,
   .describe = describe,
   .run = run_scene,
 };

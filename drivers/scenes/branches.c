@@ -323,6 +323,7 @@ const scene_kind scene_branches = {
                 "pendulum, Fig. 9; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, "
                 "chapters 4, 9 and 10",
   .budget = 1,
-  .size = {60e3, 470.0, 1e3, 2.0, 1.1, 2e-3},
+  .size = {.head = 60e3, .point = 470.0, .memory = 1e3, .stages = 2.0, .after = 1.1,
+           .seconds = 2e-3, .slowest = SCENE_SLOWEST_BRANCH},
   .describe = describe,
   .run = run_scene};

@@ -141,7 +141,7 @@ pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, cons
 static const char *advice(const deck *d)
 {
   const pendres_pendulum p = deck_pendulum(d);
-  if (pendres_pendulum_leaves(&p) && d->kind != DECK_BASINS) /* which counts them */
+  if (pendres_pendulum_leaves(&p) && !scene_find(d->kind)->counts_escapes)
     return "they may escape to infinity, as scene 'basins' tells; if not, raise "
            "precision.period_budget";
   if (p.torque != 0.0 && pendres_model_of(p.force)->period > 0.0)

@@ -124,12 +124,25 @@ static void describe(const deck *d, FILE *out)
   scene_ramp_describe(d, axis[0], out);
 }
 
+/* Bytes of a ramp, and of what noise does to it. */
+static double ramp_output(const deck *d, const farm_trial *trial, double points)
+{
+  (void)trial;
+  (void)points;
+  if (!deck_has_ramp(d)) return 0.0;
+  const double trajectories = deck_has_noise(d) ? (double)d->noise.trajectories : 0.0;
+  return 45.0 * 2.0 * (double)d->ramp.points + 14.0 * trajectories;
+}
+
 const scene_kind scene_hysteresis = {
   .kind = DECK_HYSTERESIS,
   .references = "Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; J. M. T. "
                 "Thompson and M. S. Soliman, Proceedings of the Royal Society A 432 (1991) 101",
   .budget = 1,
-  .size = {40e3, 240.0, 60e3, 1.0, 1.0, 0.03},
+  .size = {.head = 40e3, .point = 240.0, .memory = 60e3, .stages = 1.0, .after = 1.0,
+           .seconds = 0.03, .slowest = SCENE_SLOWEST_BRANCH,
+           .journal = DIRECTIONS * SCENE_PATH_JOURNAL, .more_output = ramp_output},
+  .one_temperature = 1,
   .describe = describe,
   .run = run_scene,
 };

@@ -184,7 +184,8 @@ const scene_kind scene_lyapunov_map = {
   .references = "G. Benettin, L. Galgani and J.-M. Strelcyn, Physical Review A 14 (1976) 2338; "
                 "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996)",
   .budget = 1,
-  .size = {40e3, 19.0, 100.0, 1.0, 1.0, 5e-4},
+  .size = {.head = 40e3, .point = 19.0, .memory = 100.0, .stages = 1.0, .after = 1.0,
+           .seconds = 5e-4},
   .describe = describe,
   .run = run_scene,
 };

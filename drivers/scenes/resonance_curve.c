@@ -223,6 +223,7 @@ const scene_kind scene_resonance_curve = {
                 "pendulum, Fig. 2; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 "
                 "(1999) 2067",
   .budget = 1,
-  .size = {32e3, 240.0, 2e3, 1.0, 1.0, 0.02},
+  .size = {.head = 32e3, .point = 240.0, .memory = 2e3, .stages = 1.0, .after = 1.0,
+           .seconds = 0.02},
   .describe = describe,
   .run = run_scene};

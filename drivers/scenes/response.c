@@ -324,12 +324,21 @@ static pendres_status run_scene(scene_run *run)
   return run->status;
 }
 
+/* Whole points are in memory as long as they are few (temporary.h). */
+static double more_memory(const deck *d, const farm_trial *trial, double points)
+{
+  (void)d;
+  (void)trial;
+  return fmin(7e3 * points, (double)SCENE_TEMPORARY_MEMORY);
+}
+
 const scene_kind scene_response = {
   .kind = DECK_RESPONSE,
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) "
                 "344; H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .budget = 1,
-  .size = {50e3, 128.0, 300.0, 2.0, 1.0, 4e-4},
+  .size = {.head = 50e3, .point = 128.0, .memory = 300.0, .stages = 2.0, .after = 1.0,
+           .seconds = 4e-4, .more_memory = more_memory},
   .describe = describe,
   .run = run_scene};

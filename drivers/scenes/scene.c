@@ -46,9 +46,8 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
                             .block_lanes = (int)d->precision.block_lanes,
                             .period_budget = (long)d->precision.period_budget,
                             .seed = deck_seed(d) };
-  /* Other scenes ask how long chaos lasts, too: their averages are as long as the library's. */
-  if (d->kind == DECK_BIFURCATION_DIAGRAM)
-    out->exponent_error = d->diagram.exponents ? d->precision.exponent_error : 1.0;
+  const scene_kind *scene = scene_find(d->kind);
+  if (scene != NULL && scene->options != NULL) scene->options(d, out);
   const char *method = d->precision.method, *table = d->precision.table;
   if (method[0] != '\0')
     out->method = (pendres_method)pendres_name_find(PENDRES_NAMES_METHOD, method);
@@ -247,7 +246,7 @@ static void write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
                               .units = units_of(axis) };
   if (isnan(value)) return;
   /* In other scenes the temperature is a dimension, even with one value. */
-  if (axis == DECK_AXIS_TEMPERATURE && d->kind != DECK_HYSTERESIS) return;
+  if (axis == DECK_AXIS_TEMPERATURE && !scene_find(d->kind)->one_temperature) return;
   if (coefficient > 0) {
     spec.units = NULL; /* a power of the pendulum's own */
     spec.long_name = d->pendulum.force == PENDRES_FORCE_POLYNOMIAL

@@ -16,6 +16,7 @@
 
 #include "deck/deck.h"
 #include "farm/farm.h"
+#include "farm/trial.h"
 
 enum { SCENE_MOST_TOLD = 10, SCENE_TOLD = 400 };
 
@@ -36,17 +37,40 @@ typedef struct scene_run {
  * What runs of a kind take, for --dry-run: bytes that a file has beside its points (headers and
  * provenance), bytes a point and bytes of memory a point; how many times the journal of a first
  * stage comes again in later ones; processor time of all of a run over that of its first stage, and
- * seconds a point where not even one task can be tried, on a processor of 3 GHz.
+ * seconds a point where not even one task can be tried, on a processor of 3 GHz and at a usual
+ * damping. Zero of the others is what most kinds have.
  */
 typedef struct scene_size {
   double head, point, memory, stages, after, seconds;
+  double slowest;              /* how many times longer points take at most, at weak damping */
+  double journal;              /* bytes a point where not even one task can be tried */
+  double (*points)(const deck *d); /* where they are not those of the deck's axes */
+  /* Values beside the points', as strobe points: how many there are, and bytes of each. */
+  double (*values)(const deck *d);
+  double value;
+  /* Bytes that output and memory have beside those, at so many points. trial: what a trial has
+     shown; NULL: none. */
+  double (*more_output)(const deck *d, const farm_trial *trial, double points);
+  double (*more_memory)(const deck *d, const farm_trial *trial, double points);
 } scene_size;
+
+/* Where branches are followed, points hardly take longer at weak damping (measured down to 1e-5);
+   and bytes of a path's points in journals. */
+#define SCENE_SLOWEST_BRANCH 5.0
+#define SCENE_PATH_JOURNAL 1.2e3
 
 typedef struct scene_kind {
   deck_kind kind;
   const char *references; /* root attribute of the file: what the scene reproduces, and methods */
-  int budget;             /* not 0: its tasks tell their points, which --budget can end */
   scene_size size;
+  /* What is so of few kinds; 0 of the others. */
+  int budget;             /* its tasks tell their points, which --budget can end */
+  int timed;              /* it looks at the clock: there is no journal, and there are no parts */
+  int any_method;         /* it takes the deck's method for all it does: it has no orbits */
+  int counts_escapes;     /* it tells what escapes to infinity */
+  int one_temperature;    /* that of its noise is no dimension of results */
+  /* What the deck asks of the library beside what all do; may be NULL. */
+  void (*options)(const deck *d, pendres_options *out);
   /* What would be computed, in a few lines (--dry-run). */
   void (*describe)(const deck *d, FILE *out);
   /* Compute and write everything but the provenance. */

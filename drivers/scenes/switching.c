@@ -445,6 +445,7 @@ const scene_kind scene_switching = {
                 "Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. Hummer, J. Phys. "
                 "Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
   .budget = 1,
-  .size = {55e3, 400.0, 1e3, 1.0, 1.0, 2.0},
+  .size = {.head = 55e3, .point = 400.0, .memory = 1e3, .stages = 1.0, .after = 1.0,
+           .seconds = 2.0},
   .describe = describe,
   .run = run_scene };
