@@ -1,13 +1,13 @@
 /**
  * @file cascade.h
- * @brief An orbit that doubles its period again and again as a parameter moves.
+ * @brief An orbit that doubles its period repeatedly as a parameter varies.
  *
  * Owns: the doublings one after another, each located to the tolerance, the value at which they
  * accumulate, and the ratio of their distances.
  *
  * Each orbit is followed by continuation to its doubling, and the orbit born there likewise. The
- * distances of successive doublings shrink by Feigenbaum's ratio, 4.669..., in the end: with it
- * the last two are extrapolated to the accumulation point, beyond which there is chaos.
+ * distances of successive doublings finally shrink by Feigenbaum's ratio, 4.669..., with which the
+ * last two are extrapolated to the accumulation point, beyond which there is chaos.
  *
  * Source: Feigenbaum, Journal of Statistical Physics 19 (1978) 25; Kuznetsov, Elements of Applied
  * Bifurcation Theory, chapter 4.
@@ -35,15 +35,15 @@ typedef struct pendres_cascade {
   double limit;       /**< where they accumulate; NaN with less than three doublings */
   double limit_error; /**< its error */
   double ratio;       /**< of the last two distances, which tends to Feigenbaum's; NaN with less
-                           than four doublings, as three do not tell how far off it is */
+                           than four doublings, as three give no error estimate */
   double ratio_error; /**< its error */
 } pendres_cascade;
 
 /**
  * The cascade that a stable orbit goes through while a parameter moves from its own value towards
- * `limit`. A loss of mirror symmetry on the way is gone through. It ends where an orbit leaves the
+ * `limit`. A loss of mirror symmetry on the way is followed. It ends where an orbit leaves the
  * range, or ends otherwise, or no stable orbit of twice the period is born, or after
- * PENDRES_CASCADE_DOUBLINGS: the cost doubles each time, and rounding hides what is beyond.
+ * PENDRES_CASCADE_DOUBLINGS: the cost doubles each time, and rounding hides further doublings.
  *
  * orbit is read; *out is complete on PENDRES_OK. Errors: PENDRES_INVALID_ARGUMENT,
  * PENDRES_NOT_FOUND (the orbit does not double its period in the range; *out then has no

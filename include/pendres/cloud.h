@@ -4,9 +4,9 @@
  *
  * Owns: the cloud around an attractor of a set, followed long enough after a start on the attractor
  * and with steps fine enough, its covariance beside that of linear noise theory, whether the two
- * agree, and the rate of escapes. pendres_cloud_measure() does all; the functions after it do its
- * parts, so that a program may share them among threads. Whichever way, the results are the same
- * bytes.
+ * agree, and the rate of escapes. pendres_cloud_measure() does all of this; the functions after
+ * it do its parts, so that a program may divide them among threads. The results are the same bytes
+ * either way.
  *
  * A trajectory has escaped at the first strobe at which it has switched from the attractor, or left
  * well 0 (switching.h); what it does afterwards does not count.
@@ -30,12 +30,13 @@ extern "C" {
 /** What to make a cloud of. */
 typedef struct pendres_cloud_request {
   const pendres_attractors *set; /**< attractors of one parameter set; not owned */
-  size_t attractor;              /**< the one of them that all trajectories start on, in well 0 */
+  size_t attractor;              /**< the one on which all trajectories start, in well 0 */
   double temperature;            /**< T >= 0, in units of m g l */
-  size_t trajectories;           /**< at least 2; a few hundred make good errors */
+  size_t trajectories;           /**< at least 2; a few hundred give reliable errors */
   long record;                   /**< strobes of each trajectory that count, at least 1 */
-  int steps_per_period;          /**< steps a drive period, from 2 to 1000000; 0: as few as keep the
-                                      bias of means and covariances below 1 % of the widths */
+  int steps_per_period;          /**< steps per drive period, from 2 to 1000000; 0: the least number
+                                      for which the bias of means and covariances is below 1 % of
+                                      the widths */
 } pendres_cloud_request;
 
 /** How a cloud was made. */
@@ -51,9 +52,9 @@ typedef enum pendres_cloud_way {
 typedef enum pendres_cloud_verdict {
   PENDRES_CLOUD_AGREES = 0,    /**< each element within 3 of its standard errors, bias included */
   PENDRES_CLOUD_TOO_HOT,       /**< one of them differs by more */
-  PENDRES_CLOUD_NOT_COMPARED,  /**< there is no cloud, or theory does not know it: an orbit of
+  PENDRES_CLOUD_NOT_COMPARED,  /**< there is no cloud, or the theory does not apply: an orbit of
                                     several periods has a cloud around several points */
-  PENDRES_CLOUD_UNCERTAIN,     /**< an error above half the width, which agrees with anything */
+  PENDRES_CLOUD_UNCERTAIN,     /**< an error above half the width, too large for a comparison */
   PENDRES_CLOUD_BELOW_ROUNDING, /**< so narrow that nothing is followed: the covariance is that
                                      of theory */
   PENDRES_CLOUD_VERDICTS       /**< how many there are */
@@ -68,8 +69,8 @@ typedef struct pendres_cloud {
   pendres_langevin_covariance linear;  /**< the covariance by linear noise theory */
   double linear_error;                 /**< its error, as in pendres_langevin_linear */
   pendres_cloud_verdict verdict;       /**< whether the two agree */
-  double escape_exposure;              /**< time that trajectories were watched for escapes, added
-                                            up, in units of 1/omega_0 */
+  double escape_exposure;              /**< total time during which trajectories could escape, in
+                                            units of 1/omega_0 */
   pendres_langevin_interval escape_rate; /**< escapes per unit time, with their 95 % interval */
 } pendres_cloud;
 
@@ -96,13 +97,13 @@ pendres_status pendres_cloud_prepare(pendres_context *ctx, const pendres_cloud_r
 size_t pendres_cloud_parts(const pendres_cloud_request *request);
 
 /** The trajectories of a part, from 0 on: how many, and in *first the number of the first (both 0
- *  of what is no part). first may be NULL. */
+ *  if there is no such part). first may be NULL. */
 size_t pendres_cloud_part(const pendres_cloud_request *request, size_t part, size_t *first);
 
 /**
  * Follow the trajectories of one part, by the request's steps: those of the bias that
  * pendres_cloud_prepare has found. x and v, if not NULL, receive the strobe points of this part
- * alone. A part that all have left before a strobe counted is no error: its statistics are NaN.
+ * alone. A part that all have left before a strobe counted is not an error: its statistics are NaN.
  */
 pendres_status pendres_cloud_follow(pendres_context *ctx, const pendres_cloud_request *request,
                                     size_t part, pendres_langevin_cloud *out, double *x,
@@ -110,7 +111,7 @@ pendres_status pendres_cloud_follow(pendres_context *ctx, const pendres_cloud_re
 
 /**
  * The last part of pendres_cloud_measure: merge what the parts of a prepared cloud have measured,
- * in their order, compare with theory, and make the rate of escapes.
+ * in their order, compare with theory, and compute the rate of escapes.
  */
 pendres_status pendres_cloud_conclude(const pendres_cloud_request *request, size_t parts,
                                       const pendres_langevin_cloud *part, pendres_cloud *cloud);

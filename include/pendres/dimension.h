@@ -28,11 +28,11 @@ extern "C" {
 
 enum { PENDRES_CORRELATION_SCALES = 64 /**< distances of a correlation sum at most */ };
 
-/** What the distances between points tell. Plain data. */
+/** The correlation dimension and the sums from which it comes. Plain data. */
 typedef struct pendres_correlation {
-  double dimension;       /**< correlation dimension; NaN where the points are too few to tell */
-  double dimension_error; /**< its error: two standard errors, and what the dimension differs by
-                               from one part of the range of distances to another */
+  double dimension;       /**< correlation dimension; NaN if there are too few points */
+  double dimension_error; /**< its error: two standard errors, and the difference of the dimension
+                               between parts of the range of distances */
   double shortest;        /**< range of distances that the dimension comes from, lower end ... */
   double longest;         /**< ... and upper end; NaN without a dimension */
   int scales;             /**< how many distances follow */
@@ -47,24 +47,24 @@ typedef struct pendres_section {
   size_t n;        /**< how many points */
   const double *x; /**< [n] positions */
   const double *v; /**< [n] velocities */
-  double turn;     /**< length of the circle that x lies on: 2 pi for the pendulum; 0: x is no
+  double turn;     /**< length of the circle that x lies on: 2 pi for the pendulum; 0: x is not an
                         angle */
 } pendres_section;
 
 /**
  * The correlation dimension of the points of a section. Distances are sqrt(dx^2 + dv^2) with dx
- * taken around the circle. Distances below `resolution`, the error of the points, are not looked at
- * (0: all are).
+ * taken around the circle. Distances below `resolution`, the error of the points, are not used (0:
+ * all are).
  *
  * Pairs less than 32 apart in time are left out, as they are close for another reason. The
  * dimension is the slope of log sum against log distance, from a thirty-second of the points'
  * extent down to where some 500 pairs are left. Standard errors are those of a jackknife over 16
- * stretches of time; what the slope differs by between the upper and the lower half of the range is
- * added, since sums of fractal sets wind around their straight line. Costs n^2 / 2 distances of
- * some two nanoseconds each.
+ * intervals of time; the difference of the slopes in the upper and the lower half of the range is
+ * added, since sums of fractal sets oscillate about a straight line. The cost is n^2 / 2 distances
+ * of some two nanoseconds each.
  *
  * The section is read, *out is written. Errors: PENDRES_INVALID_ARGUMENT (fewer than two points,
- * one that is no number, a turn or a resolution below 0), PENDRES_OUT_OF_MEMORY,
+ * one that is not a number, a turn or a resolution below 0), PENDRES_OUT_OF_MEMORY,
  * PENDRES_INTERRUPTED. Thread safety: as for the context.
  */
 pendres_status pendres_correlation_measure(pendres_context *ctx, const pendres_section *section,
@@ -77,8 +77,9 @@ pendres_status pendres_correlation_measure(pendres_context *ctx, const pendres_s
  * 0 where the exponent is negative: a periodic orbit.
  *
  * *error, if not NULL, receives its error for an error of the exponent, with the same confidence.
- * NaN, and a NaN error, where a pendulum is no pendulum, damping is 0, or the exponent is no number
- * or 0. No errors otherwise; thread safe.
+ * NaN, with the error NaN, if the pendulum is not valid, its damping is 0, or the exponent is NaN
+ * or
+ * 0. No other errors; thread safe.
  */
 double pendres_lyapunov_dimension(const pendres_pendulum *p, double exponent,
                                   double exponent_error, double *error);

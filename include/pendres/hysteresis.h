@@ -6,64 +6,13 @@
  * who sweeps a frequency up and down; where the state ends, and which state the pendulum goes to
  * then.
  *
- * A stable periodic orbit is followed by continuation, so that the value at which it ends is that
- * of a bifurcation, located to the tolerance, and not that of the next step. At a period doubling
- * or a symmetry breaking at which a stable orbit is born, or a branch point at which another takes
- * over the stability, the pendulum goes over to that orbit without a jump. Everywhere else it
- * jumps. PENDRES_HYSTERESIS_TRIALS pendulums then start from the
- * orbit that ends, with the parameter beyond the bifurcation by a ten-thousandth or a
- * hundred-thousandth of its scale (0.3 for the drive frequency, 0.1 for others), and the pendulum
- * goes to the state that most of them reach. How long a pendulum stays near a fold depends on the
- * distance beyond it; the distances of the trials vary by enough for them to leave at every phase
- * of a period. Where they do not all reach the same state, the outcome depends on distances that no
- * experiment controls, and the jump is marked as uncertain.
+ * A stable periodic orbit is followed by continuation to the bifurcation that ends it, which is
+ * located to the tolerance; PENDRES_HYSTERESIS_TRIALS pendulums just beyond it decide where a
+ * pendulum jumps to. From chaos the pendulum is settled again at each value, and a rotation that is
+ * not locked to the drive is followed on its invariant circle. docs/sweeps.md describes the method.
  *
- * From a chaotic state the pendulum is settled anew at each value, starting from its present state.
- * If it has come to a periodic orbit, or has escaped, the interval is halved until the value at
- * which it first does so is found. If the orbit, or one that it is born from by doublings or a
- * loss of symmetry, is born there, in a window of the chaos, and most trials go to it just behind
- * its birth, from states of the chaos just before it, its birth is where the chaos ends. If its
- * period doubles again and again towards the chaos, that ends where the doublings accumulate
- * (cascade.h), and the pendulum goes through them backwards. If the orbit is there on both sides,
- * or if the pendulum escapes, the chaos ends in a crisis. Next to a crisis chaos lasts long before
- * it ends: the error includes how far beyond it chaos may have been taken to last, from the lives
- * of 32 pendulums at two distances. The orbit is then followed. If orbits and chaos have alternated
- * four times in one interval, the end of chaos is only known to lie in the rest of it. A pendulum
- * that has escaped to infinity does not return on the rest of the path. Chaos that becomes wider or
- * narrower without an end is no jump.
- *
- * An orbit whose computation stops, after so many points or in too short steps, is followed anew
- * from where that was, or, where this leads no further, settled at the next value. If that is
- * another orbit, the interval is halved as below.
- *
- * A value that cannot be computed is left out, and the path goes on as if it had never been there.
- * This happens where too many steps are needed, an iteration fails, or the value would take more
- * than 3e9 evaluations of the slope, some ten seconds to a minute, or the search for the end of
- * chaos before it would. Values that are far apart cost more than a path in smaller steps.
- *
- * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive.
- * States that are no periodic orbits are then identified by averages, as quasi-periodic or chaotic,
- * by the criteria of lyapunov.h. A trial in which averages cannot decide, since a rotation slips
- * only once in thousands of periods, say, or one of any pendulum that has not settled, is repeated
- * with the parameter ten times as far beyond the bifurcation, up to three times.
- *
- * Such a rotation lies on an invariant circle, a closed curve around the cylinder of states, which
- * persists where the rotation locks to the drive in narrow steps and unlocks again. Where the
- * circle can be followed nothing else is integrated: mean velocities, locks, and the ends of locks
- * follow from the map of a period on the circle. If the orbit of a fold lies on the circle, the
- * pendulum goes over to the rotation there without any trials. The error of a mean velocity
- * consists of the scatter among four orbits of the map, and of the error of the map with the factor
- * by which the motion amplifies it. Points so close to the end of a lock that the error of the map
- * hides it are unresolved. Where the circle is not smooth enough, as before it breaks up, averages
- * over the pendulum's own periods are used, as above.
- *
- * Without a drive, under a torque alone, a pendulum is at rest or rotates with a period of its own
- * (rotation.h). Such a rotation is PENDRES_LABEL_RUNNING, with a mean velocity and no period in
- * drive periods; at most values it is interpolated, by polynomials whose last coefficients are part
- * of the error. A pendulum comes to it from the fold at a torque of 1, beyond which there is no
- * equilibrium, or from a start that passes the upper equilibrium. It ends at the least torque, or
- * at the damping for which the pendulum's torque is the least one, by a homoclinic connection
- * or a fold.
+ * A value that cannot be computed is left out, and the path continues as if it had not been given.
+ * A pendulum that has escaped to infinity does not return on the rest of the path.
  *
  * Sources: Calleja, Celletti and de la Llave, Journal of Differential Equations 255 (2013) 978;
  * Hirsch, Pugh and Shub, Invariant Manifolds (Springer, 1977), for circles. Kuznetsov, Elements of
@@ -82,7 +31,7 @@ extern "C" {
 #pragma GCC visibility push(default)
 
 enum {
-  PENDRES_HYSTERESIS_TRIALS = 16, /**< pendulums that tell where a jump leads */
+  PENDRES_HYSTERESIS_TRIALS = 16, /**< pendulums that decide where a jump leads */
   PENDRES_HYSTERESIS_PERIOD = 64  /**< orbits of longer periods are not followed by continuation */
 };
 
@@ -97,18 +46,18 @@ typedef struct pendres_hysteresis_point {
   double v;                    /**< ... and the velocity */
   double mean_velocity;        /**< of x, in rad per unit time */
   double mean_velocity_error;  /**< its error: rounding of closed orbits, whose mean is exact; of
-                                    quasi-periodic rotations a bound; else it holds with a
+                                    quasi-periodic rotations a bound; otherwise it holds with a
                                     confidence of 99.9 % */
   int certain;                 /**< 1: no error of the integration can have chosen the state on
                                     which the path began (each jump on the way has a mark of its
                                     own); 0 also if unresolved */
-  pendres_status outcome;      /**< PENDRES_OK; else why the path left the value out:
+  pendres_status outcome;      /**< PENDRES_OK; otherwise why the path left the value out:
                                     PENDRES_TOLERANCE_UNREACHABLE, PENDRES_INTEGRATION_FAILED,
                                     PENDRES_NOT_CONVERGED, PENDRES_UNRESOLVED (the way there takes
                                     too much work); or did not reach it: PENDRES_INTERRUPTED */
 } pendres_hysteresis_point;
 
-/** One list makes the codes and their names: X(code, name). Codes stay: files have them. */
+/** The codes and their names in one list: X(code, name). Codes must not change: files have them. */
 #define PENDRES_JUMP_LIST(X)      \
   X(FOLD, "fold")                 \
   X(FLIP, "flip")                 \
@@ -130,8 +79,8 @@ typedef struct pendres_hysteresis_point {
  * manifold; PENDRES_JUMP_HOMOCLINIC: a rotation without a drive meets the upper equilibrium.
  * PENDRES_JUMP_COUNT: how many there are.
  *
- * All of these are ends of states: a state is never said to end because a computation did. Where
- * that could not go on, points are marked by their outcome, and there is no jump.
+ * All of these are ends of states: a state is never reported to end because a computation stopped.
+ * Where that could not continue, points are marked by their outcome, and there is no jump.
  */
 typedef enum pendres_jump_kind {
 #define PENDRES_JUMP_CODE(code, name) PENDRES_JUMP_##code,
@@ -194,7 +143,7 @@ pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pen
                                          const pendres_state *start,
                                          const pendres_hysteresis_path *path,
                                          pendres_hysteresis **out);
-/** Free what was met; NULL is allowed. */
+/** Free a path; NULL is allowed. */
 void pendres_hysteresis_free(pendres_hysteresis *h);
 
 /** As many points as the path has values. */

@@ -37,7 +37,7 @@
 extern "C" {
 #endif
 
-enum { PENDRES_LANGEVIN_STEPS = 24 /**< steps a drive period where nobody chooses them */ };
+enum { PENDRES_LANGEVIN_STEPS = 24 /**< default number of steps per drive period */ };
 
 /* ---- Advancing --------------------------------------------------------------------------- */
 
@@ -59,7 +59,7 @@ typedef struct pendres_langevin_strobe {
                              area of that period, likewise */
 } pendres_langevin_strobe;
 
-/** What an observer answers. */
+/** What an observer returns. */
 typedef enum pendres_langevin_answer {
   PENDRES_LANGEVIN_GO_ON = 0, /**< advance these trajectories further */
   PENDRES_LANGEVIN_ENOUGH,    /**< these trajectories need not be advanced further */
@@ -68,13 +68,15 @@ typedef enum pendres_langevin_answer {
 } pendres_langevin_answer;
 
 /**
- * Who sees trajectories once a period. Blocks of trajectories come one after another, each through
- * all its periods; which trajectories share a block must not matter to the observer.
+ * A function to which trajectories are shown once per period. Blocks of trajectories follow one
+ * another, each through all of its periods; the observer must not depend on which trajectories
+ * share a block.
  */
 typedef struct pendres_langevin_observer {
-  /** Shown a block's trajectories at the end of each of their periods. The context is in use. */
+  /** Called with a block's trajectories at the end of each of their periods. The context is in
+     use. */
   pendres_langevin_answer (*see)(void *arg, const pendres_langevin_strobe *strobe);
-  void *arg;     /**< handed to see(); not owned */
+  void *arg;     /**< passed to see(); not owned */
   int harmonics; /**< nonzero: cosine, sine and work are wanted, for 20 to 30 % more time */
 } pendres_langevin_observer;
 
@@ -82,8 +84,8 @@ typedef struct pendres_langevin_observer {
 typedef struct pendres_langevin_run {
   size_t n;                          /**< number of trajectories */
   const pendres_pendulum *pendulums; /**< [n] parameters, the temperature among them */
-  const uint64_t *ids;               /**< [n] who each trajectory is; NULL: 0 .. n-1. Those of equal
-                                          seed, id and period number have the same noise */
+  const uint64_t *ids;               /**< [n] identity of each trajectory; NULL: 0 .. n-1. Those of
+                                          equal seed, id and period number have the same noise */
   long first_period;                 /**< number of the first period: how many each trajectory has
                                           behind it, from 0 on */
   long periods;                      /**< drive periods to advance by; all of them must be numbered
@@ -91,9 +93,9 @@ typedef struct pendres_langevin_run {
   int steps_per_period;              /**< steps a drive period, from 2 to 1000000; 0: those of the
                                           context's options or, if these have none,
                                           PENDRES_LANGEVIN_STEPS */
-  const pendres_langevin_observer *observer; /**< who is shown the trajectories; NULL: nobody */
-  int unbounded; /**< nonzero: trajectories may go to infinity, where x and v are infinite or no
-                      numbers; else that is a failure */
+  const pendres_langevin_observer *observer; /**< to which trajectories are shown; NULL: none */
+  int unbounded; /**< nonzero: trajectories may go to infinity, where x and v are infinite or NaN;
+                      otherwise that is a failure */
 } pendres_langevin_run;
 
 /**
@@ -103,7 +105,7 @@ typedef struct pendres_langevin_run {
  * Advancing k periods and then m, with first_period raised by k, is the same to the last bit as
  * advancing k + m.
  *
- * Errors: PENDRES_INVALID_ARGUMENT (a temperature that is negative or not a number, say; the
+ * Errors: PENDRES_INVALID_ARGUMENT (for instance a temperature that is negative or NaN; the
  * message names the trajectory), PENDRES_INTEGRATION_FAILED (a trajectory went beyond 1e15),
  * PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED; on any of these x and v are unchanged.
  */
@@ -149,7 +151,7 @@ typedef struct pendres_langevin_request {
   double x;                  /**< position where all start, at drive phase 0: that of the
                                   attractor's strobe point */
   double v;                  /**< velocity there */
-  size_t trajectories;       /**< at least 2; a few hundred make good errors */
+  size_t trajectories;       /**< at least 2; a few hundred give reliable errors */
   long settle;               /**< drive periods before the first strobe that counts */
   long record;               /**< strobes of each trajectory that count, at least 1 */
   int steps_per_period;      /**< steps a drive period, as in pendres_langevin_run */
@@ -158,7 +160,7 @@ typedef struct pendres_langevin_request {
    *  the attractor. It is called at every strobe; marks stay set from strobe to strobe. From the
    *  strobe at which a trajectory is marked it does not count. */
   void (*leave)(void *arg, const pendres_langevin_strobe *strobe, unsigned char *left);
-  void *arg;                 /**< handed to leave(); not owned */
+  void *arg;                 /**< passed to leave(); not owned */
 } pendres_langevin_request;
 
 /** A cloud. Errors are standard errors from the scatter among trajectories, which are
@@ -177,7 +179,7 @@ typedef struct pendres_langevin_cloud {
  * trajectories x record strobe points, those of one trajectory together; NaN where it had left.
  *
  * Errors: as pendres_langevin_advance; PENDRES_NOT_FOUND if fewer than two trajectories had a
- * strobe that counts: statistics are NaN then; left, exposure and strobes are right.
+ * strobe that counts: statistics are then NaN, but left, exposure and strobes are valid.
  */
 pendres_status pendres_langevin_measure(pendres_context *ctx,
                                         const pendres_langevin_request *request,

@@ -3,9 +3,9 @@
  * @brief Large ensembles on several threads.
  *
  * A context belongs to one thread at a time, two contexts share nothing, and what is chosen for a
- * pendulum never depends on its neighbours. So a program may share its pendulums among threads of
- * its own in any way; this function is for those that have none. Whatever the threads and the
- * parts, the results are the same bytes as those of one thread.
+ * pendulum never depends on its neighbours. A program may therefore divide its pendulums among
+ * threads of its own in any way; this function is for programs that have none. The results are the
+ * same bytes for any number of threads and parts.
  *
  * @code
  *     static pendres_status advance(pendres_context *ctx, size_t first, size_t count, void *arg)
@@ -32,40 +32,41 @@
 extern "C" {
 #endif
 
-/** How work is cut and shared. Zero in any field but n means the default. */
+/** How work is divided. Zero in any field but n means the default. */
 typedef struct pendres_parts {
-  size_t n;                /**< things to be done, pendulums say */
-  size_t each;             /**< things a part, the last one may have fewer; default 4096, which
-                                fills eight blocks of lanes. Small parts share evenly, large ones
-                                waste less at their ends */
-  int threads;             /**< at most so many; default one for each processor that the process
-                                may use. The calling thread is one of them, and works on alone
-                                where the system gives no more */
+  size_t n;                /**< number of items, for instance pendulums */
+  size_t each;             /**< items per part, the last one may have fewer; default 4096, which
+                                fills eight blocks of lanes. Small parts are divided more evenly,
+                                large ones lose less time at their ends */
+  int threads;             /**< largest number of threads; default one for each processor that the
+                                process may use. The calling thread is one of them, and works alone
+                                if no other can be started */
   pendres_options options; /**< of the contexts, one a thread */
 } pendres_parts;
 
 /**
- * Do work for things 0 .. n - 1, in parts on several threads, and return when all is done.
+ * Do work for items 0 .. n - 1, in parts on several threads, and return when all are done.
  *
- * work(ctx, first, count, arg) does things first .. first + count - 1 with a context that is its
- * thread's alone until it returns. It is called from several threads at once, with the same arg: it
- * may write what belongs to its own things, and must not change what others read. Parts begin in
- * ascending order. Where one fails no more are begun, those that run are ended, and the status and
- * the message are those of the first failed part, in the order of things: "part from 8192 on: " and
- * what its context says.
+ * work(ctx, first, count, arg) does items first .. first + count - 1 with a context that no other
+ * thread uses until it returns. It is called from several threads at the same time, with the same
+ * arg: it may write what belongs to its own items, and must not change what others read. Parts
+ * begin in ascending order. If one fails no more are begun, those that run are ended, and the
+ * status and the message are those of the first failed part, in the order of items: "part from
+ * 8192 on: " and the message of its context.
  *
  * @param how     read
  * @param work    what to do with a part; a status other than PENDRES_OK ends the run
- * @param arg     handed on to work; kept by the caller
- * @param message [size] receives why it failed, cut to fit, "" after success; may be NULL if size
+ * @param arg     passed to work; kept by the caller
+ * @param message [size] receives why it failed, truncated to fit, "" after success; may be NULL if
+ * size
  *                is 0
  * @param size    bytes of message
  * @return PENDRES_OK; PENDRES_INVALID_ARGUMENT: how or work is NULL, threads negative or above
  *         4096, or invalid options; PENDRES_OUT_OF_MEMORY; else what work returned
  *
- * Thread safety: any number of calls at once. Signals are blocked in the threads that it makes, so
- * that those of the caller get them. To end it early: let work return PENDRES_INTERRUPTED, or give
- * its context a function to ask (pendres_context_set_interrupt).
+ * Thread safety: any number of calls at the same time. Signals are blocked in the threads that it
+ * makes, so that those of the caller receive them. To end it early, let work return
+ * PENDRES_INTERRUPTED, or set a function for its context (pendres_context_set_interrupt).
  */
 pendres_status pendres_parts_run(const pendres_parts *how,
                                  pendres_status (*work)(pendres_context *ctx, size_t first,

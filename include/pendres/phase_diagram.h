@@ -27,8 +27,8 @@
  * that fold it is LA; before it, it is SA if its amplitude is less than the fold's, else LA; on a
  * line without such a fold it has no name. With softening forces, such as the pendulum's, SA ends
  * at the upper end of its range, with stiffening ones at the lower end; the unstable orbit that it
- * meets there tells which. (A line by itself can miss that fold, if its members are on LA alone and
- * LA's branch does not lead to it.)
+ * meets there decides which. (A line by itself can miss that fold, if its members are on LA alone
+ * and LA's branch does not lead to it.)
  */
 #ifndef PENDRES_PHASE_DIAGRAM_H
 #define PENDRES_PHASE_DIAGRAM_H
@@ -64,7 +64,7 @@ typedef enum pendres_regime {
 /** What members settle on beside SA and LA: bits, 0 for nothing. */
 typedef enum pendres_other {
   PENDRES_OTHER_ASYMMETRIC = 1, /**< an orbit of one drive period that is not its own mirror image:
-                                     SA or LA all the same */
+                                     it is SA or LA, too */
   PENDRES_OTHER_PERIODIC = 2,   /**< an orbit that closes after several drive periods */
   PENDRES_OTHER_RUNNING = 4,    /**< an orbit that closes up to whole turns: its winding is not 0 */
   PENDRES_OTHER_CHAOTIC = 8,    /**< a chaotic attractor */
@@ -128,7 +128,7 @@ typedef struct pendres_phase_diagram pendres_phase_diagram;
 
 /**
  * A whole diagram on one thread. A point or line that cannot be computed is marked by its outcome;
- * the others are computed all the same.
+ * the others are computed nevertheless.
  *
  * @param ctx  belongs to one thread at a time
  * @param grid read; copied but for the values, which must outlive the diagram
@@ -211,8 +211,8 @@ const pendres_phase_point *pendres_phase_diagram_point(const pendres_phase_diagr
                                                        size_t point);
 
 /**
- * What became of a point: PENDRES_OK, or why it has no results, or has not been completed.
- * *message (may be NULL) receives a sentence on it, owned by the diagram; NULL where there is none.
+ * The outcome of a point: PENDRES_OK, or why it has no results, or has not been completed.
+ * *message (may be NULL) receives a message, owned by the diagram; NULL where there is none.
  */
 pendres_status pendres_phase_diagram_outcome(const pendres_phase_diagram *diagram, size_t point,
                                              const char **message);

@@ -7,7 +7,7 @@
  * scatters with thermal noise, as in measurements of switching currents.
  *
  * Time is counted in drive periods: it is the drive's phase over 2 pi, the integral of the drive's
- * frequency, and goes on steadily when the frequency is what moves. Between two corners of a ramp
+ * frequency, and is continuous also when the frequency itself varies. Between two corners of a ramp
  * the parameter is a linear function of this time.
  *
  * The time at which a pendulum leaves a state is measured as with a lock-in amplifier, by the first
@@ -23,8 +23,8 @@
  *
  * Without a drive the drive's frequency is a unit of time and nothing else. Windows are then the
  * time of a turn of states that rotate, and the time in which motions about them decay of states at
- * rest, which are told apart by the position. A pendulum must not return within 2/damping and two
- * windows.
+ * rest, which are distinguished by the position. A pendulum must not return within 2/damping and
+ * two windows.
  *
  * Integrator and random numbers are those of langevin.h, of order four at temperature zero as well.
  * Parameters are held constant within a step, at their value in its middle.
@@ -47,8 +47,8 @@ extern "C" {
 
 /** A ramp. Everything that it points to is read, and not kept. */
 typedef struct pendres_ramp {
-  pendres_pendulum pendulum;   /**< what stands still; its value of the parameter is not read */
-  pendres_parameter parameter; /**< what moves */
+  pendres_pendulum pendulum;   /**< the other parameters; its value of the varied one is not read */
+  pendres_parameter parameter; /**< the parameter that varies */
   size_t corners;              /**< at least 2 */
   const long *period;          /**< [corners] times in drive periods: 0, then ascending */
   const double *value;         /**< [corners] of the parameter at these times */
@@ -66,8 +66,8 @@ typedef struct pendres_ramp {
 typedef struct pendres_ramp_jump {
   double time;        /**< in drive periods since the ramp's start; NaN where the pendulum is not in
                            that state, does not leave it before the parameter turns round, or the
-                           path's jump is gradual or from or to chaos, so that nothing tells the
-                           states apart */
+                           path's jump is gradual or from or to chaos, so that the states cannot
+                           be distinguished */
   double value;       /**< of the parameter then */
   double value_error; /**< its error, from two runs of different steps */
   double delay;       /**< how far beyond the path's jump this is, in the direction of the ramp */
@@ -82,7 +82,7 @@ typedef struct pendres_ramp_record {
                         turns included */
   double *v;       /**< velocity, likewise */
   double *x_error; /**< error of x, from two runs of different steps; infinite from where these
-                        have lost each other */
+                        have separated */
   double *v_error; /**< error of v, likewise */
 } pendres_ramp_record;
 

@@ -1,6 +1,6 @@
 /**
  * @file reference.h
- * @brief A second, independent way to the numbers of orbits, in extended precision.
+ * @brief An independent computation of orbits and their measures, in extended precision.
  *
  * Owns: the pendulum integrated by Taylor series in long double, its stroboscopic map with all
  * first derivatives, and what follows from the map: orbits with their measures, resonances,
@@ -52,7 +52,7 @@ extern "C" {
  * that the angle is *y + 2 pi *turns.
  *
  * Errors: PENDRES_INVALID_ARGUMENT (also for |y| > 1e9), PENDRES_INTEGRATION_FAILED (steps
- * below 1e-6 rad of drive phase, as for absurd velocities or drive frequencies).
+ * below 1e-6 rad of drive phase, as for extreme velocities or drive frequencies).
  */
 pendres_status pendres_reference_advance(const pendres_pendulum *p, long double *y,
                                          long double *v, long *turns, long periods);

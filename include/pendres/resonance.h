@@ -77,7 +77,7 @@ typedef struct pendres_resonance {
 pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
                                       double lowest, double highest, pendres_resonance *out);
 
-/** The same with an ensemble of the caller's. */
+/** The same with the caller's ensemble. */
 pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
                                                double lowest, double highest,
                                                const pendres_ensemble *ensemble,
@@ -87,18 +87,19 @@ enum { PENDRES_RESONANCE_MESSAGE = 512 /**< bytes of a search's message */ };
 
 /** One of several searches. */
 typedef struct pendres_resonance_search {
-  pendres_pendulum pendulum;   /**< what is searched for; its drive frequency is not read */
+  pendres_pendulum pendulum;   /**< its resonance is searched for; its drive frequency is not read
+                                  */
   double lowest;               /**< lower end of the range of drive frequencies */
   double highest;              /**< upper end of the range */
   pendres_status outcome;      /**< written: what pendres_resonance_find_ensemble() would return */
   pendres_resonance resonance; /**< written: all NaN unless the outcome is PENDRES_OK */
   char message[PENDRES_RESONANCE_MESSAGE]; /**< written: why the outcome is not PENDRES_OK, as
-                                                pendres_context_message() tells it; else empty */
+                                                in pendres_context_message(); otherwise empty */
 } pendres_resonance_search;
 
 /**
  * Resonances of many pendulums, with one ensemble each. Searches run side by side, which takes less
- * time than one after another, all the less if neighbours in the list are alike. Each result is bit
+ * time than one after another, especially if neighbours in the list are similar. Each result is bit
  * by bit that of pendres_resonance_find_ensemble(), whatever the other pendulums are.
  *
  * @param ctx      belongs to one thread at a time

@@ -1,6 +1,6 @@
 /**
  * @file rotation.h
- * @brief Rotations under a constant torque alone, and the least torque that keeps one up.
+ * @brief Rotations under a constant torque alone, and the least torque that sustains one.
  *
  * Without a drive, y'' + gamma y' + sin y = I (y = x - pi/2) is autonomous: its states are
  * equilibria and rotations with a period of their own, which the stroboscopic map of a drive does
@@ -17,8 +17,8 @@
  * Method: Taylor series of v in the angle, from the equilibrium on along its manifolds; for
  * rotations at a damping of 1 or more and a torque above 1 implicit collocation, since friction
  * leaves series no long steps there. Errors are twice the difference of two computations of
- * different order and step length, or panels, and what rounding may add: some units of the last
- * place, next to a homoclinic connection times what it lengthens the slow passage by.
+ * different order and step length, or panels, plus a bound for rounding: some units of the last
+ * place, close to a homoclinic connection times the factor by which the slow passage is lengthened.
  *
  * Source: F. Tricomi, Annali della Scuola Normale Superiore di Pisa 2 (1933) 1; M. Urabe, Journal
  * of Science of the Hiroshima University A 18 (1955) 379; for small damping Melnikov's 4 gamma /
@@ -72,7 +72,7 @@ pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_on
  *
  * @param p   read
  * @param out written on PENDRES_OK
- * @param why may be NULL; on failure a static sentence, else left as it is
+ * @param why may be NULL; on failure a static sentence, otherwise unchanged
  * @return PENDRES_NOT_FOUND if the torque is too small for one, PENDRES_INVALID_ARGUMENT. Thread
  * safe.
  */

@@ -4,11 +4,11 @@
  *
  * Owns: a spectrum that is built up piece by piece, so that a record may be longer than memory.
  *
- * The record is cut into segments that overlap by half; each is multiplied by a Hann window and
- * transformed, and the squares are averaged. Spectral lines of a motion that is driven are sharp,
- * and stand in one place of the spectrum and its two neighbours if a segment is a whole number of
- * drive periods; what chaos adds is broad. For pendulums that turn over, take the velocity: the
- * angle grows without end.
+ * The record is divided into segments that overlap by half; each is multiplied by a Hann window and
+ * transformed, and the squares are averaged. Spectral lines of a driven motion are sharp: each is
+ * in one frequency bin and its two neighbours if a segment is a whole number of drive periods.
+ * Chaos adds a broad background. For pendulums that turn over use the velocity, as the angle grows
+ * without bound.
  *
  *     pendres_spectrum *s = NULL;
  *     if (pendres_spectrum_create(4096, interval, &s) == PENDRES_OK &&
@@ -33,11 +33,11 @@ extern "C" {
 
 enum { PENDRES_SPECTRUM_LONGEST = 1 << 24 /**< samples of a segment at most */ };
 
-/** Opaque: a spectrum in the making. */
+/** Opaque: a spectrum that is being built up. */
 typedef struct pendres_spectrum pendres_spectrum;
 
 /**
- * Start a spectrum from segments of so many samples, an even number from 4 on, `interval` of time
+ * Start a spectrum from segments with an even number of samples, at least 4, `interval` of time
  * apart. *out is to be freed by pendres_spectrum_free; NULL on failure. Errors:
  * PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
  */
@@ -47,8 +47,8 @@ pendres_status pendres_spectrum_create(size_t segment, double interval, pendres_
 void pendres_spectrum_free(pendres_spectrum *s);
 
 /**
- * Go on with n more samples, in the order of time and in pieces of any length: the spectrum does
- * not depend on how the record is cut. Errors: PENDRES_INVALID_ARGUMENT (also where one is no
+ * Add n more samples, in the order of time and in pieces of any length: the spectrum does not
+ * depend on how the record is divided. Errors: PENDRES_INVALID_ARGUMENT (also if one is not a
  * number; nothing is added then), PENDRES_INTERNAL.
  */
 pendres_status pendres_spectrum_add(pendres_spectrum *s, size_t n, const double *value);
@@ -61,9 +61,9 @@ size_t pendres_spectrum_count(const pendres_spectrum *s);
  * NULL, receive angular frequencies from 0 to that of Nyquist; the mean square of the samples that
  * each unit of angular frequency holds (one-sided: the sum of all densities times the distance of
  * frequencies is the mean square, weighted by the squares of the windows); and its standard error
- * from the scatter of segments. Segments that overlap share a little of what they say, and errors
- * are larger for that; lines that do not scatter are known to rounding. With one segment errors are
- * infinite; without any all is NaN. Errors: PENDRES_INVALID_ARGUMENT (s is NULL).
+ * from the scatter of segments. Overlapping segments are slightly correlated, which the errors
+ * allow for; lines that do not scatter are known to rounding. With one segment errors are infinite;
+ * without any, all values are NaN. Errors: PENDRES_INVALID_ARGUMENT (s is NULL).
  */
 pendres_status pendres_spectrum_get(const pendres_spectrum *s, double *frequency, double *density,
                                     double *error);

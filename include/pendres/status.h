@@ -6,14 +6,14 @@
  * other code is a failure, and the context (context.h) holds a sentence that
  * says which pendulum failed, where and why. Thread safe: no state.
  *
- * Lack of memory. Where the library itself asks for memory, and where the default method makes
- * SUNDIALS (6.4) ask for vectors, PENDRES_OUT_OF_MEMORY is returned. The libraries below are not
- * that careful everywhere:
+ * Lack of memory. Where the library itself allocates memory, and where the default method makes
+ * SUNDIALS (6.4) allocate vectors, PENDRES_OUT_OF_MEMORY is returned. The libraries below do not
+ * always handle a lack of memory:
  *
  * - SUNDIALS crashes on a null pointer if it gets no memory for its logger or for its list of
  *   stages, and in the methods that serve for comparison (one problem a pendulum, CVODE);
- * - GSL (2.7) ends the program by its default error handler, which the library leaves alone. After
- *   gsl_set_error_handler_off() there is a status instead;
+ * - GSL (2.7) ends the program by its default error handler, which the library does not change.
+ *   After gsl_set_error_handler_off() there is a status instead;
  * - HDF5 (1.10) calls exit(-1) if it gets no memory for one of its handles, crashes if it gets
  *   none for the copy of a name, in attaching a dimension scale, and in closing itself at exit
  *   after such a failure, and overflows the stack if it starts without memory; see
@@ -52,7 +52,7 @@ extern "C" {
  *
  * - PENDRES_OK: success
  * - PENDRES_INVALID_ARGUMENT: an argument is out of its range
- * - PENDRES_OUT_OF_MEMORY: the library got no memory that it asked for
+ * - PENDRES_OUT_OF_MEMORY: the library could not allocate memory
  * - PENDRES_INTEGRATION_FAILED: the integrator failed
  * - PENDRES_TOLERANCE_UNREACHABLE: the tolerance cannot be reached in double precision
  * - PENDRES_NOT_CONVERGED: an iteration did not converge within its budget
@@ -63,7 +63,8 @@ extern "C" {
  * - PENDRES_UNSUPPORTED: not supported by this build
  * - PENDRES_INTERNAL: an error of the library itself
  * - PENDRES_BUSY: the handle is in use by another thread, or by the call whose callback made this
- *   call; for a file: it cannot be locked, say because another process has it open for writing
+ *   call; for a file: it cannot be locked, for instance because another process has it open for
+ * writing
  * - PENDRES_STATUS_COUNT: how many there are; not a status
  */
 typedef enum pendres_status {

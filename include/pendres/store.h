@@ -29,9 +29,9 @@
  * bytes that are not are taken for Latin-1.
  *
  * Failures: PENDRES_INVALID_ARGUMENT changes nothing in the file, and the store can be used
- * further. After PENDRES_IO (a full disk, say) or PENDRES_OUT_OF_MEMORY all further writing is
- * refused with the same status and message; close, abandon or free it. A process that limits its
- * file sizes must ignore SIGXFSZ to see PENDRES_IO instead of being killed.
+ * further. After PENDRES_IO (for instance a full disk) or PENDRES_OUT_OF_MEMORY all further
+ * writing is refused with the same status and message; close, abandon or free it. A process that
+ * limits its file sizes must ignore SIGXFSZ to see PENDRES_IO instead of being killed.
  *
  * Two writers: the part file is created exclusively, so that of two runs on one output the later is
  * refused at once, with or without file locks. A part that a killed run has left is taken over: it
@@ -70,18 +70,19 @@ typedef enum pendres_store_type {
   PENDRES_STORE_TYPE_COUNT  /**< how many there are; not a type */
 } pendres_store_type;
 
-/** Attributes of the root group, of which NULL leaves one out, and how the file is made. Here only
- *  the history may tell the date, as the CF conventions ask; whatever else changes from run to run
- *  (hosts, times taken) belongs into the provenance, so that what is left of equal results is
- *  equal. */
+/** Attributes of the root group, of which NULL leaves one out, and how the file is made. Of these
+   only
+ *  the history may contain the date, as the CF conventions require; whatever else changes from run
+ *  to run (hosts, times taken) belongs into the provenance, so that the rest is equal for equal
+ *  results. */
 typedef struct pendres_store_options {
   const char *title;      /**< what the file holds, in a line (CF conventions, 2.6.2) */
   const char *history;    /**< what was done to the data, and when */
   const char *source;     /**< how the data were made: the program and its version */
   const char *references; /**< publications that describe them */
-  int alone; /**< 1: the caller knows that no other process writes this file, as by a lock of its
-                  own: a part file that is there was left, even where HDF5_USE_FILE_LOCKING has
-                  switched the locks off that would tell */
+  int alone; /**< 1: the caller knows that no other process writes this file, for instance by a lock
+                  of its own: an existing part file is then a remainder, even where
+                  HDF5_USE_FILE_LOCKING has switched off the locks that would show this */
 } pendres_store_options;
 
 /** What a variable is. Zero in any field means its default; nothing is kept after the call. */
@@ -133,7 +134,7 @@ pendres_status pendres_store_target(const char *path, char **target, char *why, 
  * it away first). An existing TARGET is not touched.
  *
  * options may be NULL. *out receives the store, also when the function fails (unless out of
- * memory: then NULL), so that pendres_store_message() can tell why; pass it to
+ * memory: then NULL), so that pendres_store_message() can give the reason; pass it to
  * pendres_store_free() in any case.
  *
  * PENDRES_IO: the folder does not exist or cannot be written, the disk is full, path is refused
@@ -161,7 +162,7 @@ void pendres_store_drop_part(const pendres_store *store);
  */
 void pendres_store_free(pendres_store *store);
 
-/** The sentence on the last failure; "" if none. Owned by the store, valid until its next use. */
+/** The message of the last failure; "" if none. Owned by the store, valid until its next use. */
 const char *pendres_store_message(const pendres_store *store);
 
 /** Make what was written so far survive the end of the process: PATH.part can be opened up to
@@ -171,7 +172,7 @@ pendres_status pendres_store_flush(pendres_store *store);
 /**
  * Define a dimension and its scale. Of spec are read: group, name, which must be new, type,
  * long_name and units. values[size] of that type are written at once; NULL: 0, 1, ... size - 1 as
- * int64, but strings, names of methods say, must be given. size may be 0.
+ * int64, but strings, for instance names of methods, must be given. size may be 0.
  */
 pendres_status pendres_store_dimension(pendres_store *store, const pendres_store_spec *spec,
                                        uint64_t size, const void *values);
@@ -220,10 +221,10 @@ pendres_status pendres_store_open(const char *path, pendres_store **out);
 
 /**
  * Read everything: each attribute and dataset of a file that pendres_store_open() has opened, in
- * pieces. HDF5 looks at its checksums on the way: numbers and headers have them, texts and the
- * lists of where chunks are do not. *datasets (may be NULL) is how many were read. PENDRES_IO: the
- * message names what cannot be read. A damaged file may make HDF5 itself crash: read one that is in
- * doubt in a process of its own. Thread safety: that of all functions of a store.
+ * pieces. HDF5 verifies its checksums on the way: numbers and headers have them, texts and the
+ * indices of chunks do not. *datasets (may be NULL) is how many were read. PENDRES_IO: the
+ * message names what cannot be read. A damaged file may make HDF5 itself crash: read a doubtful one
+ * in a process of its own. Thread safety: that of all functions of a store.
  */
 pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets);
 

@@ -103,8 +103,8 @@ typedef struct pendres_ensemble {
 pendres_ensemble pendres_ensemble_default(void);
 
 /**
- * Is it one: members, finite starts, rows that fit, ascending bounds of a rectangle? Else
- * PENDRES_INVALID_ARGUMENT, and *why (may be NULL) is a static sentence.
+ * Check an ensemble: members, finite starts, rows that fit, ascending bounds of a rectangle.
+ * Otherwise PENDRES_INVALID_ARGUMENT, and *why (may be NULL) is a static sentence.
  */
 pendres_status pendres_ensemble_check(const pendres_ensemble *e, const char **why);
 

@@ -4,21 +4,21 @@
  *
  * Owns: counting transitions along noisy trajectories, their rates with confidence intervals,
  * and the activation energy from rates at several temperatures. pendres_switching_measure() does
- * all of it for two states; the functions after it do parts of that work, which a program may share
- * among its threads, with the same results to the last bit.
+ * all of it for two states; the functions after it do parts of that work, which a program may
+ * divide among its threads, with the same results to the last bit.
  *
  * A trajectory belongs to the attractor, and well, whose core it was in last. It has switched at
  * the first strobe that sees it in the core of another attractor, and has left its well at the
  * first that sees it in a core (of any attractor) in another well. What happens outside of all
- * cores does not count: an excursion that returns is no transition. A rate is the number of
+ * cores does not count: an excursion that returns is not a transition. A rate is the number of
  * transitions divided by the time that trajectories belonged to where they came from (core sets:
  * Buchete and Hummer, J. Phys. Chem. B 112 (2008) 6057; Schuette et al., J. Chem. Phys. 134 (2011)
  * 204105), and by the share that is seen (pendres_switching_rate_of).
  *
  * The core of an attractor is an ellipse around its strobe point, one standard deviation wide of
  * the cloud that linear noise theory has there (langevin.h). Where twice that is not within the
- * basin of attraction, which states on the edge tell by settling without noise, the core is half as
- * wide as the basin allows: a barrier is then less than two temperatures.
+ * basin of attraction, which is checked by states on the edge that settle without noise, the core
+ * is half as wide as the basin allows: a barrier is then less than two temperatures.
  *
  * Under a force that drives to infinity (pendres_pendulum_leaves) infinity counts as another well,
  * from which nothing returns. A trajectory has escaped at the first strobe that sees it moving
@@ -54,8 +54,9 @@ typedef struct pendres_switching_request {
   pendres_pendulum pendulum;     /**< that of the set, with a temperature */
   const pendres_attractors *set; /**< of one parameter set; not owned */
   size_t from;                   /**< number of the attractor that all start on, in well 0 */
-  double core;                   /**< size of the cores, up to 2, in units of what follows from
-                                      the noise; 0: 1. Rates that depend on it are none */
+  double core;                   /**< size of the cores, up to 2, relative to the one that follows
+                                      from the noise; 0 stands for 1. If a result depends on it,
+                                      it is not a rate */
   size_t trajectories;           /**< how many */
   long periods;                  /**< drive periods that each is followed over */
   int steps_per_period;          /**< steps a drive period, as in pendres_langevin_run */
@@ -106,25 +107,26 @@ void pendres_switching_add(pendres_switching_tally *into, const pendres_switchin
 typedef struct pendres_switching_rate {
   double events;     /**< transitions counted */
   double exposure;   /**< time spent where they start, in units of 1/omega_0 */
-  double value;      /**< events / exposure, and what passages miss; NaN without exposure */
-  double error;      /**< standard error, and an eighth of what passages miss; without events an
-                          upper bound at one sigma */
+  double value;      /**< events / exposure, corrected for missed passages; NaN without exposure */
+  double error;      /**< standard error, plus an eighth of that correction; without events an upper
+                          bound at one sigma */
   double lower;      /**< lower end of the confidence interval */
   double upper;      /**< upper end of the confidence interval */
   double dispersion; /**< variance of the trajectories' counts, divided by the variance that
                           independent events would have. Above 1 transitions come in bursts, which
-                          error and interval allow for. NaN where there are too few to tell */
+                          error and interval allow for. NaN where there are too few */
   double mean_time;  /**< mean time until a transition, 1 / value; NaN without events */
   double mean_time_error; /**< its standard error, to first order in that of the rate */
 } pendres_switching_rate;
 
 /**
  * The rate of transitions from s to t, with its confidence interval of the given level
- * (0 < level < 1). A trajectory that has come to t is counted when it is seen in the core there,
- * some time after it went, and by then may be back: events / exposure is too low by this time times
- * the rates of s to t and back, to first order, which is made up for. Cores of half and of twice
- * their size give the same rates then. The interval is the exact (Poisson) one, for events
- * and exposure that are divided by the dispersion where it exceeds 1, widened as the error is.
+ * (0 < level < 1). A trajectory that has come to t is counted when it is in the core there at a
+ * strobe, some time after its transition, and may have returned by then: to first order, events /
+ * exposure is too low by this time times the rates of s to t and back, which is corrected. Cores of
+ * half and of twice their size then give the same rates. The interval is the exact (Poisson) one,
+ * for events and exposure that are divided by the dispersion where it exceeds 1, widened as the
+ * error is.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
  */
@@ -133,7 +135,7 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
 
 /* ---- Activation energies ------------------------------------------------------------------- */
 
-/** What became of a fit of an activation energy. */
+/** The outcome of a fit of an activation energy. */
 typedef enum pendres_switching_verdict {
   PENDRES_SWITCHING_STRAIGHT = 0, /**< rates follow the law within their errors */
   PENDRES_SWITCHING_BENT,         /**< they scatter by more: chi squared is more than three of its
@@ -142,8 +144,8 @@ typedef enum pendres_switching_verdict {
   PENDRES_SWITCHING_TOO_FEW,      /**< too few events: there is no fit */
   PENDRES_SWITCHING_NO_STATE,     /**< there is no such state: there is no fit */
   PENDRES_SWITCHING_NO_BARRIER,   /**< the energy of this way, or between two states of the way
-                                       back, is less than twice the hottest temperature: no
-                                       barrier to speak of, no state, and no activation energy */
+                                       back, is less than twice the highest temperature: the
+                                       barrier is negligible, and there is no activation energy */
   PENDRES_SWITCHING_UNBALANCED,   /**< at some temperature the rates do not imply where trajectories
                                        end: see pendres_switching_rates */
   PENDRES_SWITCHING_VERDICTS      /**< how many there are */
@@ -165,8 +167,8 @@ typedef struct pendres_switching_activation {
   double exponent;            /**< b: power of the temperature in the prefactor */
   double exponent_error;      /**< its error; with few or close temperatures the exponent stays
                                    0 +- 1/2, as assumed beforehand */
-  double least_barrier;       /**< energy / T at the hottest of these temperatures */
-  pendres_switching_verdict verdict; /**< what became of the fit */
+  double least_barrier;       /**< energy / T at the highest of these temperatures */
+  pendres_switching_verdict verdict; /**< the outcome of the fit */
 } pendres_switching_activation;
 
 /**
@@ -287,7 +289,7 @@ pendres_status pendres_switching_conclude(const pendres_switching_survey *survey
 
 /**
  * The activation energies of all ways, activation[PENDRES_SWITCHING_WAYS], from rates at n
- * temperatures. Too few events are no error: the verdict says so.
+ * temperatures. Too few events are not an error: the verdict says so.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
  */
