@@ -33,18 +33,19 @@
 
 #include <pendres/context.h>
 #include <pendres/orbit.h>
+#include <pendres/parameter.h>
 
 /* Places in a point: the state, and the parameters that orbits are followed in, by number. */
 enum {
   PENDRES_U_Y,
   PENDRES_U_W,
-  PENDRES_U_OMEGA,
-  PENDRES_U_GAMMA,
-  PENDRES_U_DRIVE,
-  PENDRES_U_TORQUE,
-  PENDRES_U_MODULATION,
-  PENDRES_U_POWERS, /* a1, and so on */
-  PENDRES_U_COUNT = PENDRES_U_POWERS + PENDRES_FORCE_COEFFICIENTS
+  PENDRES_U_OMEGA, /* number 0 */
+  PENDRES_U_GAMMA = PENDRES_U_OMEGA + (int)PENDRES_DAMPING,
+  PENDRES_U_DRIVE = PENDRES_U_OMEGA + (int)PENDRES_DRIVE_AMPLITUDE,
+  PENDRES_U_TORQUE = PENDRES_U_OMEGA + (int)PENDRES_TORQUE,
+  PENDRES_U_MODULATION = PENDRES_U_OMEGA + (int)PENDRES_PARAMETRIC_AMPLITUDE,
+  PENDRES_U_POWERS = PENDRES_U_OMEGA + (int)PENDRES_A1, /* and so on */
+  PENDRES_U_COUNT = PENDRES_U_OMEGA + PENDRES_PARAMETER_FOLLOWED
 };
 
 typedef struct pendres_continuation_map {

@@ -9,8 +9,8 @@
 /* Lengths that count as one in arclength. */
 double pendres_parameter_scale(pendres_parameter parameter);
 
-/* The value at a signed distance from another one; but what stays
-   above 0 is at least half of the other. */
+/* The value at a signed distance from another one; but what stays above 0 is at least half of the
+   other. */
 double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance);
 
 /* Why an orbit cannot be followed in a parameter, a static sentence; NULL if it can. */

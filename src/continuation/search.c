@@ -19,7 +19,8 @@ static int is_far(const pendres_continuation_system *s, const pendres_curve_node
   const int place = s->unknown[2];
   const double from = start->u[place], value = here->u[place];
   if (s->condition != PENDRES_CONDITION_NONE) return 0;
-  if (place <= PENDRES_U_DRIVE) return value > widest_range * from || value * widest_range < from;
+  if (pendres_parameter_of((pendres_parameter)(place - PENDRES_U_OMEGA))->plain)
+    return value > widest_range * from || value * widest_range < from;
   /* What may be negative, or 0, has no ratio. */
   return fabs(value - from) > (widest_range - 1.0) * fabs(from) + 1.0;
 }

@@ -8,8 +8,8 @@
 #include "continuation/units.h"
 #include "analysis/phase_diagram/door.h"
 #include "model/model.h"
-#include "model/parameter.h"
 #include "analysis/resonance/response_members.h"
+#include "continuation/parameter.h"
 #include "continuation/sets.h"
 #include "orbits/label.h"
 
@@ -180,15 +180,13 @@ int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter)
   return pendres_model_kind(p) == PENDRES_MODEL_PLAIN && pendres_parameter_of(parameter)->plain;
 }
 
-/* Reach beyond a diagram by a tenth of its width, or of its value if there is only one. Frequencies
-   stay positive, and dampings do not become negative. */
+/* Reach beyond a diagram by a tenth of its width, or of its value if there is only one. */
 static void reach_beyond(pendres_parameter parameter, double first, double last, double *low,
                          double *high)
 {
   const double margin = 0.1 * (last > first ? last - first : fmax(fabs(first), 1.0));
-  *low = first - margin;
+  *low = pendres_parameter_beyond(parameter, first, -margin);
   *high = last + margin;
-  if (pendres_parameter_of(parameter)->positive) *low = fmax(*low, 0.5 * first);
 }
 
 void pendres_phase_reach(pendres_parameter parameter, int plain, double first, double last,

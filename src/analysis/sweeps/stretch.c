@@ -212,11 +212,9 @@ static pendres_status extend(pendres_context *ctx, pendres_stretch *s, double li
   const double here = pendres_parameter_get(s->parameter, &s->start.pendulum);
   const double room = margin * pendres_parameter_scale(s->parameter);
   const double least = fmin(fmin(s->from, limit), here), most = fmax(fmax(s->from, limit), here);
-  double low = least - room;
-  if (s->parameter == PENDRES_DRIVE_FREQUENCY) low = fmax(low, 0.5 * least);
-  if (s->parameter == PENDRES_DAMPING) low = fmax(low, 0.0);
   const pendres_curve_bounds bounds = {
-    .low = {low}, .high = {most + room}, .wildest = wildest, .most_points = points};
+    .low = {pendres_parameter_beyond(s->parameter, least, -room)}, .high = {most + room},
+    .wildest = wildest, .most_points = points};
   s->points_each_way = points;
   return pendres_branch_extend(ctx, s->branch, &bounds);
 }
