@@ -20,9 +20,9 @@ static pendres_status run_clouds(scene_run *run)
   check_ok(pendres_store_dimension(
     run->store, &(pendres_store_spec){.name = "attractor", .long_name = "number of the attractor"},
     pendres_attractors_count(set), NULL));
-  const pendres_status status = basins_write_clouds(run, set);
+  basins_write_clouds(run, set);
   pendres_attractors_free(set);
-  return status;
+  return run->status;
 }
 
 static void run_deck(const char *text, int threads, const char *name)
