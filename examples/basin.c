@@ -21,7 +21,7 @@ int main(void)
   for (int i = 0; i < NX; i++) x[i] = -1.5 + 6.2 * i / (NX - 1);
   for (int j = 0; j < NV; j++) v[j] = -2.0 + 4.0 * j / (NV - 1);
   failed = pendres_context_create(NULL, &ctx) || pendres_basin_attractors(ctx, &p, &grid, &set) ||
-           pendres_basin_compute(ctx, set, &grid, state) || pendres_attractors_count(set) > 16 ||
+           pendres_basin_find(ctx, set, &grid, state) || pendres_attractors_count(set) > 16 ||
            pendres_basin_sums_create(&grid, pendres_attractors_count(set), &sums) ||
            pendres_basin_sums_add(sums, NX, state) ||
            pendres_basin_sums_result(sums, &statistics, share, share_error);

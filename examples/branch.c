@@ -26,8 +26,8 @@ int main(void)
     printf("omega %.6f  amplitude %.6f  %s\n", point->orbit.pendulum.drive_frequency,
            point->orbit.amplitude, point->orbit.stable ? "stable" : "unstable");
   }
-  for (size_t i = 0; i < pendres_branch_bifurcations(branch); i++) {
-    const pendres_bifurcation *b = pendres_branch_bifurcation(branch, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(branch); i++) {
+    const pendres_bifurcation *b = pendres_branch_bifurcation_get(branch, i);
 
     if (b->kind == PENDRES_FOLD)
       printf("fold at omega = %.10f +- %.0e, amplitude %.6f\n", b->value, b->value_error,

@@ -26,7 +26,7 @@ int main(void)
   int failed;
 
   failed = pendres_context_create(NULL, &ctx) ||
-           pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome) || outcome ||
+           pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome) || outcome ||
            pendres_orbit_sample(ctx, &orbit, SAMPLES, x, v, error);
   if (failed) {
     fprintf(stderr, "%s\n", pendres_context_message(ctx));

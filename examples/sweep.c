@@ -19,7 +19,7 @@ int main(void)
   for (int i = 0; i < POINTS; i++)
     frequency[i] = frequency[2 * POINTS - 1 - i] = 0.7 + 0.2 * i / (POINTS - 1);
   failed = pendres_context_create(NULL, &ctx) ||
-           pendres_hysteresis_follow(ctx, &p, &start, &path, &sweep);
+           pendres_hysteresis_find(ctx, &p, &start, &path, &sweep);
   if (failed) fprintf(stderr, "%s\n", pendres_context_message(ctx));
   for (size_t i = 0; i < POINTS && !failed; i++) {
     const pendres_orbit *up = &pendres_hysteresis_get(sweep, i)->attractor.orbit,
@@ -28,8 +28,8 @@ int main(void)
     printf("omega %.3f  amplitude going up %.6f, going down %.6f\n", frequency[i],
            up->amplitude, down->amplitude);
   }
-  for (size_t i = 0; i < pendres_hysteresis_jumps(sweep); i++) {
-    const pendres_jump *jump = pendres_hysteresis_jump(sweep, i);
+  for (size_t i = 0; i < pendres_hysteresis_jump_count(sweep); i++) {
+    const pendres_jump *jump = pendres_hysteresis_jump_get(sweep, i);
 
     printf("going %s it jumps from %s to %s at omega = %.10f +- %.0e\n",
            jump->direction > 0 ? "up" : "down", pendres_name_get(PENDRES_NAMES_LABEL, jump->from),

@@ -47,7 +47,7 @@ static inline void compute(pendres_context *ctx, const pendres_pendulum *p, size
   out->state = malloc(nx * nv * sizeof *out->state);
   assert_non_null(out->state);
   check_ok(pendres_basin_attractors(ctx, p, &out->grid, &out->set));
-  check_ok(pendres_basin_compute(ctx, out->set, &out->grid, out->state));
+  check_ok(pendres_basin_find(ctx, out->set, &out->grid, out->state));
 }
 
 static inline void release(portrait *p)

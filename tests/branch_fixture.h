@@ -12,8 +12,8 @@
 static inline const pendres_bifurcation *only(const pendres_branch *b, pendres_special kind)
 {
   const pendres_bifurcation *found = NULL;
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     if (f->kind != kind) continue;
     assert_null(found);
     found = f;

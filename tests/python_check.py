@@ -89,7 +89,7 @@ def test_same_bytes():
     x[i] = i / 128.0;
   }
   if (pendres_context_create(NULL, &ctx) || pendres_strobe_advance(ctx, 600, p, x, v, 3, e) ||
-      pendres_response_compute(ctx, 2, p, &ensemble, response) ||
+      pendres_response_find(ctx, 2, p, &ensemble, response) ||
       pendres_resonance_find(ctx, p, 0.5, 1.2, &resonance))
     return 1;
   fwrite(x, sizeof x, 1, stdout);

@@ -34,19 +34,19 @@ static void strobes(void **state)
   REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, 0, &to));
   REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, INT_MAX, &to));
   pendres_recording r = { .samples = 0 };
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &to));
+  REFUSED(pendres_recording_advance(f->ctx, &r, 1, &to));
   REFUSED(pendres_recording_begin(f->ctx, NULL, &start, 1, 2, &r));
   REFUSED(pendres_recording_begin(f->ctx, &good, NULL, 1, 2, &r));
   REFUSED(pendres_recording_begin(f->ctx, &good, &start, 1, 2, NULL));
   REFUSED(pendres_recording_begin(f->ctx, &good, &(pendres_state){x, NAN}, 1, 2, &r));
   REFUSED(pendres_recording_begin(f->ctx, &good, &start, 1, 0, &r));
   check_ok(pendres_recording_begin(f->ctx, &good, &start, 1, 2, &r));
-  REFUSED(pendres_recording_go_on(f->ctx, NULL, 1, &to));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, -1, &to));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, NULL));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &(pendres_record){.x = NULL, .v = many}));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &(pendres_record){.x = many, .v = NULL}));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &(pendres_record){many, many, many, NULL}));
+  REFUSED(pendres_recording_advance(f->ctx, NULL, 1, &to));
+  REFUSED(pendres_recording_advance(f->ctx, &r, -1, &to));
+  REFUSED(pendres_recording_advance(f->ctx, &r, 1, NULL));
+  REFUSED(pendres_recording_advance(f->ctx, &r, 1, &(pendres_record){.x = NULL, .v = many}));
+  REFUSED(pendres_recording_advance(f->ctx, &r, 1, &(pendres_record){.x = many, .v = NULL}));
+  REFUSED(pendres_recording_advance(f->ctx, &r, 1, &(pendres_record){many, many, many, NULL}));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     REFUSED(pendres_strobe_advance(f->ctx, 1, &bad_pendulums[i], &x, &v, 1, NULL));
     REFUSED(pendres_strobe_record(f->ctx, &bad_pendulums[i], &start, 1, 2, &to));
@@ -82,9 +82,9 @@ static void settling(void **state)
   REFUSED(pendres_attractors_settle(f->ctx, f->set, 1, &x, NULL, &out));
   REFUSED(pendres_attractors_settle(f->ctx, f->set, 1, &x, &v, NULL));
   pendres_state point;
-  REFUSED(pendres_attractors_point(f->ctx, NULL, 0, &point));
-  REFUSED(pendres_attractors_point(f->ctx, f->set, 0, NULL));
-  REFUSED(pendres_attractors_point(f->ctx, f->set, SIZE_MAX, &point));
+  REFUSED(pendres_attractors_point_find(f->ctx, NULL, 0, &point));
+  REFUSED(pendres_attractors_point_find(f->ctx, f->set, 0, NULL));
+  REFUSED(pendres_attractors_point_find(f->ctx, f->set, SIZE_MAX, &point));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     REFUSED(pendres_settle(f->ctx, 1, &bad_pendulums[i], &x, &v, &out, &found));
     REFUSED(pendres_attractors_find(f->ctx, &bad_pendulums[i], 1, &x, &v, &found));
@@ -110,14 +110,14 @@ static void orbits(void **state)
   pendres_status how;
   double x[64], v[64];
   const pendres_orbit_guess guess = { .pendulum = good, .x = 1.0, .period = 1 };
-  REFUSED(pendres_orbit_refine(f->ctx, 1, NULL, PENDRES_ORBIT_PLAIN, &out, &how));
-  REFUSED(pendres_orbit_refine(f->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, NULL, &how));
-  REFUSED(pendres_orbit_refine(f->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &out, NULL));
-  REFUSED(pendres_orbit_refine(f->ctx, 1, &guess, (pendres_orbit_want)7, &out, &how));
+  REFUSED(pendres_orbit_find(f->ctx, 1, NULL, PENDRES_ORBIT_PLAIN, &out, &how));
+  REFUSED(pendres_orbit_find(f->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, NULL, &how));
+  REFUSED(pendres_orbit_find(f->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &out, NULL));
+  REFUSED(pendres_orbit_find(f->ctx, 1, &guess, (pendres_orbit_want)7, &out, &how));
   for (size_t i = 0; i < f->bad; i++) {
     const pendres_orbit *o = &f->bad_orbits[i];
     const pendres_orbit_guess g = { o->pendulum, o->x, o->v, o->period, o->winding };
-    REFUSED(pendres_orbit_refine(f->ctx, 1, &g, PENDRES_ORBIT_PLAIN, &out, &how));
+    REFUSED(pendres_orbit_find(f->ctx, 1, &g, PENDRES_ORBIT_PLAIN, &out, &how));
     REFUSED(pendres_orbit_sample(f->ctx, o, 8, x, v, NULL));
     REFUSED(pendres_orbit_sample(f->ctx, o, 8, x, v, x));
   }
@@ -184,15 +184,15 @@ static void basins(void **state)
   REFUSED(pendres_basin_extend(f->ctx, f->set, &grid, 1, NULL, &grown));
   REFUSED(pendres_basin_extend(f->ctx, f->set, &grid, 1, &index, NULL));
   REFUSED(pendres_basin_extend(f->ctx, f->set, &grid, 1, &huge, &grown));
-  REFUSED(pendres_basin_compute(f->ctx, NULL, &grid, s));
-  REFUSED(pendres_basin_compute(f->ctx, f->set, NULL, s));
-  REFUSED(pendres_basin_compute(f->ctx, f->set, &grid, NULL));
+  REFUSED(pendres_basin_find(f->ctx, NULL, &grid, s));
+  REFUSED(pendres_basin_find(f->ctx, f->set, NULL, s));
+  REFUSED(pendres_basin_find(f->ctx, f->set, &grid, NULL));
   for (size_t i = 0; i < COUNT(bad); i++) {
     REFUSED(pendres_basin_attractors(f->ctx, &good, &bad[i], &out));
     REFUSED(pendres_basin_rows(f->ctx, f->set, &bad[i], 0, 1, s));
     REFUSED(pendres_basin_states(f->ctx, f->set, &bad[i], 1, &index, s));
     REFUSED(pendres_basin_extend(f->ctx, f->set, &bad[i], 1, &index, &grown));
-    REFUSED(pendres_basin_compute(f->ctx, f->set, &bad[i], s));
+    REFUSED(pendres_basin_find(f->ctx, f->set, &bad[i], s));
   }
   for (size_t i = 0; i < COUNT(bad_pendulums); i++)
     REFUSED(pendres_basin_attractors(f->ctx, &bad_pendulums[i], &grid, &out));
@@ -203,7 +203,7 @@ static void basins(void **state)
     REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 0, 2, s));
     REFUSED(pendres_basin_states(f->ctx, f->set, &grid, 1, &index, s));
     REFUSED(pendres_basin_extend(f->ctx, f->set, &grid, 1, &index, &grown));
-    REFUSED(pendres_basin_compute(f->ctx, f->set, &grid, s));
+    REFUSED(pendres_basin_find(f->ctx, f->set, &grid, s));
     pendres_basin_window w = window;
     w.x_high = bad_numbers[i];
     REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &w, &sample, &statistics));
@@ -287,10 +287,10 @@ static void ensembles(void **state)
   bad[8].rows = 3;
   bad[9].v_last = NAN;
   bad[10].x_last = 0.0;
-  REFUSED(pendres_response_compute(f->ctx, 1, NULL, &some, &r));
-  REFUSED(pendres_response_compute(f->ctx, 1, &good, NULL, &r));
-  REFUSED(pendres_response_compute(f->ctx, 1, &good, &some, NULL));
-  REFUSED(pendres_response_name(f->ctx, 1, NULL));
+  REFUSED(pendres_response_find(f->ctx, 1, NULL, &some, &r));
+  REFUSED(pendres_response_find(f->ctx, 1, &good, NULL, &r));
+  REFUSED(pendres_response_find(f->ctx, 1, &good, &some, NULL));
+  REFUSED(pendres_response_label(f->ctx, 1, NULL));
   REFUSED(pendres_resonance_find(f->ctx, NULL, 0.7, 0.9, &peak));
   REFUSED(pendres_resonance_find(f->ctx, &good, 0.7, 0.9, NULL));
   REFUSED(pendres_resonance_find_ensemble(f->ctx, NULL, 0.7, 0.9, &some, &peak));
@@ -325,14 +325,14 @@ static void ensembles(void **state)
   }
   line.parameter = PENDRES_DRIVE_FREQUENCY;
   for (size_t i = 0; i < COUNT(bad); i++) {
-    REFUSED(pendres_response_compute(f->ctx, 1, &good, &bad[i], &r));
+    REFUSED(pendres_response_find(f->ctx, 1, &good, &bad[i], &r));
     REFUSED(pendres_resonance_find_ensemble(f->ctx, &good, 0.7, 0.9, &bad[i], &peak));
     line.ensemble = bad[i];
     REFUSED(pendres_phase_line(f->ctx, 1, &good, &line, &point, &all));
   }
   line.ensemble = some;
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
-    REFUSED(pendres_response_compute(f->ctx, 1, &bad_pendulums[i], &some, &r));
+    REFUSED(pendres_response_find(f->ctx, 1, &bad_pendulums[i], &some, &r));
     REFUSED(pendres_phase_line(f->ctx, 1, &bad_pendulums[i], &line, &point, &all));
     if (i < 5 || (i >= 9 && i != 13)) /* the drive frequency is not read */
     {
@@ -342,9 +342,9 @@ static void ensembles(void **state)
     r = (pendres_response){ .pendulum = bad_pendulums[i] };
     point = (pendres_phase_point){ .pendulum = bad_pendulums[i] };
     if (pendres_pendulum_check(&bad_pendulums[i], NULL) == PENDRES_OK) continue; /* but huge */
-    REFUSED(pendres_response_name(f->ctx, 1, &r));
+    REFUSED(pendres_response_label(f->ctx, 1, &r));
     r = (pendres_response){ .pendulum = good, .states = SIZE_MAX };
-    REFUSED(pendres_response_name(f->ctx, 1, &r));
+    REFUSED(pendres_response_label(f->ctx, 1, &r));
     REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, &line, &point, f->branches));
   }
   assert_null(all);

@@ -78,27 +78,27 @@ static void hysteresis(void **state)
   const pendres_state start = { 1.0, 0.0 };
   const pendres_hysteresis_path path = { along, 2, value };
   pendres_hysteresis *h = NULL;
-  REFUSED(pendres_hysteresis_follow(f->ctx, NULL, &start, &path, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, NULL, &path, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start, NULL, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
-                                    &(pendres_hysteresis_path){along, 2, NULL}, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start, &path, NULL));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
-                                    &(pendres_hysteresis_path){along, 2, none}, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
-                                    &(pendres_hysteresis_path){PENDRES_DAMPING, 2, undamped}, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
-                                    &(pendres_hysteresis_path){(pendres_parameter)-1, 2, value},
-                                    &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
-                                    &(pendres_hysteresis_path){PENDRES_PARAMETER_COUNT, 2, value},
-                                    &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, NULL, &start, &path, &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, NULL, &path, &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, &start, NULL, &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, &start,
+                                  &(pendres_hysteresis_path){along, 2, NULL}, &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, &start, &path, NULL));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, &start,
+                                  &(pendres_hysteresis_path){along, 2, none}, &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, &start,
+                                  &(pendres_hysteresis_path){PENDRES_DAMPING, 2, undamped}, &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, &start,
+                                  &(pendres_hysteresis_path){(pendres_parameter)-1, 2, value},
+                                  &h));
+  REFUSED(pendres_hysteresis_find(f->ctx, &good, &start,
+                                  &(pendres_hysteresis_path){PENDRES_PARAMETER_COUNT, 2, value},
+                                  &h));
   for (size_t i = 0; i < COUNT(bad_numbers); i++) {
-    REFUSED(pendres_hysteresis_follow(f->ctx, &good, &(pendres_state){bad_numbers[i], 0.0}, &path,
-                                      &h));
-    REFUSED(pendres_hysteresis_follow(f->ctx, &good, &(pendres_state){1.0, bad_numbers[i]}, &path,
-                                      &h));
+    REFUSED(pendres_hysteresis_find(f->ctx, &good, &(pendres_state){bad_numbers[i], 0.0}, &path,
+                                    &h));
+    REFUSED(pendres_hysteresis_find(f->ctx, &good, &(pendres_state){1.0, bad_numbers[i]}, &path,
+                                    &h));
   }
   assert_null(h);
   assert_int_equal(f->wrong, 0);

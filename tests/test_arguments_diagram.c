@@ -21,16 +21,16 @@ static void without_context(pendres_phase_diagram *d)
   assert_int_equal(pendres_phase_diagram_next(d, NULL), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_leave_out(NULL, 0), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_leave_out(d, 4), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_outcome(NULL, 0, &words), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_phase_diagram_outcome(d, 4, NULL), PENDRES_INVALID_ARGUMENT);
-  assert_true(words == NULL && pendres_phase_diagram_point(NULL, 0) == NULL);
-  assert_null(pendres_phase_diagram_point(d, 4));
-  assert_null(pendres_phase_diagram_branches(NULL, 0));
-  assert_null(pendres_phase_diagram_branches(d, 2));
+  assert_int_equal(pendres_phase_diagram_outcome_get(NULL, 0, &words), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_outcome_get(d, 4, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_true(words == NULL && pendres_phase_diagram_point_get(NULL, 0) == NULL);
+  assert_null(pendres_phase_diagram_point_get(d, 4));
+  assert_null(pendres_phase_diagram_branches_get(NULL, 0));
+  assert_null(pendres_phase_diagram_branches_get(d, 2));
   assert_null(pendres_phase_diagram_get(NULL).curves);
-  assert_null(pendres_phase_diagram_fold(NULL, 0, PENDRES_LABEL_SA));
-  assert_null(pendres_phase_diagram_fold(d, 2, PENDRES_LABEL_SA));
-  assert_int_equal(pendres_phase_diagram_ending(NULL, NULL, 0.0), PENDRES_LABEL_PERIODIC);
+  assert_null(pendres_phase_diagram_fold_get(NULL, 0, PENDRES_LABEL_SA));
+  assert_null(pendres_phase_diagram_fold_get(d, 2, PENDRES_LABEL_SA));
+  assert_int_equal(pendres_phase_diagram_ending_get(NULL, NULL, 0.0), PENDRES_LABEL_PERIODIC);
 }
 
 static void diagrams(void **state)
@@ -103,18 +103,18 @@ static void dimensions(void **state)
   double error = 1.0;
   (void)state;
   check_ok(pendres_context_create(NULL, &ctx));
-  assert_int_equal(pendres_correlation_measure(NULL, &(pendres_section){3, x, x, 0.0}, 0.0, &c),
+  assert_int_equal(pendres_correlation_find(NULL, &(pendres_section){3, x, x, 0.0}, 0.0, &c),
                    PENDRES_INVALID_ARGUMENT);
-  REFUSED(pendres_correlation_measure(ctx, NULL, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, NULL, x, 0.0}, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, NULL, 0.0}, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, 0.0}, 0.0, NULL));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){1, x, x, 0.0}, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, bad, x, 0.0}, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, bad, 0.0}, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, -1.0}, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, INFINITY}, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, 0.0}, NAN, &c));
+  REFUSED(pendres_correlation_find(ctx, NULL, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, NULL, x, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, x, NULL, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, x, x, 0.0}, 0.0, NULL));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){1, x, x, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, bad, x, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, x, bad, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, x, x, -1.0}, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, x, x, INFINITY}, 0.0, &c));
+  REFUSED(pendres_correlation_find(ctx, &(pendres_section){3, x, x, 0.0}, NAN, &c));
   assert_true(isnan(pendres_lyapunov_dimension(NULL, 0.1, 0.0, &error)) && isnan(error));
   for (int i = 1; i < 3; i++) assert_true(isnan(pendres_lyapunov_dimension(&p, bad[i], 0.0, NULL)));
   pendres_context_free(ctx);

@@ -32,10 +32,10 @@ static void noise(void **state)
     const pendres_langevin_run run = { .n = 1, .pendulums = &good, .steps_per_period = steps[i] };
     INVALID(pendres_langevin_advance(ctx, &run, &x, &v));
   }
-  INVALID(pendres_langevin_measure(NULL, &request, &cloud, NULL, NULL));
-  INVALID(pendres_langevin_measure(ctx, NULL, &cloud, NULL, NULL));
-  INVALID(pendres_langevin_measure(ctx, &request, NULL, NULL, NULL));
-  INVALID(pendres_langevin_measure(ctx, &request, &cloud, &x, NULL));
+  INVALID(pendres_langevin_cloud_find(NULL, &request, &cloud, NULL, NULL));
+  INVALID(pendres_langevin_cloud_find(ctx, NULL, &cloud, NULL, NULL));
+  INVALID(pendres_langevin_cloud_find(ctx, &request, NULL, NULL, NULL));
+  INVALID(pendres_langevin_cloud_find(ctx, &request, &cloud, &x, NULL));
   INVALID(pendres_langevin_choose_steps(ctx, NULL, all, 0.1, &bias));
   INVALID(pendres_langevin_choose_steps(ctx, &request, all, 0.1, NULL));
   INVALID(pendres_langevin_choose_steps(ctx, &request, 0, 0.1, &bias));
@@ -46,9 +46,9 @@ static void noise(void **state)
     pendres_langevin_request r = request;
     r.pendulum = bad_pendulums[i];
     INVALID(pendres_langevin_advance(ctx, RUN(1, &bad_pendulums[i], NULL, 0, 1, NULL), &x, &v));
-    INVALID(pendres_langevin_measure(ctx, &r, &cloud, NULL, NULL));
+    INVALID(pendres_langevin_cloud_find(ctx, &r, &cloud, NULL, NULL));
     INVALID(pendres_langevin_choose_steps(ctx, &r, all, 0.1, &bias));
-    INVALID(pendres_langevin_linear_theory(&bad_pendulums[i], x, v, 1, &linear));
+    INVALID(pendres_langevin_linear_find(&bad_pendulums[i], x, v, 1, &linear));
   }
   for (size_t i = 0; i < COUNT(bad_numbers); i++) {
     double b = bad_numbers[i];
@@ -56,14 +56,14 @@ static void noise(void **state)
     *(i % 2 ? &r.x : &r.v) = b;
     INVALID(pendres_langevin_advance(ctx, RUN(1, &good, NULL, 0, 1, NULL), &b, &v));
     INVALID(pendres_langevin_advance(ctx, RUN(1, &good, NULL, 0, 1, NULL), &x, &b));
-    INVALID(pendres_langevin_measure(ctx, &r, &cloud, NULL, NULL));
-    INVALID(pendres_langevin_linear_theory(&good, b, v, 1, &linear));
-    INVALID(pendres_langevin_linear_theory(&good, x, b, 1, &linear));
+    INVALID(pendres_langevin_cloud_find(ctx, &r, &cloud, NULL, NULL));
+    INVALID(pendres_langevin_linear_find(&good, b, v, 1, &linear));
+    INVALID(pendres_langevin_linear_find(&good, x, b, 1, &linear));
   }
-  INVALID(pendres_langevin_linear_theory(NULL, x, v, 1, &linear));
-  INVALID(pendres_langevin_linear_theory(&good, x, v, 0, &linear));
-  INVALID(pendres_langevin_linear_theory(&good, x, v, 1, NULL));
-  assert_int_not_equal(pendres_langevin_linear_theory(&good, x, v, INT_MAX, &linear), PENDRES_OK);
+  INVALID(pendres_langevin_linear_find(NULL, x, v, 1, &linear));
+  INVALID(pendres_langevin_linear_find(&good, x, v, 0, &linear));
+  INVALID(pendres_langevin_linear_find(&good, x, v, 1, NULL));
+  assert_int_not_equal(pendres_langevin_linear_find(&good, x, v, INT_MAX, &linear), PENDRES_OK);
   assert_true(x == 1.0 && v == 0.0);
   pendres_context_free(ctx);
   assert_int_equal(wrong, 0);
@@ -83,16 +83,16 @@ static void surveys(pendres_context *ctx, int *failed)
   pendres_switching_states(NULL, NULL);
   for (int i = 0; i < 2; i++) {
     const pendres_switching_survey *s = i == 0 ? NULL : &q;
-    INVALID(pendres_switching_measure(ctx, s, 1, &t, &rates, energy));
+    INVALID(pendres_switching_find(ctx, s, 1, &t, &rates, energy));
     INVALID(pendres_switching_choose_steps(ctx, s, 0, &steps));
     INVALID(pendres_switching_follow(ctx, s, t, 0, &tally));
     INVALID(pendres_switching_conclude(s, t, &tally, &rates));
     INVALID(pendres_switching_activate(s, 1, &rates, energy));
   }
-  INVALID(pendres_switching_measure(NULL, &q, 1, &t, &rates, energy));
-  INVALID(pendres_switching_measure(ctx, &q, 1, NULL, &rates, energy));
-  INVALID(pendres_switching_measure(ctx, &q, 1, &t, NULL, energy));
-  INVALID(pendres_switching_measure(ctx, &q, 1, &t, &rates, NULL));
+  INVALID(pendres_switching_find(NULL, &q, 1, &t, &rates, energy));
+  INVALID(pendres_switching_find(ctx, &q, 1, NULL, &rates, energy));
+  INVALID(pendres_switching_find(ctx, &q, 1, &t, NULL, energy));
+  INVALID(pendres_switching_find(ctx, &q, 1, &t, &rates, NULL));
   INVALID(pendres_switching_choose_steps(ctx, &q, 0, NULL));
   INVALID(pendres_switching_choose_steps(ctx, &q, 2, &steps));
   INVALID(pendres_switching_follow(ctx, &q, t, SIZE_MAX, &tally));
@@ -120,14 +120,14 @@ static void clouds(void **state)
   (void)state;
   for (int i = 0; i < 2; i++) {
     const pendres_cloud_request *r = i == 0 ? NULL : &q;
-    INVALID(pendres_cloud_measure(ctx, r, &cloud, NULL, NULL));
+    INVALID(pendres_cloud_find(ctx, r, &cloud, NULL, NULL));
     INVALID(pendres_cloud_prepare(ctx, r, &cloud, NULL, NULL));
     INVALID(pendres_cloud_prepare(ctx, r, &cloud, &x, NULL));
     INVALID(pendres_cloud_follow(ctx, r, 0, &part, NULL, NULL));
     INVALID(pendres_cloud_conclude(r, 1, &part, &cloud));
   }
-  INVALID(pendres_cloud_measure(NULL, &q, &cloud, NULL, NULL));
-  INVALID(pendres_cloud_measure(ctx, &q, NULL, NULL, NULL));
+  INVALID(pendres_cloud_find(NULL, &q, &cloud, NULL, NULL));
+  INVALID(pendres_cloud_find(ctx, &q, NULL, NULL, NULL));
   INVALID(pendres_cloud_prepare(ctx, &q, NULL, NULL, NULL));
   INVALID(pendres_cloud_follow(ctx, &q, SIZE_MAX, &part, NULL, NULL));
   INVALID(pendres_cloud_follow(ctx, &q, 0, NULL, NULL, NULL));
@@ -135,14 +135,14 @@ static void clouds(void **state)
   assert_int_equal(pendres_cloud_parts(NULL), 0);
   assert_int_equal(pendres_cloud_part(NULL, 0, &first), 0);
   assert_int_equal(pendres_cloud_part(&q, SIZE_MAX, NULL), 0);
-  INVALID(pendres_response_add_noise(NULL, &still, 0.0, 2, 1, &noisy));
-  INVALID(pendres_response_add_noise(ctx, NULL, 0.0, 2, 1, &noisy));
-  INVALID(pendres_response_add_noise(ctx, &still, 0.0, 2, 1, NULL));
-  INVALID(pendres_response_add_noise(ctx, &still, 0.0, 2, -1, &noisy));
+  INVALID(pendres_response_noise_find(NULL, &still, 0.0, 2, 1, &noisy));
+  INVALID(pendres_response_noise_find(ctx, NULL, 0.0, 2, 1, &noisy));
+  INVALID(pendres_response_noise_find(ctx, &still, 0.0, 2, 1, NULL));
+  INVALID(pendres_response_noise_find(ctx, &still, 0.0, 2, -1, &noisy));
   for (size_t i = 0; i < 3; i++)
-    INVALID(pendres_response_add_noise(ctx, &still, bad_numbers[i], 2, 1, &noisy));
+    INVALID(pendres_response_noise_find(ctx, &still, bad_numbers[i], 2, 1, &noisy));
   still.states = SIZE_MAX;
-  INVALID(pendres_response_add_noise(ctx, &still, 0.0, 2, 1, &noisy));
+  INVALID(pendres_response_noise_find(ctx, &still, 0.0, 2, 1, &noisy));
   assert_true(first == 0 && x == 1.0);
   pendres_context_free(ctx);
   assert_int_equal(wrong, 0);

@@ -34,16 +34,16 @@ static void nothing(void **state)
   pendres_boundary_free(NULL);
   assert_int_equal(pendres_branch_count(NULL), 0);
   assert_null(pendres_branch_get(NULL, 0));
-  assert_int_equal(pendres_branch_bifurcations(NULL), 0);
-  assert_null(pendres_branch_bifurcation(NULL, 0));
-  (void)pendres_branch_end_of(NULL, 7);
+  assert_int_equal(pendres_branch_bifurcation_count(NULL), 0);
+  assert_null(pendres_branch_bifurcation_get(NULL, 0));
+  (void)pendres_branch_end_get(NULL, 7);
   assert_int_equal(pendres_branch_parts(NULL, 4, NULL), 0);
   pendres_branches_free(NULL);
   pendres_hysteresis_free(NULL);
   assert_int_equal(pendres_hysteresis_count(NULL), 0);
   assert_null(pendres_hysteresis_get(NULL, 0));
-  assert_int_equal(pendres_hysteresis_jumps(NULL), 0);
-  assert_null(pendres_hysteresis_jump(NULL, 0));
+  assert_int_equal(pendres_hysteresis_jump_count(NULL), 0);
+  assert_null(pendres_hysteresis_jump_get(NULL, 0));
   const pendres_ramp no_ramp = {.corners = 0};
   pendres_ramp_summary summary;
   assert_true(isnan(pendres_ramp_value(NULL, 0.0)) && isnan(pendres_ramp_value(&no_ramp, 0.0)));
@@ -53,11 +53,11 @@ static void nothing(void **state)
   assert_int_equal(pendres_branches_count(NULL), 0);
   assert_null(pendres_branches_get(NULL, 0));
   assert_int_equal(pendres_branches_skipped(NULL), 0);
-  (void)pendres_curve_kind(NULL);
+  (void)pendres_curve_kind_get(NULL);
   assert_int_equal(pendres_curve_count(NULL), 0);
   assert_null(pendres_curve_get(NULL, 0));
-  assert_int_equal(pendres_curve_cusps(NULL), 0);
-  assert_null(pendres_curve_cusp(NULL, 0));
+  assert_int_equal(pendres_curve_cusp_count(NULL), 0);
+  assert_null(pendres_curve_cusp_get(NULL, 0));
   pendres_curves_free(NULL);
   assert_int_equal(pendres_curves_count(NULL), 0);
   assert_null(pendres_curves_get(NULL, 0));
@@ -111,11 +111,11 @@ static void models(void **state)
   (void)state;
   INVALID(pendres_pendulum_check(NULL, &why));
   assert_non_null(why);
-  INVALID(pendres_harmonic_response(NULL, &harmonic));
-  INVALID(pendres_harmonic_response(&good, NULL));
+  INVALID(pendres_harmonic_find(NULL, &harmonic));
+  INVALID(pendres_harmonic_find(&good, NULL));
   INVALID(pendres_rotation_find(NULL, &rotation, &why));
   INVALID(pendres_rotation_find(&good, &rotation, NULL)); /* it has a drive */
-  INVALID(pendres_rotation_least_torque(0.1, NULL));
+  INVALID(pendres_rotation_onset_find(0.1, NULL));
   assert_true(isnan(pendres_pendulum_acceleration(NULL, 0.0, 0.0, 0.0)));
   assert_true(isnan(pendres_pendulum_energy(NULL, 0.0, 0.0)));
   pendres_free_get(1.0, NULL);
@@ -155,7 +155,7 @@ static void models(void **state)
                                  &(pendres_reference_guess){0.8L, y, w, 0.1L}, NULL));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     INVALID(pendres_pendulum_check(&bad_pendulums[i], NULL));
-    INVALID(pendres_harmonic_response(&bad_pendulums[i], &harmonic));
+    INVALID(pendres_harmonic_find(&bad_pendulums[i], &harmonic));
     INVALID(pendres_rotation_find(&bad_pendulums[i], &rotation, &why));
     if (i > 4) continue; /* the reference knows no temperature */
     INVALID(pendres_reference_advance(&bad_pendulums[i], &y, &w, NULL, 1));
@@ -166,7 +166,7 @@ static void models(void **state)
     const double b = bad_numbers[i];
     long double far = b;
     pendres_free free_one;
-    INVALID(pendres_rotation_least_torque(b, &onset));
+    INVALID(pendres_rotation_onset_find(b, &onset));
     (void)pendres_pendulum_energy(&good, b, b);
     assert_true(isnan(pendres_free_frequency(b)));
     pendres_free_get(b, &free_one);

@@ -19,9 +19,9 @@ static void ramps(void **state)
   const long period[] = {0, 9}, late[] = {1, 9}, back[] = {0, 0};
   double x[10], time[4];
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){1.6, 0.0},
-                                     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2, value},
-                                     &h));
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){1.6, 0.0},
+                                   &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2, value},
+                                   &h));
   const pendres_jump jump = {.step = 2};
   const pendres_ramp good = {.pendulum = p, .parameter = PENDRES_DRIVE_FREQUENCY, .corners = 2,
                              .period = period, .value = value, .points = 2,
@@ -43,24 +43,24 @@ static void ramps(void **state)
   bad[11].point = NULL;
   bad[12].parameter = PENDRES_DAMPING;
   bad[12].value = frictionless;
-  check_ok(pendres_ramp_follow(ctx, &good, NULL, NULL));
-  REFUSED(pendres_ramp_follow(ctx, NULL, NULL, NULL));
+  check_ok(pendres_ramp_find(ctx, &good, NULL, NULL));
+  REFUSED(pendres_ramp_find(ctx, NULL, NULL, NULL));
   REFUSED(pendres_ramp_scatter(ctx, NULL, 1, 0, time, NULL));
   for (size_t i = 0; i < COUNT(bad); i++) {
-    REFUSED(pendres_ramp_follow(ctx, &bad[i], NULL, NULL));
+    REFUSED(pendres_ramp_find(ctx, &bad[i], NULL, NULL));
     REFUSED(pendres_ramp_scatter(ctx, &bad[i], 1, 0, time, NULL));
   }
   pendres_ramp_record record = {.every = 0, .x = x, .v = x, .x_error = x, .v_error = x};
-  REFUSED(pendres_ramp_follow(ctx, &good, &record, NULL));
+  REFUSED(pendres_ramp_find(ctx, &good, &record, NULL));
   record = (pendres_ramp_record){.every = 1, .x = x, .v = x, .x_error = x};
-  REFUSED(pendres_ramp_follow(ctx, &good, &record, NULL));
+  REFUSED(pendres_ramp_find(ctx, &good, &record, NULL));
   const pendres_jump inside = {.step = 1};
   pendres_ramp jumping = good;
   jumping.jumps = 1;
   jumping.jump = &inside;
   REFUSED(pendres_ramp_scatter(ctx, &jumping, 1, 0, NULL, NULL));
   check_ok(pendres_ramp_scatter(ctx, &jumping, 0, 0, NULL, NULL));
-  assert_int_equal(pendres_ramp_follow(NULL, &good, NULL, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_ramp_find(NULL, &good, NULL, NULL), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_ramp_scatter(NULL, &good, 1, 0, time, NULL), PENDRES_INVALID_ARGUMENT);
   pendres_hysteresis_free(h);
   pendres_context_free(ctx);

@@ -34,7 +34,7 @@ static void two_states(void **state)
   check_near(log(pendres_attractors_weakest_multiplier(e.set)),
              8.0 * fmax(sa->lyapunov, la->lyapunov), 1e-12);
   pendres_state at;
-  check_ok(pendres_attractors_point(*state, e.set, 1, &at));
+  check_ok(pendres_attractors_point_find(*state, e.set, 1, &at));
   assert_true(at.x == la->orbit.x && at.v == la->orbit.v);
   for (int i = 0; i < MEMBERS; i++) {
     const double x = e.x[i];

@@ -183,7 +183,7 @@ static void two_chaotic_attractors(void **state)
   for (int k = 0; k < 2; k++) { /* a point on either is on no other */
     pendres_state at;
     pendres_outcome outcome;
-    check_ok(pendres_attractors_point(*state, e.set, (size_t)chaotic[k], &at));
+    check_ok(pendres_attractors_point_find(*state, e.set, (size_t)chaotic[k], &at));
     check_ok(pendres_attractors_settle(*state, e.set, 1, &at.x, &at.v, &outcome));
     assert_int_equal(outcome.attractor, chaotic[k]);
   }

@@ -186,7 +186,7 @@ static void multiple_of_period(void **state)
   pendres_cost cost;
   (void)state;
   check_ok(pendres_context_create(&options, &ctx));
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
   check_ok(outcome);
   assert_true(orbit.stable);
   const pendres_coordinates at = pendres_coordinates_in(&c.pendulum, orbit.x, orbit.v);

@@ -189,7 +189,7 @@ static void check_linear_saddle(double tolerance, double bound)
   pendres_orbit saddle;
   pendres_status outcome = PENDRES_INTERNAL;
   check_ok(pendres_context_create(&(pendres_options){.tolerance = tolerance}, &ctx));
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &saddle, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &saddle, &outcome));
   check_near(saddle.x, of_cosine, saddle.x_error);
   check_ok(pendres_boundary_find(ctx, &saddle, &window, &b));
   double low = 0.0, high = 0.0;

@@ -51,9 +51,9 @@ static void starts_at_bifurcations(void **state)
         if (a->orbit.period < 1) continue;
         check_ok(pendres_branch_follow(ctx, 1, &a->orbit, &options, &b));
         check_parts(b);
-        for (size_t m = 0; m < pendres_branch_bifurcations(b); m++) {
+        for (size_t m = 0; m < pendres_branch_bifurcation_count(b); m++) {
           pendres_branch *from = NULL;
-          const pendres_bifurcation *f = pendres_branch_bifurcation(b, m);
+          const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, m);
           if (f->kind == PENDRES_PERIOD_DOUBLING) continue;
           check_ok(pendres_branch_follow(ctx, 1, &f->orbit, &options, &from));
           check_parts(from);

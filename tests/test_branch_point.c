@@ -34,7 +34,7 @@ static pendres_orbit orbit_near(pendres_context *ctx, const pendres_pendulum *p,
   pendres_orbit orbit;
   pendres_status outcome;
   const pendres_orbit_guess guess = {.pendulum = *p, .x = x, .v = v, .period = 1};
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
   check_ok(outcome);
   return orbit;
 }
@@ -122,7 +122,7 @@ static void rest_exchanges_its_stability(void **state)
     const pendres_orbit rest = orbit_near(ctx, &p, 0.0, 0.0);
     pendres_branch *b = followed(ctx, &rest, PENDRES_PARAMETRIC_AMPLITUDE, 0.5, 1.0);
     const pendres_bifurcation *at = only(b, PENDRES_BRANCH_POINT);
-    assert_int_equal(pendres_branch_bifurcations(b), 1);
+    assert_int_equal(pendres_branch_bifurcation_count(b), 1);
     assert_non_null(at);
     check_near(at->value, mathieu_edge(0.1, 1.0, 1.0, 0.7, 0.8), at->value_error);
     assert_true(at->value_error <= tolerances[k]);
@@ -179,8 +179,8 @@ static void coefficient_that_vanishes(void **state)
                           .force_coefficients = {from[k % 2], !cubic, cubic}};
     const pendres_orbit rest = orbit_near(ctx, &p, 0.0, 0.0);
     pendres_branch *b = followed(ctx, &rest, PENDRES_A1, -0.3, 0.3);
-    assert_int_equal(pendres_branch_bifurcations(b), 1);
-    const pendres_bifurcation *at = pendres_branch_bifurcation(b, 0);
+    assert_int_equal(pendres_branch_bifurcation_count(b), 1);
+    const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, 0);
     assert_int_equal(at->kind, cubic ? PENDRES_SYMMETRY_BREAKING : PENDRES_BRANCH_POINT);
     check_near(at->value, 0.0, at->value_error);
     pendres_orbit other;
@@ -265,9 +265,9 @@ static void the_other_branch(void **state)
   check_ok(pendres_branch_switch(ctx, back, &down));
   check_near(down.x, 0.0, 1e-9);
   assert_true(down.stable && down.pendulum.parametric_amplitude < at->value);
-  for (size_t i = 0; i < pendres_branch_bifurcations(crossing); i++)
-    if (fabs(pendres_branch_bifurcation(crossing, i)->value - 0.751508) < 1e-5)
-      fold = pendres_branch_bifurcation(crossing, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(crossing); i++)
+    if (fabs(pendres_branch_bifurcation_get(crossing, i)->value - 0.751508) < 1e-5)
+      fold = pendres_branch_bifurcation_get(crossing, i);
   assert_non_null(fold);
   assert_int_equal(fold->kind, PENDRES_FOLD);
   is_fold(ctx, crossing, fold);
@@ -284,7 +284,7 @@ static void the_other_branch(void **state)
   pendres_curve_options options = {
     .second = PENDRES_DAMPING, .low = {0.5, 0.05}, .high = {1.0, 0.2}};
   check_ok(pendres_curve_follow(ctx, 1, at, &options, &curve));
-  assert_int_equal(pendres_curve_kind(curve), PENDRES_BRANCH_POINT);
+  assert_int_equal(pendres_curve_kind_get(curve), PENDRES_BRANCH_POINT);
   assert_true(pendres_curve_count(curve) > 5);
   for (size_t i = 0; i < pendres_curve_count(curve); i++) {
     const pendres_curve_point *c = pendres_curve_get(curve, i);
@@ -322,7 +322,7 @@ static void nearly_crossing(void **state)
     pendres_orbit rest = orbit_near(ctx, &p, 0.0, 0.0);
     pendres_branch *b = followed(ctx, &rest, PENDRES_PARAMETRIC_AMPLITUDE, 0.55, 1.0);
     assert_null(only(b, PENDRES_BRANCH_POINT));
-    const pendres_bifurcation *first = pendres_branch_bifurcation(b, 0);
+    const pendres_bifurcation *first = pendres_branch_bifurcation_get(b, 0);
     assert_int_equal(first->kind, PENDRES_FOLD);
     check_near(first->value, 0.751508215299, 10.0 * torques[k] + 1e-11);
     pendres_branch_free(b);
@@ -331,7 +331,7 @@ static void nearly_crossing(void **state)
     rest = orbit_near(ctx, &p, 0.0, 0.0);
     b = followed(ctx, &rest, PENDRES_PARAMETRIC_AMPLITUDE, 0.55, 1.0);
     assert_null(only(b, PENDRES_BRANCH_POINT));
-    first = pendres_branch_bifurcation(b, 0);
+    first = pendres_branch_bifurcation_get(b, 0);
     assert_int_equal(first->kind, PENDRES_FOLD);
     assert_true(first->value < crossing && first->value_error < 1e-8);
     const double here = (crossing - first->value) / sqrt(torques[k]);
@@ -354,11 +354,12 @@ static void sweeps_pass_through(void **state)
   const pendres_pendulum p = lopsided(0.0, 0.0);
   pendres_hysteresis *h = NULL;
   (void)state;
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     ctx, &p, &(pendres_state){0.05, 0.0},
     &(pendres_hysteresis_path){PENDRES_PARAMETRIC_AMPLITUDE, 6, up}, &h));
-  assert_int_equal(pendres_hysteresis_jumps(h), 2);
-  const pendres_jump *first = pendres_hysteresis_jump(h, 0), *next = pendres_hysteresis_jump(h, 1);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
+  const pendres_jump *first = pendres_hysteresis_jump_get(h, 0),
+  *next = pendres_hysteresis_jump_get(h, 1);
   assert_int_equal(first->kind, PENDRES_JUMP_BRANCH_POINT);
   assert_true(first->gradual && first->certain);
   check_near(first->value, mathieu_edge(0.1, 1.0, 1.0, 0.7, 0.8), first->value_error);
@@ -371,11 +372,11 @@ static void sweeps_pass_through(void **state)
 
   const pendres_pendulum at = lopsided(0.745, 0.0);
   const pendres_orbit other = orbit_near(ctx, &at, -0.0037, -0.0138);
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     ctx, &p, &(pendres_state){other.x - 0.01, other.v - 0.07},
     &(pendres_hysteresis_path){PENDRES_PARAMETRIC_AMPLITUDE, 4, down}, &h));
-  assert_int_equal(pendres_hysteresis_jumps(h), 1);
-  first = pendres_hysteresis_jump(h, 0);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 1);
+  first = pendres_hysteresis_jump_get(h, 0);
   assert_int_equal(first->kind, PENDRES_JUMP_BRANCH_POINT);
   assert_true(first->gradual && first->direction < 0);
   check_near(pendres_hysteresis_get(h, 3)->attractor.orbit.amplitude, 0.0, 1e-12);

@@ -144,7 +144,7 @@ static pendres_orbit symmetric_at(pendres_context *ctx, const pendres_pendulum *
   pendres_status outcome;
   const pendres_orbit_guess guess = {
     .pendulum = *p, .x = pendres_model_centre(p, x) + x, .v = v, .period = 1};
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
   check_ok(outcome);
   assert_true(orbit.symmetric);
   return orbit;
@@ -163,9 +163,9 @@ static pendres_branch *branch_of(pendres_context *ctx, const pendres_orbit *o, d
 
 static const pendres_bifurcation *breaking_of(const pendres_branch *b)
 {
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++)
-    if (pendres_branch_bifurcation(b, i)->kind == PENDRES_SYMMETRY_BREAKING)
-      return pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++)
+    if (pendres_branch_bifurcation_get(b, i)->kind == PENDRES_SYMMETRY_BREAKING)
+      return pendres_branch_bifurcation_get(b, i);
   return NULL;
 }
 
@@ -230,9 +230,9 @@ static pendres_jump first_jump(pendres_context *ctx, const pendres_pendulum *p, 
   for (int i = 0; i < VALUES; i++) value[i] = from + (to - from) * i / (VALUES - 1);
   const pendres_state start = {c - 0.7913, 0.1514};
   const pendres_hysteresis_path path = {PENDRES_DRIVE_AMPLITUDE, VALUES, value};
-  check_ok(pendres_hysteresis_follow(ctx, p, &start, &path, &h));
-  assert_true(pendres_hysteresis_jumps(h) > 0);
-  const pendres_jump jump = *pendres_hysteresis_jump(h, 0);
+  check_ok(pendres_hysteresis_find(ctx, p, &start, &path, &h));
+  assert_true(pendres_hysteresis_jump_count(h) > 0);
+  const pendres_jump jump = *pendres_hysteresis_jump_get(h, 0);
   pendres_hysteresis_free(h);
   return jump;
 }

@@ -139,7 +139,7 @@ static void mean_of_fractal(void **state)
   for (size_t t = 0; t < sizeof tolerance / sizeof *tolerance; t++) {
     pendres_context *ctx = context(tolerance[t]);
     pendres_response r;
-    check_ok(pendres_response_compute(ctx, 1, &fractal, &e, &r));
+    check_ok(pendres_response_find(ctx, 1, &fractal, &e, &r));
     pendres_context_free(ctx);
     check_near(r.mean_loop_area, truth, r.mean_loop_area_error + 1e-8);
     assert_in_range(r.uncertain, 1, 25);

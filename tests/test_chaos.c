@@ -270,7 +270,7 @@ static pendres_response respond(const pendres_pendulum *p)
   pendres_context *ctx = NULL;
   pendres_response r;
   check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_response_compute(ctx, 1, p, &e, &r));
+  check_ok(pendres_response_find(ctx, 1, p, &e, &r));
   pendres_context_free(ctx);
   return r;
 }

@@ -112,7 +112,7 @@ static void ends_of_locks(void **state)
     pendres_orbit orbit;
     pendres_status outcome;
     guess.pendulum.torque = lock[i].inside;
-    check_ok(pendres_orbit_refine(*state, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+    check_ok(pendres_orbit_find(*state, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
     assert_int_equal(outcome, PENDRES_OK);
     assert_true(orbit.stable && orbit.period == v.turn.period);
     /* The guess was on the circle, as near as that is known. */
@@ -140,8 +140,8 @@ static void slow_sweep(void **state)
   pendres_hysteresis *h = NULL;
   double value[N];
   for (int i = 0; i < N; i++) value[i] = 2.2787 - 0.0091 * i;
-  check_ok(pendres_hysteresis_follow(*state, &junction, &(pendres_state){0.0, 7.5},
-                                     &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
+  check_ok(pendres_hysteresis_find(*state, &junction, &(pendres_state){0.0, 7.5},
+                                   &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
   pendres_pendulum p[N];
   pendres_lyapunov l[N];
   double x[N], v[N];
@@ -166,7 +166,7 @@ static void slow_sweep(void **state)
   }
   /* Of two steps that the sweep goes over, one has values on it: it begins and ends once. */
   assert_true(told > N / 2 && locked > 0 && locked < 4);
-  assert_true(pendres_hysteresis_jumps(h) > 0);
+  assert_true(pendres_hysteresis_jump_count(h) > 0);
   pendres_hysteresis_free(h);
 }
 

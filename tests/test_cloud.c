@@ -46,7 +46,7 @@ static void parts_make_the_whole(void **state)
   pendres_langevin_cloud part[PARTS];
   pendres_cloud whole, sum;
   (void)state;
-  check_ok(pendres_cloud_measure(ctx, &q, &whole, x[0], v[0]));
+  check_ok(pendres_cloud_find(ctx, &q, &whole, x[0], v[0]));
   check_ok(pendres_cloud_prepare(other, &q, &sum, NULL, NULL));
   assert_int_equal(sum.way, PENDRES_CLOUD_FOLLOWED);
   q.steps_per_period = sum.bias.steps_per_period;
@@ -86,7 +86,7 @@ static void clouds_without_noise(void **state)
   pendres_cloud c;
   (void)state;
   const pendres_orbit *o = &pendres_attractors_get(set, 0)->orbit;
-  check_ok(pendres_cloud_measure(ctx, &q, &c, x, v));
+  check_ok(pendres_cloud_find(ctx, &q, &c, x, v));
   assert_int_equal(c.way, PENDRES_CLOUD_STILL);
   assert_int_equal(c.verdict, PENDRES_CLOUD_AGREES);
   for (int k = 0; k < 2 * RECORD; k++) assert_true(x[k] == o->x && v[k] == o->v);
@@ -95,7 +95,7 @@ static void clouds_without_noise(void **state)
   assert_true(c.escape_rate.value == 0.0 && c.bias.steps_per_period == 0);
   /* So cold that theory is exact, and in proportion to the temperature. */
   q.temperature = 1e-20;
-  check_ok(pendres_cloud_measure(ctx, &q, &c, x, v));
+  check_ok(pendres_cloud_find(ctx, &q, &c, x, v));
   assert_int_equal(c.way, PENDRES_CLOUD_NARROW);
   assert_int_equal(c.verdict, PENDRES_CLOUD_BELOW_ROUNDING);
   assert_true(c.linear.xx > 0.0 && c.linear.xx < 10.0 * q.temperature);
@@ -122,7 +122,7 @@ static void wrong_requests_are_refused(void **state)
   bad[5].steps_per_period = 1;
   bad[6].trajectories = SIZE_MAX;
   for (int i = 0; i < 7; i++) {
-    assert_int_equal(pendres_cloud_measure(ctx, &bad[i], &c, NULL, NULL),
+    assert_int_equal(pendres_cloud_find(ctx, &bad[i], &c, NULL, NULL),
                      PENDRES_INVALID_ARGUMENT);
     assert_true(strlen(pendres_context_message(ctx)) > 10);
   }
@@ -145,12 +145,12 @@ static void responses_stay_what_they_are_in_the_cold(void **state)
   pendres_response still;
   pendres_response_noise noisy, again;
   (void)state;
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &still));
-  check_ok(pendres_response_add_noise(ctx, &still, 0.0, 50, 20, &noisy));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &still));
+  check_ok(pendres_response_noise_find(ctx, &still, 0.0, 50, 20, &noisy));
   assert_true(noisy.loop_area.value == still.mean_loop_area);
   assert_true(noisy.phase_lag.value == still.phase_lag && noisy.steps_per_period == 0);
-  check_ok(pendres_response_add_noise(ctx, &still, T, 50, 20, &noisy));
-  check_ok(pendres_response_add_noise(ctx, &still, T, 50, 20, &again));
+  check_ok(pendres_response_noise_find(ctx, &still, T, 50, 20, &noisy));
+  check_ok(pendres_response_noise_find(ctx, &still, T, 50, 20, &again));
   assert_memory_equal(&noisy, &again, sizeof noisy);
   const pendres_response_mean *m[3] = {&noisy.loop_area, &noisy.phase_lag, &noisy.mean_power};
   const double want[3] = {still.mean_loop_area, still.phase_lag, still.mean_power};
@@ -160,9 +160,9 @@ static void responses_stay_what_they_are_in_the_cold(void **state)
     assert_true(m[i]->error > 0.0 && m[i]->error < 0.05 * want[i]);
   }
   check_relative(noisy.mean_power.value, noisy.loop_area.value * 0.9 / (2.0 * PI), 1e-14);
-  assert_int_equal(pendres_response_add_noise(ctx, &still, -1.0, 50, 20, &noisy),
+  assert_int_equal(pendres_response_noise_find(ctx, &still, -1.0, 50, 20, &noisy),
                    PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_response_add_noise(ctx, &still, T, 0, 20, &noisy),
+  assert_int_equal(pendres_response_noise_find(ctx, &still, T, 0, 20, &noisy),
                    PENDRES_INVALID_ARGUMENT);
   pendres_context_free(ctx);
 }

@@ -47,11 +47,11 @@ static void branch_is_an_s(void **state)
     .parameter = PENDRES_DRIVE_FREQUENCY, .low = 0.5, .high = 1.1};
   pendres_branch *b = NULL;
   check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
-  assert_int_equal(pendres_branch_bifurcations(b), 2);
-  assert_int_equal(pendres_branch_end_of(b, 0), PENDRES_END_RANGE);
-  assert_int_equal(pendres_branch_end_of(b, 1), PENDRES_END_RANGE);
-  check_near(pendres_branch_bifurcation(b, 0)->value, 0.844925197542337284, 1e-9);
-  check_near(pendres_branch_bifurcation(b, 1)->value, 0.753512458983320393, 1e-9);
+  assert_int_equal(pendres_branch_bifurcation_count(b), 2);
+  assert_int_equal(pendres_branch_end_get(b, 0), PENDRES_END_RANGE);
+  assert_int_equal(pendres_branch_end_get(b, 1), PENDRES_END_RANGE);
+  check_near(pendres_branch_bifurcation_get(b, 0)->value, 0.844925197542337284, 1e-9);
+  check_near(pendres_branch_bifurcation_get(b, 1)->value, 0.753512458983320393, 1e-9);
   int folds = 0;
   const size_t n = pendres_branch_count(b);
   /* The ends of the range, as exactly as points are. */
@@ -132,7 +132,7 @@ static void rounding_grows_within_a_period(void **state)
   pendres_orbit start;
   pendres_status outcome;
   pendres_branch *b = NULL;
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
   check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
   const size_t n = pendres_branch_count(b);
   assert_true(n >= 5);
@@ -170,12 +170,12 @@ static void few_steps_that_agree_by_chance(void **state)
     pendres_orbit start;
     pendres_status outcome;
     pendres_branch *b = NULL;
-    check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
+    check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
     check_ok(outcome);
     check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
-    assert_int_equal(pendres_branch_bifurcations(b), 2);
+    assert_int_equal(pendres_branch_bifurcation_count(b), 2);
     for (size_t i = 0; i < 2; i++) {
-      const pendres_bifurcation *at = pendres_branch_bifurcation(b, i);
+      const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, i);
       assert_int_equal(at->kind, kinds[i]);
       value[k][i] = at->value;
       error[k][i] = at->value_error;
@@ -199,8 +199,8 @@ static void symmetry_breaks_and_period_doubles(void **state)
     .parameter = PENDRES_DRIVE_FREQUENCY, .low = 0.4, .high = 0.9};
   pendres_branch *b = NULL, *pair = NULL;
   check_ok(pendres_branch_follow(ctx, 1, &la, &options, &b));
-  assert_int_equal(pendres_branch_bifurcations(b), 1);
-  const pendres_bifurcation *at = pendres_branch_bifurcation(b, 0);
+  assert_int_equal(pendres_branch_bifurcation_count(b), 1);
+  const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, 0);
   assert_int_equal(at->kind, PENDRES_SYMMETRY_BREAKING);
   pendres_reference_cycle want;
   check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &la.pendulum,
@@ -215,10 +215,10 @@ static void symmetry_breaks_and_period_doubles(void **state)
   assert_int_equal(lopsided.period, 1);
   check_ok(pendres_branch_follow(ctx, 1, &lopsided, &options, &pair));
   /* Down to the doubling on one side, through the birth, and the mirror image on the other. */
-  assert_int_equal(pendres_branch_bifurcations(pair), 3);
-  const pendres_bifurcation *first = pendres_branch_bifurcation(pair, 0);
-  const pendres_bifurcation *birth = pendres_branch_bifurcation(pair, 1);
-  const pendres_bifurcation *last = pendres_branch_bifurcation(pair, 2);
+  assert_int_equal(pendres_branch_bifurcation_count(pair), 3);
+  const pendres_bifurcation *first = pendres_branch_bifurcation_get(pair, 0);
+  const pendres_bifurcation *birth = pendres_branch_bifurcation_get(pair, 1);
+  const pendres_bifurcation *last = pendres_branch_bifurcation_get(pair, 2);
   assert_int_equal(birth->kind, PENDRES_SYMMETRY_BREAKING);
   check_near(birth->value, at->value, birth->value_error + at->value_error);
   assert_int_equal(first->kind, PENDRES_PERIOD_DOUBLING);
@@ -287,11 +287,11 @@ static void running_orbits_make_an_isola(void **state)
   /* Running forwards and backwards are mirror images: one branch. */
   assert_int_equal(pendres_branches_count(set), 1);
   const pendres_branch *b = pendres_branches_get(set, 0);
-  assert_int_equal(pendres_branch_end_of(b, 0), PENDRES_END_CLOSED);
+  assert_int_equal(pendres_branch_end_get(b, 0), PENDRES_END_CLOSED);
   double low = INFINITY, high = 0.0;
   int folds = 0;
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     if (f->kind != PENDRES_FOLD) continue;
     folds++;
     low = fmin(low, f->value);
@@ -344,9 +344,9 @@ static void ensemble_finds_the_branch_born_away(void **state)
   assert_int_equal(pendres_branches_count(set), 2);
   /* It ends upwards in a fold of its own, below which both are, and downwards by its symmetry. */
   const pendres_branch *away = pendres_branches_get(set, 1);
-  assert_int_equal(pendres_branch_bifurcations(away), 2);
-  assert_int_equal(pendres_branch_bifurcation(away, 0)->kind, PENDRES_SYMMETRY_BREAKING);
-  const pendres_bifurcation *f = pendres_branch_bifurcation(away, 1);
+  assert_int_equal(pendres_branch_bifurcation_count(away), 2);
+  assert_int_equal(pendres_branch_bifurcation_get(away, 0)->kind, PENDRES_SYMMETRY_BREAKING);
+  const pendres_bifurcation *f = pendres_branch_bifurcation_get(away, 1);
   assert_int_equal(f->kind, PENDRES_FOLD);
   pendres_reference_cycle want;
   check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &f->orbit.pendulum,
@@ -380,9 +380,9 @@ static void branches_start_at_folds(void **state)
   check_ok(pendres_curve_cross(ctx, c, 0.13, 4, at, &found));
   assert_int_equal(found, 3);
   check_ok(pendres_branch_follow(ctx, 1, &at[0].orbit, &options, &b));
-  assert_int_equal(pendres_branch_bifurcations(b), 2);
-  const pendres_bifurcation *end = pendres_branch_bifurcation(b, 0);
-  const pendres_bifurcation *again = pendres_branch_bifurcation(b, 1);
+  assert_int_equal(pendres_branch_bifurcation_count(b), 2);
+  const pendres_bifurcation *end = pendres_branch_bifurcation_get(b, 0);
+  const pendres_bifurcation *again = pendres_branch_bifurcation_get(b, 1);
   assert_int_equal(end->kind, PENDRES_SYMMETRY_BREAKING);
   check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &end->orbit.pendulum,
                                   &(pendres_reference_guess){end->value, end->orbit.x - half_pi,

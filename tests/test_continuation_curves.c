@@ -18,7 +18,7 @@ static void a_fold_is_not_known_better_than_its_point(void **state)
   pendres_status outcome;
   pendres_fold fold;
   pendres_reference_cycle want;
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &near, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &near, &outcome));
   check_ok(outcome);
   check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
   check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &near.pendulum,
@@ -168,9 +168,9 @@ static void fold_curve_passes_the_cusp(void **state)
   pendres_curve *c = NULL;
   check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
   check_ok(pendres_curve_follow(ctx, 1, &fold, &options, &c));
-  assert_int_equal(pendres_curve_kind(c), PENDRES_FOLD);
-  assert_int_equal(pendres_curve_cusps(c), 1);
-  check_near(pendres_curve_cusp(c, 0)->value[1], 0.163656902031172567, 1e-9);
+  assert_int_equal(pendres_curve_kind_get(c), PENDRES_FOLD);
+  assert_int_equal(pendres_curve_cusp_count(c), 1);
+  check_near(pendres_curve_cusp_get(c, 0)->value[1], 0.163656902031172567, 1e-9);
   for (size_t i = 0; i < pendres_curve_count(c); i++) {
     const pendres_curve_point *p = pendres_curve_get(c, i);
     assert_true(p->value_error[0] <= 1e-9 && p->value_error[1] <= 1e-9);
@@ -253,9 +253,9 @@ static void symmetry_breakings_follow_parameters(void **state)
   pendres_branch *b = NULL;
   pendres_curve *c = NULL;
   check_ok(pendres_branch_follow(ctx, 1, &la, &options, &b));
-  assert_int_equal(pendres_branch_bifurcations(b), 1);
-  check_ok(pendres_curve_follow(ctx, 1, pendres_branch_bifurcation(b, 0), &both, &c));
-  assert_int_equal(pendres_curve_kind(c), PENDRES_SYMMETRY_BREAKING);
+  assert_int_equal(pendres_branch_bifurcation_count(b), 1);
+  check_ok(pendres_curve_follow(ctx, 1, pendres_branch_bifurcation_get(b, 0), &both, &c));
+  assert_int_equal(pendres_curve_kind_get(c), PENDRES_SYMMETRY_BREAKING);
   const size_t n = pendres_curve_count(c);
   assert_true(n >= 3);
   for (size_t i = 0; i < n; i += n - 1) {

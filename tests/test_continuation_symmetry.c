@@ -22,7 +22,7 @@ static pendres_orbit refined(pendres_context *ctx, pendres_orbit_guess guess)
 {
   pendres_orbit orbit;
   pendres_status outcome;
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
   check_ok(outcome);
   return orbit;
 }
@@ -94,8 +94,8 @@ static void period_three_loses_its_symmetry(void **state)
   pendres_branch *born = followed(ctx, &pair, 0.5345, 0.55);
   const pendres_bifurcation *birth = the(born, PENDRES_SYMMETRY_BREAKING);
   check_near(birth->value, at->value, birth->value_error + at->value_error);
-  for (size_t i = 0; i < pendres_branch_bifurcations(born); i++)
-    assert_true(pendres_branch_bifurcation(born, i)->kind != PENDRES_FOLD);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(born); i++)
+    assert_true(pendres_branch_bifurcation_get(born, i)->kind != PENDRES_FOLD);
   assert_int_equal(doubts_of(born), 0);
   pendres_branch_free(born);
   pendres_branch_free(b);
@@ -152,8 +152,8 @@ static void branches_stay_on_themselves(void **state)
     for (size_t k = 0; k < pendres_branch_count(b); k++)
       if (pendres_branch_get(b, k)->bifurcation < 0)
         assert_int_equal(pendres_branch_get(b, k)->orbit.symmetric, start.symmetric);
-    for (size_t k = 0; k < pendres_branch_bifurcations(b); k++) {
-      const pendres_bifurcation *f = pendres_branch_bifurcation(b, k);
+    for (size_t k = 0; k < pendres_branch_bifurcation_count(b); k++) {
+      const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, k);
       births += f->orbit.period < start.period || (f->orbit.symmetric && !start.symmetric);
     }
     assert_int_equal(births, cases[i].births);
@@ -208,7 +208,7 @@ static void what_is_missing_is_doubted(void **state)
   const pendres_orbit sa = refined(
     ctx, (pendres_orbit_guess){.pendulum = p, .x = half_pi + 0.5, .v = 0.1, .period = 1});
   pendres_branch *b = followed(ctx, &sa, 0.7, 0.9);
-  assert_int_equal(pendres_branch_bifurcations(b), 2);
+  assert_int_equal(pendres_branch_bifurcation_count(b), 2);
   assert_int_equal(doubts_of(b), 0);
   size_t at = 0;
   while (b->curve.branch_point[at].bifurcation < 0) at++;
@@ -266,7 +266,7 @@ static void what_cancels_by_right(void **state)
     pendres_orbit born;
     check_ok(pendres_branch_switch(ctx, at, &born));
     pendres_branch *pair = followed(ctx, &born, 0.455, 0.47);
-    const pendres_bifurcation *first = pendres_branch_bifurcation(pair, 0);
+    const pendres_bifurcation *first = pendres_branch_bifurcation_get(pair, 0);
     assert_non_null(first);
     assert_int_equal(first->kind, PENDRES_PERIOD_DOUBLING);
     value[k] = first->value;
@@ -307,15 +307,16 @@ static void outlines(void **state)
       {options.low}, {options.high}, 1e3, 2000};
     check_ok(pendres_branch_begin(ctx, start, options.parameter, 0.05, &outline));
     check_ok(pendres_branch_extend(ctx, outline, &few));
-    assert_int_equal(pendres_branch_end_of(outline, 0), PENDRES_END_POINTS);
+    assert_int_equal(pendres_branch_end_get(outline, 0), PENDRES_END_POINTS);
     check_ok(pendres_branch_extend(ctx, outline, &all));
     for (int which = 0; which < 2; which++)
-      assert_int_equal(pendres_branch_end_of(outline, which), pendres_branch_end_of(whole, which));
-    assert_int_equal(pendres_branch_bifurcations(whole), met[k]);
-    assert_int_equal(pendres_branch_bifurcations(outline), met[k]);
-    for (size_t i = 0; i < pendres_branch_bifurcations(whole); i++) {
-      const pendres_bifurcation *a = pendres_branch_bifurcation(whole, i);
-      const pendres_bifurcation *b = pendres_branch_bifurcation(outline, i);
+      assert_int_equal(pendres_branch_end_get(outline, which),
+                       pendres_branch_end_get(whole, which));
+    assert_int_equal(pendres_branch_bifurcation_count(whole), met[k]);
+    assert_int_equal(pendres_branch_bifurcation_count(outline), met[k]);
+    for (size_t i = 0; i < pendres_branch_bifurcation_count(whole); i++) {
+      const pendres_bifurcation *a = pendres_branch_bifurcation_get(whole, i);
+      const pendres_bifurcation *b = pendres_branch_bifurcation_get(outline, i);
       assert_int_equal(a->kind, b->kind);
       check_near(a->value, b->value, a->value_error + b->value_error);
     }

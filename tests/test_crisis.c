@@ -70,11 +70,11 @@ static void chaos_ends_and_pendulums_escape(void **state)
   double value[N];
   pendres_hysteresis *h = NULL;
   for (int i = 0; i < N; i++) value[i] = i < 4 ? 0.06 + 0.0156 * i : 0.1069 + 0.0004 * i;
-  check_ok(pendres_hysteresis_follow(*state, &p, &(pendres_state){0.1, 0.0},
-                                     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, N, value},
-                                     &h));
-  assert_true(pendres_hysteresis_jumps(h) > 0);
-  const pendres_jump *j = pendres_hysteresis_jump(h, pendres_hysteresis_jumps(h) - 1);
+  check_ok(pendres_hysteresis_find(*state, &p, &(pendres_state){0.1, 0.0},
+                                   &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, N, value},
+                                   &h));
+  assert_true(pendres_hysteresis_jump_count(h) > 0);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, pendres_hysteresis_jump_count(h) - 1);
   assert_int_equal(j->kind, PENDRES_JUMP_CRISIS);
   assert_int_equal(j->from, PENDRES_LABEL_CHAOTIC);
   assert_int_equal(j->to, PENDRES_LABEL_ESCAPE);
@@ -106,9 +106,9 @@ static pendres_hysteresis *from_to(pendres_context *ctx, double from, double to)
 {
   const double value[] = {from, to};
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(ctx, &rocking, &(pendres_state){-0.8, -0.2},
-                                     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2, value},
-                                     &h));
+  check_ok(pendres_hysteresis_find(ctx, &rocking, &(pendres_state){-0.8, -0.2},
+                                   &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2, value},
+                                   &h));
   assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label, PENDRES_LABEL_CHAOTIC);
   return h;
 }
@@ -120,14 +120,14 @@ static void chaos_ends_where_doublings_accumulate(void **state)
   pendres_hysteresis *h = from_to(*state, 0.7875, 0.83);
   const pendres_orbit *o = &pendres_hysteresis_get(h, 1)->attractor.orbit;
   check_ok(pendres_cascade_find(*state, o, PENDRES_DRIVE_FREQUENCY, 0.7875, &c));
-  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, 0);
   assert_true(j->kind == PENDRES_JUMP_FLIP && j->from == PENDRES_LABEL_CHAOTIC && j->certain);
   assert_true(j->to_period == 64 && j->value_error < 1e-8);
   check_near(j->value, c.limit, j->value_error + c.limit_error);
   /* From 64 periods to one. */
-  assert_int_equal(pendres_hysteresis_jumps(h), 7);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 7);
   for (size_t k = 1; k < 7; k++) {
-    j = pendres_hysteresis_jump(h, k);
+    j = pendres_hysteresis_jump_get(h, k);
     assert_true(j->kind == PENDRES_JUMP_FLIP && j->gradual);
     assert_int_equal(j->to_period, 64 >> k);
     check_near(j->value, c.value[6 - k], j->value_error + c.value_error[6 - k]);
@@ -142,10 +142,10 @@ static void chaos_ends_in_a_window(void **state)
   pendres_reference_cycle cycle;
   pendres_hysteresis *h = from_to(*state, 0.643, 0.6423);
   const pendres_orbit *o = &pendres_hysteresis_get(h, 1)->attractor.orbit;
-  assert_int_equal(pendres_hysteresis_jumps(h), 2);
-  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, 0);
   assert_true(j->kind == PENDRES_JUMP_FOLD && j->to_period == 3 && j->value_error < 1e-9);
-  assert_int_equal(pendres_hysteresis_jump(h, 1)->kind, PENDRES_JUMP_FLIP);
+  assert_int_equal(pendres_hysteresis_jump_get(h, 1)->kind, PENDRES_JUMP_FLIP);
   /* The reference's orbit is there until the fold, and not behind it. */
   pendres_pendulum p = o->pendulum;
   long double y = o->x - 1.57079632679489661923L, v = o->v;

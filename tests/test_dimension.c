@@ -59,7 +59,7 @@ static void known_sets(void **state)
       x[k] = uniform(&seed);
       v[k] = of_cantor(&seed, sets[i].a, sets[i].b, sets[i].p);
     }
-    check_ok(pendres_correlation_measure(ctx, &(pendres_section){N, x, v, 0.0}, 0.0, &c));
+    check_ok(pendres_correlation_find(ctx, &(pendres_section){N, x, v, 0.0}, 0.0, &c));
     check_near(c.dimension, 1.0 + cantor_dimension(sets[i].a, sets[i].b, sets[i].p),
                c.dimension_error);
     assert_true(c.dimension_error < 0.1 && c.scales > 5 && c.shortest < 0.5 * c.longest);
@@ -74,11 +74,11 @@ static void known_sets(void **state)
     x[k] = two_pi * uniform(&seed);
     v[k] = sin(x[k]);
   }
-  check_ok(pendres_correlation_measure(ctx, &(pendres_section){N, x, v, two_pi}, 0.0, &c));
+  check_ok(pendres_correlation_find(ctx, &(pendres_section){N, x, v, two_pi}, 0.0, &c));
   check_near(c.dimension, 1.0, c.dimension_error);
   assert_true(c.dimension_error < 0.05);
   for (int k = 0; k < N; k++) x[k] += two_pi * (k % 5 - 2);
-  check_ok(pendres_correlation_measure(ctx, &(pendres_section){N, x, v, two_pi}, 0.0, &again));
+  check_ok(pendres_correlation_find(ctx, &(pendres_section){N, x, v, two_pi}, 0.0, &again));
   check_near(again.dimension, c.dimension, 1e-3 * c.dimension_error);
   pendres_context_free(ctx);
 }
@@ -99,13 +99,13 @@ static void orbits(void **state)
       x[k] = k % q + 1e-7 * (uniform(&seed) - 0.5);
       v[k] = sin(k % q) + 1e-7 * uniform(&seed);
     }
-    check_ok(pendres_correlation_measure(ctx, &(pendres_section){N, x, v, two_pi}, 1e-6, &c));
+    check_ok(pendres_correlation_find(ctx, &(pendres_section){N, x, v, two_pi}, 1e-6, &c));
     check_near(c.dimension, 0.0, c.dimension_error);
     assert_true(c.dimension_error < 1e-12 && c.scales > 5);
     check_near(c.sum[0], 1.0 / q, 0.01);
   }
   /* Too few to tell. */
-  check_ok(pendres_correlation_measure(ctx, &(pendres_section){40, x, v, two_pi}, 0.0, &c));
+  check_ok(pendres_correlation_find(ctx, &(pendres_section){40, x, v, two_pi}, 0.0, &c));
   assert_true(isnan(c.dimension) && isnan(c.dimension_error) && isnan(c.longest));
   pendres_context_free(ctx);
 }

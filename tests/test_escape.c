@@ -70,7 +70,7 @@ static void helmholtz(void **state)
   assert_non_null(s);
   check_ok(pendres_basin_attractors(ctx, &p, &grid, &set));
   assert_int_equal(pendres_attractors_count(set), 1);
-  check_ok(pendres_basin_compute(ctx, set, &grid, s));
+  check_ok(pendres_basin_find(ctx, set, &grid, s));
   for (int i = 0; i < SIDE * SIDE; i++) {
     const int away = runs_away(&p, x[i / SIDE], v[i % SIDE]);
     if (s[i].how == PENDRES_BASIN_UNCERTAIN) continue;

@@ -77,7 +77,7 @@ static pendres_orbit settled(pendres_context *ctx, const pendres_pendulum *p)
   pendres_status outcome = PENDRES_INTERNAL;
   pendres_orbit o;
   check_ok(pendres_strobe_advance(ctx, 1, p, &g.x, &g.v, 150, NULL));
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
   check_ok(outcome);
   return o;
 }
@@ -116,9 +116,9 @@ static void oscillators(void **state)
   for (size_t i = 0; i < COUNT(cases); i++) {
     const pendres_orbit o = settled(ctx, &cases[i].p);
     pendres_branch *b = branch_of(ctx, &o, cases[i].parameter, cases[i].low, cases[i].high);
-    assert_int_equal(pendres_branch_bifurcations(b), cases[i].bifurcations);
-    for (size_t m = 0; m < pendres_branch_bifurcations(b); m++)
-      check_bifurcation(pendres_branch_bifurcation(b, m));
+    assert_int_equal(pendres_branch_bifurcation_count(b), cases[i].bifurcations);
+    for (size_t m = 0; m < pendres_branch_bifurcation_count(b); m++)
+      check_bifurcation(pendres_branch_bifurcation_get(b, m));
     pendres_branch_free(b);
   }
   pendres_context_free(ctx);
@@ -145,7 +145,7 @@ static pendres_orbit running(pendres_context *ctx, pendres_pendulum p, int windi
     pendres_status outcome;
     pendres_orbit o;
     if (fabs(x[i] - from[i] - 2.0 * (double)ORACLE_PI * winding) > 0.1) continue;
-    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
     if (outcome == PENDRES_OK && o.stable) return o;
   }
   fail_msg("no orbit of winding %d", winding);
@@ -167,9 +167,9 @@ static void steps(void **state)
     const pendres_orbit o = running(ctx, p, winding);
     pendres_branch *b = branch_of(ctx, &o, PENDRES_TORQUE, -3.0, 3.0);
     size_t folds = 0;
-    assert_int_equal(pendres_branch_end_of(b, 0), PENDRES_END_CLOSED);
-    for (size_t m = 0; m < pendres_branch_bifurcations(b); m++) {
-      const pendres_bifurcation *f = pendres_branch_bifurcation(b, m);
+    assert_int_equal(pendres_branch_end_get(b, 0), PENDRES_END_CLOSED);
+    for (size_t m = 0; m < pendres_branch_bifurcation_count(b); m++) {
+      const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, m);
       check_bifurcation(f);
       folds += f->kind == PENDRES_FOLD;
     }
@@ -188,7 +188,7 @@ static pendres_orbit rest(pendres_context *ctx, const pendres_pendulum *p)
     .pendulum = *p, .x = p->force == PENDRES_FORCE_PENDULUM ? half_pi : 0.0, .period = 1};
   pendres_status outcome = PENDRES_INTERNAL;
   pendres_orbit o;
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
   check_ok(outcome);
   return o;
 }
@@ -199,8 +199,8 @@ static pendres_branch *tongues(pendres_context *ctx, const pendres_pendulum *p)
   const pendres_orbit o = rest(ctx, p);
   pendres_branch *b = branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, 0.85, 3.0);
   size_t count[PENDRES_SPECIAL_COUNT] = {0};
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++)
-    count[pendres_branch_bifurcation(b, i)->kind]++;
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++)
+    count[pendres_branch_bifurcation_get(b, i)->kind]++;
   assert_int_equal(count[PENDRES_FOLD], 0);
   assert_int_equal(count[PENDRES_PERIOD_DOUBLING], 2);
   assert_int_equal(count[PENDRES_SYMMETRY_BREAKING], 2);
@@ -219,8 +219,8 @@ static void mathieu(void **state)
   pendres_context *ctx = context(1e-11);
   pendres_branch *b = tongues(ctx, &p);
   (void)state;
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     const double a1 = p.force_coefficients[0], square = f->value * f->value;
     const double a = 4.0 * a1 / square, q = 2.0 * a1 * p.parametric_amplitude / square;
     const int order = f->kind == PENDRES_PERIOD_DOUBLING ? 1 : 2;
@@ -241,8 +241,8 @@ static void damped_tongues(void **state)
   pendres_context *ctx = context(1e-10);
   pendres_branch *b = tongues(ctx, &p);
   (void)state;
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     const int sign = f->kind == PENDRES_PERIOD_DOUBLING ? -1 : 1;
     oracle o = oracle_of(&f->orbit.pendulum);
     o.omega += 1e-6L;
@@ -271,8 +271,8 @@ static void born_of_rest(void **state)
   pendres_context *ctx = context(1e-9);
   pendres_branch *b = tongues(ctx, &p);
   (void)state;
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     const int doubling = f->kind == PENDRES_PERIOD_DOUBLING;
     pendres_orbit o;
     check_ok(pendres_branch_switch(ctx, f, &o));
@@ -281,8 +281,8 @@ static void born_of_rest(void **state)
     pendres_branch *born =
       branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, f->value - 0.15, f->value + 0.15);
     size_t met = 0;
-    for (size_t k = 0; k < pendres_branch_bifurcations(born); k++) {
-      const pendres_bifurcation *at = pendres_branch_bifurcation(born, k);
+    for (size_t k = 0; k < pendres_branch_bifurcation_count(born); k++) {
+      const pendres_bifurcation *at = pendres_branch_bifurcation_get(born, k);
       met += at->kind == f->kind && fabs(at->value - f->value) < 1e-8;
     }
     assert_int_equal(met, 1);
@@ -308,11 +308,11 @@ static void symmetric_after_three_periods(void **state)
   pendres_orbit o;
   size_t breakings = 0;
   (void)state;
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
   check_ok(outcome);
   pendres_branch *b = branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, 1.64, 1.67);
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     double left = NAN;
     oracle mirror = oracle_of(&f->orbit.pendulum);
     if (f->kind != PENDRES_SYMMETRY_BREAKING) continue;
@@ -325,7 +325,7 @@ static void symmetric_after_three_periods(void **state)
     check_near(f->value, value, f->value_error + 1e-13);
   }
   assert_int_equal(breakings, 1);
-  assert_int_equal(pendres_branch_bifurcations(b), 2); /* and a fold */
+  assert_int_equal(pendres_branch_bifurcation_count(b), 2); /* and a fold */
   pendres_branch_free(b);
   pendres_context_free(ctx);
 }
@@ -346,12 +346,12 @@ static void born_of_a_doubling(void **state)
   pendres_status outcome = PENDRES_INTERNAL;
   pendres_orbit o;
   (void)state;
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
   check_ok(outcome);
   pendres_branch *b = branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, 0.836, 0.86);
-  assert_int_equal(pendres_branch_bifurcations(b), COUNT(periods));
+  assert_int_equal(pendres_branch_bifurcation_count(b), COUNT(periods));
   for (size_t i = 0; i < COUNT(periods); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     assert_int_equal(f->kind, PENDRES_PERIOD_DOUBLING);
     assert_int_equal(f->orbit.period, periods[i]);
     check_bifurcation(f);

@@ -138,7 +138,7 @@ static void noisy_contexts_in_use_are_refused(void **state)
     } else if (k < 4) {
       check_ok(pendres_langevin_advance(ctx, RUN(1, &p, NULL, 0, 5, &observer), &x, &v));
     } else {
-      check_ok(pendres_langevin_measure(ctx, &request, &cloud, NULL, NULL));
+      check_ok(pendres_langevin_cloud_find(ctx, &request, &cloud, NULL, NULL));
     }
     check_refused(&a);
     assert_true(a.asked >= 5);

@@ -29,8 +29,8 @@ static pendres_hysteresis *sweep(pendres_context *ctx, pendres_pendulum p,
   assert_non_null(value);
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] = low + (high - low) * (double)i / (double)(n - 1);
-  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){x, 0.0},
-                                     &(pendres_hysteresis_path){parameter, 2 * n, value}, &h));
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){x, 0.0},
+                                   &(pendres_hysteresis_path){parameter, 2 * n, value}, &h));
   assert_int_equal(pendres_hysteresis_count(h), 2 * n);
   for (size_t i = 0; i < 2 * n; i++)
     assert_true(pendres_hysteresis_get(h, i)->value == value[i]);
@@ -56,9 +56,9 @@ static void loop_of_the_drive_frequency(void **state)
   const pendres_pendulum p = {.damping = 0.15, .drive_amplitude = 0.2};
   const double low = 0.65, high = 0.9;
   pendres_hysteresis *h = sweep(ctx, p, PENDRES_DRIVE_FREQUENCY, low, high, 26, 1.6);
-  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
   for (size_t k = 0; k < 2; k++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
     const pendres_hysteresis_point *before = pendres_hysteresis_get(h, j->step - 1);
     const pendres_hysteresis_point *behind = pendres_hysteresis_get(h, j->step);
     pendres_fold fold;
@@ -105,7 +105,7 @@ static void check_doubling(pendres_context *ctx, const pendres_hysteresis *h, co
     pendres_orbit o;
     pendres_status outcome;
     g.pendulum.drive_amplitude = j->value + (k == 0 ? -off : off);
-    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
     assert_int_equal(outcome, PENDRES_OK);
     multiplier[k] = o.multiplier_re[0];
   }
@@ -128,10 +128,10 @@ static void forks(void **state)
   pendres_context *ctx = *state;
   const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 2.0 / 3.0};
   pendres_hysteresis *h = sweep(ctx, p, PENDRES_DRIVE_AMPLITUDE, 0.95, 1.081, 20, 1.6);
-  assert_int_equal(pendres_hysteresis_jumps(h), 6);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 6);
   for (size_t k = 0; k < 6; k++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
-    const pendres_jump *back = pendres_hysteresis_jump(h, 5 - k);
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
+    const pendres_jump *back = pendres_hysteresis_jump_get(h, 5 - k);
     assert_int_equal(j->kind, expected[k].kind);
     assert_int_equal(j->to_period, expected[k].to_period);
     assert_true(j->gradual && j->certain);
@@ -156,9 +156,9 @@ static void running(void **state)
   const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 2.0 / 3.0};
   const double value[2] = {1.40, 1.41};
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){1.6, 0.0},
-                                     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 2, value},
-                                     &h));
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){1.6, 0.0},
+                                   &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 2, value},
+                                   &h));
   for (size_t i = 0; i < 2; i++) {
     const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
     const pendres_orbit *o = &point->attractor.orbit;
@@ -189,13 +189,13 @@ static void stopped(void **state)
   size_t reached = 0, first = 0;
   pendres_hysteresis *whole = NULL, *part = NULL;
   for (int i = 0; i < VALUES; i++) value[i] = 0.8 + 0.001 * i;
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     ctx, &p, &(pendres_state){1.0, 0.0},
     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, VALUES, value}, &whole));
   for (int questions = 0; reached < VALUES; questions = 2 * questions + 1) {
     int left = questions;
     pendres_context_set_interrupt(ctx, after_some, &left);
-    const pendres_status status = pendres_hysteresis_follow(
+    const pendres_status status = pendres_hysteresis_find(
       ctx, &p, &(pendres_state){1.0, 0.0},
       &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, VALUES, value}, &part);
     pendres_context_set_interrupt(ctx, NULL, NULL);
@@ -233,19 +233,19 @@ static void out_of_chaos(void **state)
                               .torque = -0.6113300743};
   pendres_hysteresis *h = NULL;
   (void)state;
-  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){1.3, 0.0},
-                                     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 2, value},
-                                     &h));
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){1.3, 0.0},
+                                   &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 2, value},
+                                   &h));
   assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label, PENDRES_LABEL_CHAOTIC);
   assert_int_equal(pendres_hysteresis_get(h, 1)->attractor.orbit.period, 2);
-  const size_t n = pendres_hysteresis_jumps(h);
+  const size_t n = pendres_hysteresis_jump_count(h);
   assert_true(n >= 2);
   for (size_t k = 0; k < n; k++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
     if (j->from == PENDRES_LABEL_CHAOTIC) assert_true(j->value + j->value_error > 1.302);
-    assert_true(k == 0 || j->value < pendres_hysteresis_jump(h, k - 1)->value);
+    assert_true(k == 0 || j->value < pendres_hysteresis_jump_get(h, k - 1)->value);
   }
-  const pendres_jump *last = pendres_hysteresis_jump(h, n - 1);
+  const pendres_jump *last = pendres_hysteresis_jump_get(h, n - 1);
   assert_int_equal(last->kind, PENDRES_JUMP_FLIP);
   assert_int_equal(last->to_period, 2);
   pendres_hysteresis_free(h);
@@ -263,7 +263,7 @@ static void escaped(void **state)
                               .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, -1.0}};
   pendres_hysteresis *h = NULL;
   (void)state;
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     ctx, &p, &(pendres_state){0.1, 0.0},
     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, VALUES, value}, &h));
   for (size_t i = 0; i < VALUES; i++) {
@@ -271,9 +271,9 @@ static void escaped(void **state)
     assert_int_equal(point->attractor.label == PENDRES_LABEL_ESCAPE, i >= AWAY);
     assert_true(isnan(point->mean_velocity) == (i >= AWAY));
   }
-  const size_t n = pendres_hysteresis_jumps(h);
+  const size_t n = pendres_hysteresis_jump_count(h);
   assert_true(n >= 1);
-  const pendres_jump *last = pendres_hysteresis_jump(h, n - 1);
+  const pendres_jump *last = pendres_hysteresis_jump_get(h, n - 1);
   assert_int_equal(last->to, PENDRES_LABEL_ESCAPE);
   assert_true(last->value > 0.05 && last->value < 0.5 && last->direction == 1);
   pendres_hysteresis_free(h);
@@ -299,10 +299,10 @@ static void left_out(void **state)
   static const int number[ALL] = {-1, 0, 1, -1, -1, 2, 3};
   const pendres_pendulum p = {.damping = 0.15, .drive_amplitude = 0.2};
   pendres_hysteresis *h = NULL, *kept = NULL;
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     *state, &p, &(pendres_state){1.6, 0.0},
     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, ALL, value}, &h));
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     *state, &p, &(pendres_state){1.6, 0.0},
     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, WITHOUT, without}, &kept));
   for (size_t i = 0; i < ALL; i++) {
@@ -315,9 +315,9 @@ static void left_out(void **state)
     assert_int_equal(point->outcome, PENDRES_TOLERANCE_UNREACHABLE);
     assert_int_equal(point->attractor.label, PENDRES_LABEL_UNRESOLVED);
   }
-  assert_int_equal(pendres_hysteresis_jumps(h), pendres_hysteresis_jumps(kept));
-  assert_true(pendres_hysteresis_jumps(h) >= 1);
-  assert_int_equal(pendres_hysteresis_jump(h, 0)->step, 2);
+  assert_int_equal(pendres_hysteresis_jump_count(h), pendres_hysteresis_jump_count(kept));
+  assert_true(pendres_hysteresis_jump_count(h) >= 1);
+  assert_int_equal(pendres_hysteresis_jump_get(h, 0)->step, 2);
   pendres_hysteresis_free(h);
   pendres_hysteresis_free(kept);
 }

@@ -26,7 +26,7 @@ static int certain_points(pendres_context *ctx, const pendres_pendulum *p, doubl
   int certain = 0;
   pendres_hysteresis *h = NULL;
   for (int i = 0; i < VALUES; i++) value[i] = p->drive_amplitude + 1e-6 * i;
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     ctx, p, &(pendres_state){x, v},
     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, VALUES, value}, &h));
   for (size_t i = 0; i < VALUES; i++) {

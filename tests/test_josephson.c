@@ -23,8 +23,8 @@ static pendres_hysteresis *sweep(pendres_context *ctx, double low, double high, 
   assert_true(n <= MOST);
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] = low + (high - low) * (double)i / (double)(n - 1);
-  check_ok(pendres_hysteresis_follow(ctx, &junction, &(pendres_state){1.6, 0.0},
-                                     &(pendres_hysteresis_path){PENDRES_TORQUE, 2 * n, value}, &h));
+  check_ok(pendres_hysteresis_find(ctx, &junction, &(pendres_state){1.6, 0.0},
+                                   &(pendres_hysteresis_path){PENDRES_TORQUE, 2 * n, value}, &h));
   return h;
 }
 
@@ -51,7 +51,7 @@ static void step_and_rotation(void **state)
     }
   }
   assert_true(steps >= 10 && rotations >= 10);
-  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, 0);
   pendres_fold fold;
   assert_non_null(j);
   assert_true(j->direction == 1 && j->kind == PENDRES_JUMP_FOLD && j->certain && !j->gradual);
@@ -71,10 +71,10 @@ static void step_and_rotation(void **state)
 static void just_beyond_a_step(void **state)
 {
   pendres_hysteresis *h = sweep(*state, 2.7, 2.73, 4);
-  const pendres_jump *up = pendres_hysteresis_jump(h, 0);
+  const pendres_jump *up = pendres_hysteresis_jump_get(h, 0);
   for (size_t i = 2; i < 6; i++)
     assert_int_equal(pendres_hysteresis_get(h, i)->attractor.label, PENDRES_LABEL_QUASI_PERIODIC);
-  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
   assert_int_equal(up->kind, PENDRES_JUMP_FOLD);
   assert_int_equal(up->to, PENDRES_LABEL_QUASI_PERIODIC);
   pendres_hysteresis_free(h);
@@ -87,14 +87,14 @@ static void lock_is_born(void **state)
   enum { N = sizeof value / sizeof *value };
   pendres_hysteresis *h = NULL;
   pendres_fold fold;
-  check_ok(pendres_hysteresis_follow(*state, &junction, &(pendres_state){1.6, 8.0},
-                                     &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
+  check_ok(pendres_hysteresis_find(*state, &junction, &(pendres_state){1.6, 8.0},
+                                   &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
   const pendres_orbit *lock = &pendres_hysteresis_get(h, 5)->attractor.orbit;
   assert_int_equal(lock->period, 3);
   check_ok(pendres_fold_find(*state, lock, PENDRES_TORQUE, &fold));
-  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
   for (size_t i = 0; i < 2; i++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, i);
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, i);
     assert_int_equal(j->kind, PENDRES_JUMP_FOLD);
     assert_int_equal(j->from, i == 0 ? PENDRES_LABEL_QUASI_PERIODIC : PENDRES_LABEL_RUNNING);
     check_near(j->value, fold.value, j->value_error + fold.value_error);
@@ -136,9 +136,9 @@ static void slips(void **state)
 {
   const double value[2] = {1.37, 1.39};
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(*state, &junction, &(pendres_state){1.6, 8.0},
-                                     &(pendres_hysteresis_path){PENDRES_TORQUE, 2, value}, &h));
-  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  check_ok(pendres_hysteresis_find(*state, &junction, &(pendres_state){1.6, 8.0},
+                                   &(pendres_hysteresis_path){PENDRES_TORQUE, 2, value}, &h));
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, 0);
   assert_non_null(j);
   assert_int_equal(j->kind, PENDRES_JUMP_FOLD);
   const pendres_orbit *o = &pendres_hysteresis_get(h, 0)->attractor.orbit;

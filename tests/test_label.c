@@ -89,8 +89,8 @@ static void all_questions_name_alike(void **state)
     for (int i = 0; i < LINE; i++)
       p[i] = (pendres_pendulum){.damping = k == 0 ? 0.1111 : 0.5, .drive_amplitude = 0.26,
                                 .drive_frequency = frequency[i]};
-    check_ok(pendres_response_compute(ctx, LINE, p, &e, r));
-    check_ok(pendres_response_name(ctx, LINE, r));
+    check_ok(pendres_response_find(ctx, LINE, p, &e, r));
+    check_ok(pendres_response_label(ctx, LINE, r));
     check_ok(pendres_phase_line(ctx, LINE, p, &(pendres_phase_options){.ensemble = e}, points,
                                 NULL));
     for (int i = 0; i < LINE; i++) {
@@ -103,8 +103,8 @@ static void all_questions_name_alike(void **state)
       check_near(r[i].sa_fraction + r[i].la_fraction, 1.0, 1e-15);
     }
     /* Alone, as both are beyond 0.8, they have no name: nothing is known of others. */
-    check_ok(pendres_response_compute(ctx, 1, &p[LINE - 1], &e, r));
-    check_ok(pendres_response_name(ctx, 1, r));
+    check_ok(pendres_response_find(ctx, 1, &p[LINE - 1], &e, r));
+    check_ok(pendres_response_label(ctx, 1, r));
     assert_true(isnan(r[0].sa_fraction));
     free(r);
   }

@@ -19,7 +19,7 @@ static void free_diffusion_is_ornstein_uhlenbeck(void **state)
                                       .settle = 0, .record = 1};
   pendres_context *ctx = make(3, 24, 192);
   pendres_langevin_cloud c;
-  check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
+  check_ok(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL));
   /* Uhlenbeck and Ornstein, Phys. Rev. 36 (1930) 823. The force of the well and the steps,
    * (gamma h)^4/2880, change these by less than 1e-5 relative. */
   const double e = exp(-g * t), one = -expm1(-g * t);
@@ -50,7 +50,7 @@ static void small_oscillations_are_linear(void **state)
     pendres_langevin_linear lin;
     pendres_langevin_cloud c;
     pendres_context *ctx = make(4, damping[i] > 1.0 ? 64 : 24, 192);
-    check_ok(pendres_langevin_linear_theory(&q.pendulum, q.x, 0.0, 1, &lin));
+    check_ok(pendres_langevin_linear_find(&q.pendulum, q.x, 0.0, 1, &lin));
     /* Equilibrium: equipartition, whatever the damping. */
     check_near(lin.covariance.xx, T, 1e-9 * T);
     check_near(lin.covariance.xv, 0.0, 1e-9 * T);
@@ -64,7 +64,7 @@ static void small_oscillations_are_linear(void **state)
     const double want[3] = {T * (1.0 - s[0] * s[0] - s[1] * s[1]),
                             T * (-s[0] * s[2] - s[1] * s[3]),
                             T * (1.0 - s[2] * s[2] - s[3] * s[3])};
-    check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
+    check_ok(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL));
     for (int k = 0; k < 3; k++) {
       const pendres_langevin_estimate e = c.statistics[PENDRES_LANGEVIN_COV_XX + k];
       check_near(e.value, want[k], sigmas * e.error);
@@ -115,7 +115,7 @@ static void check_equilibrium(double damping, double T)
 
   assert_true(x != NULL && v != NULL);
   const double want = boltzmann(T, BINS, cuts);
-  check_ok(pendres_langevin_measure(ctx, &q, &c, x, v));
+  check_ok(pendres_langevin_cloud_find(ctx, &q, &c, x, v));
   const pendres_langevin_estimate vv = c.statistics[PENDRES_LANGEVIN_COV_VV];
   check_near(vv.value, T, sigmas * vv.error);
   /* An error that is itself sensible: between all strobes independent and all equal. */
@@ -166,7 +166,7 @@ static void clouds_of_figure7_are_linear(void **state)
     pendres_context *ctx = make(7, 0, 0);
 
     orbit(large, &q.x, &q.v);
-    check_ok(pendres_langevin_linear_theory(&q.pendulum, q.x, q.v, 1, &lin));
+    check_ok(pendres_langevin_linear_find(&q.pendulum, q.x, q.v, 1, &lin));
     check_near(lin.closure, 0.0, 1e-9);
     /* The determinant of the monodromy matrix is exp(-gamma tau), by Liouville. */
     check_relative(lin.monodromy[0] * lin.monodromy[3] - lin.monodromy[1] * lin.monodromy[2],
@@ -177,7 +177,7 @@ static void clouds_of_figure7_are_linear(void **state)
     few.record = 60;
     check_ok(pendres_langevin_choose_steps(ctx, &few, PENDRES_LANGEVIN_CLOUD, 0.01, &bias));
     q.steps_per_period = bias.steps_per_period;
-    check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
+    check_ok(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL));
     assert_int_equal(c.left, 0);
     const double want[3] = {lin.covariance.xx, lin.covariance.xv, lin.covariance.vv};
     for (int k = 0; k < 3; k++) {
@@ -314,7 +314,7 @@ static void those_who_left_do_not_count(void **state)
   double x[N * RECORD], v[N * RECORD];
   pendres_context *ctx = make(9, 16, 64);
   pendres_langevin_cloud c;
-  check_ok(pendres_langevin_measure(ctx, &q, &c, x, v));
+  check_ok(pendres_langevin_cloud_find(ctx, &q, &c, x, v));
   /* A hundred left at the end of period 10, when four of their strobes had counted. */
   assert_int_equal(c.left, 100);
   check_near(c.exposure, 100 * 10.0 + 200 * 13.0, 0.0);
@@ -323,7 +323,7 @@ static void those_who_left_do_not_count(void **state)
   q.settle = 20;
   q.trajectories = 2;
   q.leave = leave_at_ten;
-  assert_int_equal(pendres_langevin_measure(ctx, &q, &c, NULL, NULL), PENDRES_NOT_FOUND);
+  assert_int_equal(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL), PENDRES_NOT_FOUND);
   pendres_context_free(ctx);
 }
 
@@ -354,12 +354,12 @@ static void linear_theory_refuses(void **state)
   pendres_langevin_linear out;
   pendres_pendulum p = {0.1, 0.0, 1.0, 1e-4};
   /* The barrier top repels. */
-  assert_int_equal(pendres_langevin_linear_theory(&p, -PI / 2.0, 0.0, 1, &out),
+  assert_int_equal(pendres_langevin_linear_find(&p, -PI / 2.0, 0.0, 1, &out),
                    PENDRES_NOT_FOUND);
-  assert_int_equal(pendres_langevin_linear_theory(&p, PI / 2.0, 0.0, 0, &out),
+  assert_int_equal(pendres_langevin_linear_find(&p, PI / 2.0, 0.0, 0, &out),
                    PENDRES_INVALID_ARGUMENT);
   p.temperature = -1e-4;
-  assert_int_equal(pendres_langevin_linear_theory(&p, PI / 2.0, 0.0, 1, &out),
+  assert_int_equal(pendres_langevin_linear_find(&p, PI / 2.0, 0.0, 1, &out),
                    PENDRES_INVALID_ARGUMENT);
 }
 

@@ -17,7 +17,7 @@ static pendres_langevin_cloud cloud_of(pendres_context *ctx, pendres_langevin_re
 {
   pendres_langevin_cloud c;
   q.steps_per_period = steps;
-  check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
+  check_ok(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL));
   check_ok(pendres_langevin_measure_bias(ctx, &q, bias));
   return c;
 }
@@ -53,7 +53,7 @@ static void linear_forces_are_exact_at_any_temperature(void **state)
   pendres_langevin_request q = {.pendulum = p, .x = x, .v = v, .trajectories = 1536, .settle = 12,
                                 .record = 60};
   (void)state;
-  check_ok(pendres_langevin_linear_theory(&p, x, v, 1, &linear));
+  check_ok(pendres_langevin_linear_find(&p, x, v, 1, &linear));
   check_relative(linear.covariance.xx, T / a1, 1e-9);
   check_near(linear.covariance.xv, 0.0, 1e-9);
   check_relative(linear.covariance.vv, T, 1e-9);
@@ -64,7 +64,7 @@ static void linear_forces_are_exact_at_any_temperature(void **state)
   q.pendulum.parametric_amplitude = 0.5;
   q.pendulum.drive_amplitude = 0.0;
   q.x = q.v = 0.0;
-  check_ok(pendres_langevin_linear_theory(&q.pendulum, 0.0, 0.0, 1, &linear));
+  check_ok(pendres_langevin_linear_find(&q.pendulum, 0.0, 0.0, 1, &linear));
   assert_true(fabs(linear.covariance.vv - T) > 0.3); /* the drive's phase matters */
   const pendres_langevin_cloud d = cloud_of(ctx, q, 20, &bias);
   check_statistic(&d, &bias, PENDRES_LANGEVIN_COV_XX, linear.covariance.xx, 0.05);
@@ -87,7 +87,7 @@ static void linear_theory_resolves_stiff_forces(void **state)
                                 .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {a1}};
     const double t = pendres_units_of(&p).time, xx = 1e-3 / a1, vv = 1e-3 * t * t;
     pendres_langevin_linear linear;
-    check_ok(pendres_langevin_linear_theory(&p, 0.0, 0.0, 1, &linear));
+    check_ok(pendres_langevin_linear_find(&p, 0.0, 0.0, 1, &linear));
     const pendres_langevin_covariance *c = &linear.covariance;
     const double within = 2.0 * linear.error + 1e-14 * xx;
     print_message("a1 = %g: off by %.1e, %.1e, %.1e, estimated %.1e of %.1e\n", a1, c->xx - xx,

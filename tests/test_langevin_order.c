@@ -176,7 +176,7 @@ static void covariance_errors(const pendres_pendulum *p, int n, double error[3])
   pendres_langevin_linear lin;
   ends e;
   double x = 0.0, v = 0.0;
-  check_ok(pendres_langevin_linear_theory(p, 0.9, 0.7, 1, &lin));
+  check_ok(pendres_langevin_linear_find(p, 0.9, 0.7, 1, &lin));
   /* With two points a kick, +-1, only the fourth cumulant is wrong: T relative. */
   reach_ends(p, n, 2, &e);
   for (size_t i = 0; i < e.block.count; i++) {

@@ -80,7 +80,7 @@ static void clouds_do_not_depend_on_blocks(void **state)
   for (int i = 0; i < 2; i++) {
     pendres_context *ctx = make(21, 16, i == 0 ? 192 : 24);
     check_ok(pendres_langevin_measure_bias(ctx, &q, &b[i]));
-    check_ok(pendres_langevin_measure(ctx, &q, &c[i], NULL, NULL));
+    check_ok(pendres_langevin_cloud_find(ctx, &q, &c[i], NULL, NULL));
     assert_int_equal(b[i].steps_per_period, 16);
     pendres_context_free(ctx);
   }
@@ -98,12 +98,12 @@ static void merging_parts_is_exact(void **state)
   pendres_langevin_cloud whole, merged, parts[3];
   pendres_context *ctx = make(0, 24, 192);
   (void)state;
-  check_ok(pendres_langevin_measure(ctx, &q, &whole, NULL, NULL));
+  check_ok(pendres_langevin_cloud_find(ctx, &q, &whole, NULL, NULL));
   q.trajectories = CUT;
-  check_ok(pendres_langevin_measure(ctx, &q, &parts[0], NULL, NULL));
+  check_ok(pendres_langevin_cloud_find(ctx, &q, &parts[0], NULL, NULL));
   q.first_id += CUT;
   q.trajectories = N - CUT;
-  check_ok(pendres_langevin_measure(ctx, &q, &parts[1], NULL, NULL));
+  check_ok(pendres_langevin_cloud_find(ctx, &q, &parts[1], NULL, NULL));
   /* One of which nothing is left. */
   parts[2] = (pendres_langevin_cloud){ .left = 2, .exposure = 5.0, .phase_lag = { NAN, NAN } };
   for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++)
@@ -139,7 +139,8 @@ static void wrong_arguments_are_refused(void **state)
     assert_non_null(strstr(pendres_context_message(ctx), "trajectory 1"));
     assert_non_null(strstr(pendres_context_message(ctx), "temperature"));
     assert_true(x[0] == 1.0 && x[1] == 1.0 && v[0] == 0.0);
-    assert_int_equal(pendres_langevin_measure(ctx, &q, &c, NULL, NULL), PENDRES_INVALID_ARGUMENT);
+    assert_int_equal(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL),
+                     PENDRES_INVALID_ARGUMENT);
     assert_int_equal(pendres_langevin_measure_bias(ctx, &q, &b), PENDRES_INVALID_ARGUMENT);
     assert_int_equal(pendres_langevin_choose_steps(ctx, &q, PENDRES_LANGEVIN_CLOUD, 0.01, &b),
                      PENDRES_INVALID_ARGUMENT);
@@ -163,7 +164,8 @@ static void wrong_arguments_are_refused(void **state)
     const pendres_langevin_request q = {.pendulum = p, .trajectories = 8, .record = 1,
                                         .steps_per_period = bad_steps[i]};
     assert_int_equal(pendres_langevin_advance(ctx, &run, &x, &v), PENDRES_INVALID_ARGUMENT);
-    assert_int_equal(pendres_langevin_measure(ctx, &q, &c, NULL, NULL), PENDRES_INVALID_ARGUMENT);
+    assert_int_equal(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL),
+                     PENDRES_INVALID_ARGUMENT);
     assert_int_equal(pendres_langevin_measure_bias(ctx, &q, &b), PENDRES_INVALID_ARGUMENT);
     assert_non_null(strstr(pendres_context_message(ctx), "steps"));
   }
@@ -262,7 +264,7 @@ static void asked_within_a_period(void **state)
   pendres_context_cost(ctx, &cost);
   check_near(cost.pendulum_periods, 0.0, 0.0);
   asked = 0;
-  assert_int_equal(pendres_langevin_measure(ctx, &q, &cloud, NULL, NULL), PENDRES_INTERRUPTED);
+  assert_int_equal(pendres_langevin_cloud_find(ctx, &q, &cloud, NULL, NULL), PENDRES_INTERRUPTED);
   assert_int_equal(asked, 3);
   asked = 0;
   assert_int_equal(pendres_langevin_measure_bias(ctx, &q, &bias), PENDRES_INTERRUPTED);
@@ -288,7 +290,7 @@ static void errors_from_two_trajectories_cover(void **state)
                                         .trajectories = 2, .settle = 10, .record = 4,
                                         .first_id = 2 * (uint64_t)i};
     pendres_langevin_cloud c;
-    check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
+    check_ok(pendres_langevin_cloud_find(ctx, &q, &c, NULL, NULL));
     mean[i] = c.statistics[PENDRES_LANGEVIN_MEAN_V].value;
     error[i] = c.statistics[PENDRES_LANGEVIN_MEAN_V].error;
     truth += mean[i] / PAIRS;

@@ -169,11 +169,11 @@ static void response(void **state)
   pendres_context *ctx = context();
   (void)state;
   p.drive_amplitude = 0.1;
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &r));
   assert_int_equal(r.unresolved, e.members);
   assert_int_equal(r.escaped, e.members);
   p.parametric_amplitude = 0.1;
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &r));
   assert_int_equal(r.unresolved, 0);
   assert_int_equal(r.escaped, 0);
   pendres_context_free(ctx);
@@ -207,7 +207,7 @@ static void rest_dissipates_nothing(void **state)
       .pendulum = p, .x = cases[i].x, .v = cases[i].v, .period = 1};
     check_ok(pendres_context_create(&(pendres_options){.tolerance = cases[i].tolerance}, &ctx));
     check_ok(
-      pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_FREQUENCY_SLOPE, &o, &outcome));
+      pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_FREQUENCY_SLOPE, &o, &outcome));
     assert_int_equal(outcome, PENDRES_OK);
     assert_true(o.dissipation <= o.dissipation_error);
     pendres_context_free(ctx);

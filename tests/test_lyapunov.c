@@ -298,7 +298,7 @@ static void unstable_orbit(void **state)
   pendres_lyapunov l;
   for (int i = 1; i <= 23; i++) {
     guess.pendulum.drive_amplitude = 0.05 * i;
-    check_ok(pendres_orbit_refine(*state, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+    check_ok(pendres_orbit_find(*state, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
     check_ok(outcome);
     guess.x = orbit.x;
     guess.v = orbit.v;

@@ -30,7 +30,7 @@ static pendres_orbit orbit_near(pendres_context *ctx, const pendres_pendulum *p,
   const pendres_orbit_guess g = {.pendulum = *p, .x = x, .v = v, .period = 1, .winding = winding};
   pendres_status outcome = PENDRES_INTERNAL;
   pendres_orbit o;
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
   check_ok(outcome);
   return o;
 }

@@ -38,7 +38,7 @@ static pendres_orbit *golden_refined(pendres_context *ctx, size_t *count)
       .x = (double)g->y + half_pi + 1e-3, .v = (double)g->v - 1e-3,
       .period = (int)g->period, .winding = (int)g->winding};
   }
-  check_ok(pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome));
+  check_ok(pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome));
   for (size_t i = 0; i < n; i++) assert_int_not_equal(outcome[i], PENDRES_NOT_CONVERGED);
   free(guess);
   free(outcome);
@@ -124,7 +124,7 @@ static void honest_on_a_lattice(void **state)
   }
   for (size_t t = 0; t < sizeof tolerances / sizeof tolerances[0]; t++) {
     pendres_context *ctx = context_with(tolerances[t]);
-    check_ok(pendres_orbit_refine(ctx, ALL, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome));
+    check_ok(pendres_orbit_find(ctx, ALL, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome));
     for (int i = 0; i < ALL; i++) {
       const pendres_reference_cycle *e = &exact[i];
       const pendres_orbit *o = &orbit[i];
@@ -204,8 +204,8 @@ static void linear_limit(void **state)
     pendres_orbit o;
     pendres_harmonic h;
     pendres_status outcome;
-    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
-    check_ok(pendres_harmonic_response(&g.pendulum, &h));
+    check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_harmonic_find(&g.pendulum, &h));
     check_relative(o.amplitude, h.amplitude, 1e-9);
     check_relative(o.phase_lag, h.phase_lag, 1e-9);
     check_relative(o.loop_area, h.loop_area, 1e-9);
@@ -226,11 +226,11 @@ static void slopes(void **state)
   pendres_orbit at, below, above;
   pendres_status outcome;
   (void)state;
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_FREQUENCY_SLOPE, &at, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_FREQUENCY_SLOPE, &at, &outcome));
   g.pendulum.drive_frequency = 0.83 - step;
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &below, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &below, &outcome));
   g.pendulum.drive_frequency = 0.83 + step;
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &above, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &above, &outcome));
   const double slack = 100.0 * step * step + (above.loop_area_error + below.loop_area_error) / step;
   check_near(at.loop_area_slope, (above.loop_area - below.loop_area) / (2.0 * step), slack);
   check_near(at.frequency_derivative[0], (above.x - below.x) / (2.0 * step),
@@ -251,7 +251,7 @@ static void check_next_to_fold(pendres_context *const ctx[TOLERANCES],
   for (int t = 0; t < TOLERANCES; t++) {
     pendres_orbit o;
     pendres_status outcome;
-    check_ok(pendres_orbit_refine(ctx[t], 1, g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_orbit_find(ctx[t], 1, g, PENDRES_ORBIT_PLAIN, &o, &outcome));
     const double y = nearest_turn(o.x - half_pi, (double)fold->y);
     const int found = outcome != PENDRES_NOT_CONVERGED &&
                       hypot(y - (double)fold->y, o.v - (double)fold->v) < 0.3;
@@ -343,7 +343,7 @@ static void honest_with_few_steps(void **state)
     pendres_orbit o;
     pendres_status outcome;
     pendres_reference_cycle e;
-    check_ok(pendres_orbit_refine(ctx, 1, g, cases[i].want, &o, &outcome));
+    check_ok(pendres_orbit_find(ctx, 1, g, cases[i].want, &o, &outcome));
     check_ok(outcome);
     check_ok(pendres_reference_orbit(&g->pendulum, o.x - half_pi, o.v, g->period, g->winding, &e));
     check_near(nearest_turn(o.x, (double)e.y + half_pi), (double)e.y + half_pi, o.x_error);
@@ -374,7 +374,7 @@ static void samples_know_their_error(void **state)
     pendres_status outcome;
     pendres_reference_cycle e;
     double x[4], v[4], error[2] = {NAN, NAN};
-    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
     check_ok(pendres_reference_orbit(&g.pendulum, o.x - half_pi, o.v, 4, 0, &e));
     check_ok(pendres_orbit_sample(ctx, &o, 1, x, v, error));
     assert_true(error[0] <= tolerances[t] && error[1] <= tolerances[t]);
@@ -443,7 +443,7 @@ static void about_the_top(void **state)
     pendres_context *ctx = context_with(tolerance);
     pendres_orbit o;
     pendres_status outcome;
-    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
     check_ok(outcome);
     check_near(o.mean_angle, 0.5 * two_pi, 10.0 * tolerance);
     if (isnan(first)) first = o.x;
@@ -459,17 +459,17 @@ static void refusals(void **state)
   pendres_status outcome;
   pendres_orbit_guess g = {.pendulum = {.damping = -1.0, .drive_frequency = 1.0}, .period = 1};
   (void)state;
-  assert_int_equal(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
+  assert_int_equal(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
                    PENDRES_INVALID_ARGUMENT);
   g.pendulum.damping = 0.1;
   g.period = 0;
-  assert_int_equal(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
+  assert_int_equal(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
                    PENDRES_INVALID_ARGUMENT);
   g.period = 1;
   g.x = NAN;
-  assert_int_equal(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
+  assert_int_equal(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
                    PENDRES_INVALID_ARGUMENT);
-  check_ok(pendres_orbit_refine(ctx, 0, NULL, PENDRES_ORBIT_PLAIN, NULL, NULL));
+  check_ok(pendres_orbit_find(ctx, 0, NULL, PENDRES_ORBIT_PLAIN, NULL, NULL));
   pendres_context_free(ctx);
 }
 

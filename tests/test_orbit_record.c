@@ -44,7 +44,7 @@ static pendres_orbit orbit_of(pendres_context *ctx, const pendres_orbit_guess *g
   pendres_status outcome;
   pendres_attractors *set = NULL;
   if (g->period > 1) {
-    check_ok(pendres_orbit_refine(ctx, 1, g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_orbit_find(ctx, 1, g, PENDRES_ORBIT_PLAIN, &o, &outcome));
     check_ok(outcome);
     return o;
   }

@@ -31,9 +31,9 @@ static pendres_curves *curves_of(pendres_context *ctx, const line *l)
   check_ok(pendres_curves_find(ctx, 0, NULL, &options, &curves));
   for (size_t i = 0; i < pendres_branches_count(l->branches); i++) {
     const pendres_branch *b = pendres_branches_get(l->branches, i);
-    if (pendres_branch_bifurcations(b) > 0)
-      check_ok(pendres_curves_extend(ctx, pendres_branch_bifurcations(b),
-                                     pendres_branch_bifurcation(b, 0), &options, curves));
+    if (pendres_branch_bifurcation_count(b) > 0)
+      check_ok(pendres_curves_extend(ctx, pendres_branch_bifurcation_count(b),
+                                     pendres_branch_bifurcation_get(b, 0), &options, curves));
   }
   return curves;
 }
@@ -74,9 +74,9 @@ static void curves_tell_what_members_miss(void **state)
 
   /* Both ends by the reference, which is good to 15 digits. */
   const pendres_branch *b = pendres_branches_get(l.branches, 1);
-  assert_int_equal(pendres_branch_bifurcations(b), 2);
+  assert_int_equal(pendres_branch_bifurcation_count(b), 2);
   for (int i = 0; i < 2; i++) {
-    const pendres_bifurcation *at = pendres_branch_bifurcation(b, (size_t)i);
+    const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, (size_t)i);
     const pendres_pendulum *p = &at->orbit.pendulum;
     const long double y = at->orbit.x - 1.57079632679489661923L, v = at->orbit.v;
     pendres_reference_cycle want;
@@ -225,9 +225,9 @@ static void whole_diagrams(void **state)
   assert_int_equal(round.work, PENDRES_PHASE_DONE);
   assert_true(rounds >= 3);
   for (size_t i = 0; i < LINES * VALUES; i++) {
-    const pendres_phase_point *p = pendres_phase_diagram_point(whole, i);
-    assert_memory_equal(p, pendres_phase_diagram_point(parts, i), sizeof *p);
-    assert_int_equal(pendres_phase_diagram_outcome(whole, i, NULL), PENDRES_OK);
+    const pendres_phase_point *p = pendres_phase_diagram_point_get(whole, i);
+    assert_memory_equal(p, pendres_phase_diagram_point_get(parts, i), sizeof *p);
+    assert_int_equal(pendres_phase_diagram_outcome_get(whole, i, NULL), PENDRES_OK);
     assert_int_equal(p->regime, i == 0   ? PENDRES_REGIME_COEXISTENCE
                                 : i == 1 ? PENDRES_REGIME_LA
                                          : PENDRES_REGIME_SINGLE);
@@ -235,11 +235,11 @@ static void whole_diagrams(void **state)
   const pendres_cusp *cusp = pendres_phase_diagram_get(whole).cusp;
   check_near(cusp->value[1], cusp_damping, cusp->value_error[1] + 1e-15);
   check_near(cusp->value[0], cusp_frequency, cusp->value_error[0] + 1e-15);
-  const pendres_bifurcation *sa = pendres_phase_diagram_fold(whole, 0, PENDRES_LABEL_SA);
-  const pendres_bifurcation *la = pendres_phase_diagram_fold(whole, 0, PENDRES_LABEL_LA);
+  const pendres_bifurcation *sa = pendres_phase_diagram_fold_get(whole, 0, PENDRES_LABEL_SA);
+  const pendres_bifurcation *la = pendres_phase_diagram_fold_get(whole, 0, PENDRES_LABEL_LA);
   check_near(sa->value, sa_fold, sa->value_error + 1e-15);
   check_near(la->value, la_fold, la->value_error + 1e-15);
-  assert_null(pendres_phase_diagram_fold(whole, 1, PENDRES_LABEL_SA));
+  assert_null(pendres_phase_diagram_fold_get(whole, 1, PENDRES_LABEL_SA));
   pendres_phase_diagram_free(whole);
   pendres_phase_diagram_free(parts);
   pendres_context_free(ctx);
@@ -294,7 +294,7 @@ static void families_make_the_same_curves(void **state)
   for (size_t i = 0; i < pendres_curves_count(want); i++) {
     const pendres_curve *a = pendres_curves_get(found, i), *b = pendres_curves_get(want, i);
     assert_int_equal(pendres_curve_count(a), pendres_curve_count(b));
-    assert_int_equal(pendres_curve_kind(a), pendres_curve_kind(b));
+    assert_int_equal(pendres_curve_kind_get(a), pendres_curve_kind_get(b));
     for (size_t k = 0; k < pendres_curve_count(a); k++) {
       const pendres_curve_point *p = pendres_curve_get(a, k), *q = pendres_curve_get(b, k);
       assert_int_equal(p->cusp, q->cusp);
@@ -330,13 +330,14 @@ static void stiffening_oscillator(void **state)
   pendres_phase_diagram *d = NULL;
   check_ok(pendres_phase_diagram_find(ctx, &grid, &d));
   for (size_t i = 0; i < FREQUENCIES; i++) {
-    assert_int_equal(pendres_phase_diagram_point(d, i)->exact, want[i]);
-    assert_int_equal(pendres_phase_diagram_point(d, i)->regime, want[i]);
-    assert_int_equal(pendres_phase_diagram_point(d, FREQUENCIES + i)->exact, PENDRES_REGIME_SINGLE);
+    assert_int_equal(pendres_phase_diagram_point_get(d, i)->exact, want[i]);
+    assert_int_equal(pendres_phase_diagram_point_get(d, i)->regime, want[i]);
+    assert_int_equal(pendres_phase_diagram_point_get(d, FREQUENCIES + i)->exact,
+                     PENDRES_REGIME_SINGLE);
   }
   for (int k = 0; k < 2; k++) {
     const pendres_label label = k == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
-    const pendres_bifurcation *f = pendres_phase_diagram_fold(d, 0, label);
+    const pendres_bifurcation *f = pendres_phase_diagram_fold_get(d, 0, label);
     oracle o = oracle_of(&f->orbit.pendulum);
     double left = NAN;
     const double value =
@@ -344,7 +345,7 @@ static void stiffening_oscillator(void **state)
     check_near(f->value, k == 0 ? 1.30304597 : 1.38385653, 1e-8);
     check_near(f->value, value, f->value_error + 1e-14);
     assert_true(left < 1e-14 && f->value_error < 1e-9);
-    assert_int_equal(pendres_phase_diagram_ending(d, &f->orbit, f->curvature), label);
+    assert_int_equal(pendres_phase_diagram_ending_get(d, &f->orbit, f->curvature), label);
   }
   pendres_phase_diagram_free(d);
   pendres_context_free(ctx);
@@ -369,14 +370,14 @@ static void points_fail_alone(void **state)
   check_ok(pendres_phase_diagram_leave_out(d, 1));
   check_ok(pendres_phase_diagram_next(d, &round));
   do_round(ctx, d, round.tasks, 0);
-  assert_int_equal(pendres_phase_diagram_outcome(d, 0, &words), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_outcome_get(d, 0, &words), PENDRES_INVALID_ARGUMENT);
   assert_true(words != NULL && strlen(words) > 0);
-  assert_int_equal(pendres_phase_diagram_outcome(d, 1, &words), PENDRES_UNSUPPORTED);
+  assert_int_equal(pendres_phase_diagram_outcome_get(d, 1, &words), PENDRES_UNSUPPORTED);
   assert_null(words);
-  assert_int_equal(pendres_phase_diagram_outcome(d, 2, &words), PENDRES_OK);
-  assert_true(isnan(pendres_phase_diagram_point(d, 0)->mean_loop_area));
-  assert_true(isnan(pendres_phase_diagram_point(d, 1)->mean_loop_area));
-  assert_true(pendres_phase_diagram_point(d, 2)->mean_loop_area > 0.0);
+  assert_int_equal(pendres_phase_diagram_outcome_get(d, 2, &words), PENDRES_OK);
+  assert_true(isnan(pendres_phase_diagram_point_get(d, 0)->mean_loop_area));
+  assert_true(isnan(pendres_phase_diagram_point_get(d, 1)->mean_loop_area));
+  assert_true(pendres_phase_diagram_point_get(d, 2)->mean_loop_area > 0.0);
   pendres_phase_diagram_free(d);
   pendres_context_free(ctx);
 }

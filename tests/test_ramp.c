@@ -70,13 +70,13 @@ static void lay(pendres_context *ctx, course *c, pendres_pendulum p, pendres_par
   const pendres_attractor a = start_of(ctx, &p);
   *c = (course){.period = {0, periods, 2 * periods},
                 .value = {value[0], value[POINTS - 1], value[0]}};
-  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){a.orbit.x, a.orbit.v},
-                                     &(pendres_hysteresis_path){parameter, n, value}, &c->path));
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){a.orbit.x, a.orbit.v},
+                                   &(pendres_hysteresis_path){parameter, n, value}, &c->path));
   c->ramp = (pendres_ramp){.pendulum = p, .parameter = parameter, .corners = back ? 3 : 2,
                            .period = c->period, .value = c->value, .points = n,
                            .point = pendres_hysteresis_get(c->path, 0),
-                           .jumps = pendres_hysteresis_jumps(c->path),
-                           .jump = pendres_hysteresis_jump(c->path, 0)};
+                           .jumps = pendres_hysteresis_jump_count(c->path),
+                           .jump = pendres_hysteresis_jump_get(c->path, 0)};
 }
 
 /* ---- trajectories ---- */
@@ -131,7 +131,7 @@ static void trajectories(void **state)
       r.pendulum.force = PENDRES_FORCE_POLYNOMIAL;
       r.pendulum.force_coefficients[0] = 1.0;
     }
-    check_ok(pendres_ramp_follow(*state, &r, &record, NULL));
+    check_ok(pendres_ramp_find(*state, &r, &record, NULL));
     double s[2] = {x[0], v[0]};
     for (int i = 0; i < PERIODS; i++) {
       for (int step = 0; step < STEPS; step++)
@@ -158,9 +158,9 @@ static double passage(pendres_context *ctx)
   const pendres_attractor a = start_of(ctx, &plain);
   double value[3] = {plain.drive_frequency, fold - off[0], fold - off[1]};
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(ctx, &plain, &(pendres_state){a.orbit.x, a.orbit.v},
-                                     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 3, value},
-                                     &h));
+  check_ok(pendres_hysteresis_find(ctx, &plain, &(pendres_state){a.orbit.x, a.orbit.v},
+                                   &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 3, value},
+                                   &h));
   for (size_t i = 0; i < 2; i++) {
     const double all = pendres_hysteresis_get(h, i + 1)->attractor.orbit.multiplier_re[0];
     m[i] = (1.0 - all) * (1.0 - all) / (4.0 * off[i]);
@@ -185,7 +185,7 @@ static void delays(void **state)
     lay(ctx, &c, plain, PENDRES_DRIVE_FREQUENCY, fold - reach,
         fold - reach + rate[k] * (double)periods, periods, 0);
     assert_int_equal(c.ramp.jumps, 1);
-    check_ok(pendres_ramp_follow(ctx, &c.ramp, NULL, &j));
+    check_ok(pendres_ramp_find(ctx, &c.ramp, NULL, &j));
     check_near(j.value, c.value[0] + rate[k] * j.time, 1e-12);
     check_near(j.delay, j.value - fold, 1e-10);
     assert_true(j.delay_error > 0.0 && j.delay_error < 1e-2 * j.delay);
@@ -218,7 +218,7 @@ static void there_and_back(void **state)
   p.damping = 0.15;
   lay(*state, &c, p, PENDRES_DRIVE_FREQUENCY, 0.65, 0.9, 1000, 1);
   assert_int_equal(c.ramp.jumps, 2);
-  check_ok(pendres_ramp_follow(*state, &c.ramp, NULL, j));
+  check_ok(pendres_ramp_find(*state, &c.ramp, NULL, j));
   for (size_t k = 0; k < 2; k++) {
     assert_true(j[k].delay > 0.0 && j[k].delay < 0.03);
     assert_int_equal(c.ramp.jump[k].direction, k == 0 ? 1 : -1);
@@ -227,7 +227,7 @@ static void there_and_back(void **state)
   /* The same ramp, but so short that the first state is never left: there is no jump, and nothing
      else to come back from. */
   c.value[1] = c.ramp.jump[0].value - 0.01;
-  check_ok(pendres_ramp_follow(*state, &c.ramp, NULL, j));
+  check_ok(pendres_ramp_find(*state, &c.ramp, NULL, j));
   assert_true(isnan(j[0].time) && isnan(j[0].delay) && isnan(j[1].delay_error));
   assert_true(isnan(j[1].time));
   free_course(&c);
@@ -326,7 +326,7 @@ static void noisy_jumps(void **state)
   check_near(a.deviation, b.deviation, 4.0 * hypot(a.deviation_error, b.deviation_error));
   /* It is noise that counts: most jumps are before the one without. */
   pendres_ramp_jump j;
-  check_ok(pendres_ramp_follow(*state, &c.ramp, NULL, &j));
+  check_ok(pendres_ramp_find(*state, &c.ramp, NULL, &j));
   assert_true(a.mean < j.value - 4.0 * a.mean_error && a.deviation > 3.0 * rate);
   free_course(&c);
 }
@@ -383,7 +383,7 @@ static void capsizes(void **state)
   const pendres_ramp_record record = {1, x, v, x_error, v_error};
   pendres_ramp_jump jump[8];
   pendres_hysteresis *path = NULL;
-  check_ok(pendres_hysteresis_follow(
+  check_ok(pendres_hysteresis_find(
     *state, &p, &(pendres_state){0.1, 0.0},
     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, VALUES, value}, &path));
   assert_int_equal(pendres_hysteresis_get(path, VALUES - 1)->attractor.label,
@@ -391,10 +391,10 @@ static void capsizes(void **state)
   const pendres_ramp ramp = {.pendulum = p, .parameter = PENDRES_DRIVE_AMPLITUDE, .corners = 2,
                              .period = period, .value = ends, .points = VALUES,
                              .point = pendres_hysteresis_get(path, 0),
-                             .jumps = pendres_hysteresis_jumps(path),
-                             .jump = pendres_hysteresis_jump(path, 0)};
+                             .jumps = pendres_hysteresis_jump_count(path),
+                             .jump = pendres_hysteresis_jump_get(path, 0)};
   assert_true(ramp.jumps <= 8);
-  check_ok(pendres_ramp_follow(*state, &ramp, &record, jump));
+  check_ok(pendres_ramp_find(*state, &ramp, &record, jump));
   int known = 0;
   while (known < POINTS && !isnan(x[known])) {
     assert_true(fabs(x[known]) < 1e8 && x_error[known] >= 0.0);

@@ -56,17 +56,17 @@ static size_t leave(pendres_context *ctx, const plan *q, double omega, pendres_r
     value[i] = q->from + (q->to - q->from) * (double)i / (POINTS - 1);
   p.drive_frequency = omega;
   p.torque = q->from;
-  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){q->x, q->v},
-                                     &(pendres_hysteresis_path){PENDRES_TORQUE, POINTS, value},
-                                     &path));
-  assert_int_equal(pendres_hysteresis_jumps(path), 1);
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){q->x, q->v},
+                                   &(pendres_hysteresis_path){PENDRES_TORQUE, POINTS, value},
+                                   &path));
+  assert_int_equal(pendres_hysteresis_jump_count(path), 1);
   const double ends[] = {q->from, q->to};
   const pendres_ramp ramp = {.pendulum = p, .parameter = PENDRES_TORQUE, .corners = 2,
                              .period = period, .value = ends, .points = POINTS,
                              .point = pendres_hysteresis_get(path, 0), .jumps = 1,
-                             .jump = pendres_hysteresis_jump(path, 0)};
+                             .jump = pendres_hysteresis_jump_get(path, 0)};
   *end = ramp.jump[0].value;
-  check_ok(pendres_ramp_follow(ctx, &ramp, NULL, jump));
+  check_ok(pendres_ramp_find(ctx, &ramp, NULL, jump));
   check_ok(pendres_ramp_scatter(ctx, &ramp, N, 0, time, noisy));
   check_ok(pendres_ramp_summarize(N, noisy, &all));
   pendres_hysteresis_free(path);

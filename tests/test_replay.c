@@ -98,8 +98,8 @@ static void test_orbits(void **state)
     pendres_orbit orbit[2];
     pendres_status outcome[2];
     memset(orbit, 0, sizeof orbit); /* padding, too */
-    check_ok(pendres_orbit_refine(own, 1, &guess, want, &orbit[0], &outcome[0]));
-    check_ok(pendres_orbit_refine(kept, 1, &guess, want, &orbit[1], &outcome[1]));
+    check_ok(pendres_orbit_find(own, 1, &guess, want, &orbit[0], &outcome[0]));
+    check_ok(pendres_orbit_find(kept, 1, &guess, want, &orbit[1], &outcome[1]));
     check_ok(outcome[0]);
     check_ok(outcome[1]);
     assert_true(memcmp(&orbit[0], &orbit[1], sizeof orbit[0]) == 0);

@@ -131,7 +131,7 @@ static void an_edge_is_a_jump(void **state)
   pendres_response below;
   (void)state;
   p.drive_frequency = r.frequency - 1e-4;
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &below));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &below));
   assert_true(below.sa_fraction > 0.05);
   assert_true(below.mean_loop_area < r.loop_area - 0.05);
   pendres_context_free(ctx);
@@ -158,16 +158,16 @@ static void all_change_at_once(void **state)
   check_ok(pendres_resonance_find_ensemble(ctx, &p, 0.5, 1.2, &e, &r));
   assert_int_equal(r.peak, PENDRES_PEAK_EDGE);
   low.drive_frequency = 0.85;
-  check_ok(pendres_response_compute(ctx, 1, &low, &e, &there));
+  check_ok(pendres_response_find(ctx, 1, &low, &e, &there));
   check_ok(pendres_fold_find(ctx, &there.state[0].orbit, PENDRES_DRIVE_FREQUENCY, &fold));
   check_near(r.frequency, fold.value, 10.0 * (r.frequency_error + fold.value_error));
   assert_true(r.frequency_error > 0.0 && r.frequency_error < 1e-9);
   /* The areas a little below the fold and beyond what does not settle. */
   low.drive_frequency = r.frequency - 1e-8;
-  check_ok(pendres_response_compute(ctx, 1, &low, &e, &there));
+  check_ok(pendres_response_find(ctx, 1, &low, &e, &there));
   assert_true(there.mean_loop_area < 0.5 * r.loop_area);
   low.drive_frequency = r.frequency + 2e-6;
-  check_ok(pendres_response_compute(ctx, 1, &low, &e, &there));
+  check_ok(pendres_response_find(ctx, 1, &low, &e, &there));
   check_near(there.mean_loop_area, r.loop_area, 2e-5);
   pendres_context_free(ctx);
 }
@@ -253,7 +253,7 @@ static void the_last_of_many_jumps(void **state)
       nearby[i] = (pendres_pendulum){.damping = cases[k].damping,
                                      .drive_amplitude = 0.1,
                                      .drive_frequency = r.frequency + 1e-6 * (i - 40) + 1e-8};
-    check_ok(pendres_response_compute(ctx, NEARBY, nearby, &e, there));
+    check_ok(pendres_response_find(ctx, NEARBY, nearby, &e, there));
     for (int i = 0; i < NEARBY; i++)
       assert_true(there[i].mean_loop_area - there[i].mean_loop_area_error <=
                   r.loop_area + r.loop_area_error);
@@ -301,7 +301,7 @@ static void shares(void **state)
   for (size_t i = 0; i < sizeof golden_shares / sizeof golden_shares[0]; i++) {
     const golden_share *g = &golden_shares[i];
     pendres_response r;
-    check_ok(pendres_response_compute(ctx, 1, &g->pendulum, &e, &r));
+    check_ok(pendres_response_find(ctx, 1, &g->pendulum, &e, &r));
     assert_int_equal(r.unresolved, 0);
     check_near(r.sa_fraction, g->small / 200.0, 1e-15);
     check_near(r.la_fraction, g->large / 200.0, 1e-15);

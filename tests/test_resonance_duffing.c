@@ -57,7 +57,7 @@ static void staircase(void **state)
       at[i] = p;
       at[i].drive_frequency = 1.2 - 0.2 * i / TRIED;
     }
-    check_ok(pendres_response_compute(ctx, TRIED, at, &e, there));
+    check_ok(pendres_response_find(ctx, TRIED, at, &e, there));
     for (int i = 0; i < TRIED; i++)
       assert_true(there[i].mean_loop_area - there[i].mean_loop_area_error <=
                   r.loop_area + r.loop_area_error);

@@ -118,7 +118,7 @@ static void a_bent_peak_ends_in_a_fold(void **state)
   assert_true(strong.frequency > weak.frequency + 0.1);
   for (int k = 0; k < 2; k++) {
     p.drive_frequency = strong.frequency + (k == 0 ? -1e-4 : 1e-4);
-    check_ok(pendres_response_compute(ctx, 1, &p, &e, &beside[k]));
+    check_ok(pendres_response_find(ctx, 1, &p, &e, &beside[k]));
   }
   assert_int_equal(beside[0].states, 1);
   assert_int_equal(beside[1].states, 2);
@@ -127,7 +127,7 @@ static void a_bent_peak_ends_in_a_fold(void **state)
 
   /* Where the small state ends. */
   p.drive_frequency = strong.frequency + 1e-7;
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &beside[1]));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &beside[1]));
   const pendres_orbit *o = &beside[1].state[0].orbit;
   oracle fold = oracle_of(&o->pendulum);
   double left;

@@ -119,7 +119,7 @@ static void members_one_by_one(void **state)
   (void)state;
   average(&two_states, &e, &want);
   check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_response_compute(ctx, 1, &two_states, &e, &r));
+  check_ok(pendres_response_find(ctx, 1, &two_states, &e, &r));
   pendres_context_free(ctx);
 
   /* Both states and several wells, else this says little. */
@@ -151,7 +151,7 @@ static void one_state(void **state)
   pendres_reference_cycle cycle;
   (void)state;
   check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &r));
   pendres_context_free(ctx);
   assert_int_equal(r.states, 1);
   assert_int_equal(r.state_members[0], e.members);
@@ -176,7 +176,7 @@ static void slow_drive(void **state)
   pendres_response r;
   (void)state;
   check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &r));
   pendres_context_free(ctx);
   assert_int_equal(r.states, 1);
   check_near(r.mean_loop_amplitude, 70.697454443115, r.mean_loop_amplitude_error + 1e-12);
@@ -203,7 +203,7 @@ static void loops_of_many_harmonics(void **state)
   check_ok(pendres_context_create(NULL, &ctx));
   for (int i = 0; i < 2; i++)
     check_ok(pendres_strobe_advance(ctx, 1, &g[i].pendulum, &g[i].x, &g[i].v, 40, NULL));
-  check_ok(pendres_orbit_refine(ctx, 2, g, PENDRES_ORBIT_PLAIN, o, outcome));
+  check_ok(pendres_orbit_find(ctx, 2, g, PENDRES_ORBIT_PLAIN, o, outcome));
   for (int i = 0; i < 2; i++) {
     assert_int_not_equal(outcome[i], PENDRES_NOT_CONVERGED);
     r.state[i].label = PENDRES_LABEL_PERIODIC;
@@ -236,9 +236,9 @@ static void side_by_side(void **state)
     p[i].damping = 0.1 + 0.005 * i;
   }
   check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_response_compute(ctx, SETS, p, &e, together));
+  check_ok(pendres_response_find(ctx, SETS, p, &e, together));
   for (int i = 0; i < SETS; i += 13) {
-    check_ok(pendres_response_compute(ctx, 1, &p[i], &e, &alone));
+    check_ok(pendres_response_find(ctx, 1, &p[i], &e, &alone));
     check_near(together[i].mean_loop_area, alone.mean_loop_area, 0.0);
     check_near(together[i].mean_loop_amplitude, alone.mean_loop_amplitude, 0.0);
     check_near(together[i].phase_lag, alone.phase_lag, 0.0);
@@ -259,7 +259,7 @@ static void doubts_count(void **state)
   pendres_response r, moved;
   (void)state;
   check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_response_compute(ctx, 1, &two_states, &e, &r));
+  check_ok(pendres_response_find(ctx, 1, &two_states, &e, &r));
   pendres_context_free(ctx);
   assert_int_equal(r.uncertain, 0);
   assert_int_equal(r.states, 2);
@@ -352,8 +352,8 @@ static void torque(void **state)
     p[i] = (pendres_pendulum){.damping = damping, .drive_amplitude = drive,
                               .drive_frequency = frequency, .torque = 0.3 * i};
   check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-11}, &ctx));
-  check_ok(pendres_response_compute(ctx, N, p, &e, r));
-  check_ok(pendres_response_name(ctx, N, r));
+  check_ok(pendres_response_find(ctx, N, p, &e, r));
+  check_ok(pendres_response_label(ctx, N, r));
   for (int i = 0; i < N; i++) {
     const double k = sqrt(1.0 - p[i].torque * p[i].torque);
     const double in = k - frequency * frequency, out = damping * frequency;

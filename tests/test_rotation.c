@@ -48,7 +48,7 @@ static void least_torque(void **state)
   (void)state;
   for (int i = 1; i <= 10; i++) {
     pendres_rotation_onset o;
-    check_ok(pendres_rotation_least_torque(0.1 * i, &o));
+    check_ok(pendres_rotation_onset_find(0.1 * i, &o));
     assert_int_equal(o.end, PENDRES_ROTATION_HOMOCLINIC);
     assert_true(o.torque_error < 1e-13);
     assert_false(gets_over(0.1 * i, o.torque - 1e-10));
@@ -73,7 +73,7 @@ static void least_torque_to_the_last_place(void **state)
   (void)state;
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
     pendres_rotation_onset o;
-    check_ok(pendres_rotation_least_torque(known[i].damping, &o));
+    check_ok(pendres_rotation_onset_find(known[i].damping, &o));
     assert_true(fabsl(o.torque - known[i].torque) <= o.torque_error);
     assert_true(o.torque_error < 3e-15); /* no more than some ten units of the last place of 1 */
   }
@@ -88,14 +88,14 @@ static void small_damping(void **state)
   for (int i = 0; i < 3; i++) {
     const double damping = 0.02 / (1 << i);
     pendres_rotation_onset o;
-    check_ok(pendres_rotation_least_torque(damping, &o));
+    check_ok(pendres_rotation_onset_find(damping, &o));
     share[i] = (1.0 - o.torque * pi / (4.0 * damping)) / (damping * damping);
     check_near(o.torque, 4.0 * damping / pi, 0.26 * damping * damping * o.torque);
   }
   /* The terms are of even order: a halved damping quarters the rest. */
   check_near(share[2] - share[1], 0.25 * (share[1] - share[0]), 2e-7);
   pendres_rotation_onset least;
-  check_ok(pendres_rotation_least_torque(1e-9, &least));
+  check_ok(pendres_rotation_onset_find(1e-9, &least));
   check_near(least.torque, 4e-9 / pi, least.torque_error);
 }
 
@@ -117,9 +117,9 @@ static void most_damping(void **state)
   pendres_rotation_onset o;
   assert_true(turns_at_one(1.1925));
   assert_false(turns_at_one(1.1935));
-  check_ok(pendres_rotation_least_torque(1.1925, &o));
+  check_ok(pendres_rotation_onset_find(1.1925, &o));
   assert_true(o.end == PENDRES_ROTATION_HOMOCLINIC && o.torque < 1.0);
-  check_ok(pendres_rotation_least_torque(1.1935, &o));
+  check_ok(pendres_rotation_onset_find(1.1935, &o));
   assert_true(o.end == PENDRES_ROTATION_SADDLE_NODE && o.torque == 1.0);
 }
 
@@ -271,8 +271,8 @@ static pendres_hysteresis *sweep(pendres_context *ctx, pendres_pendulum p, pendr
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] = from + (to - from) * (double)i / (double)(n - 1);
   p.drive_frequency = 0.7; /* which nothing depends on */
-  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){0.5 * pi, v},
-                                     &(pendres_hysteresis_path){which, 2 * n, value}, &h));
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){0.5 * pi, v},
+                                   &(pendres_hysteresis_path){which, 2 * n, value}, &h));
   free(value);
   return h;
 }
@@ -296,12 +296,13 @@ static void current_and_voltage(void **state)
 {
   enum { N = 301 };
   pendres_rotation_onset o;
-  check_ok(pendres_rotation_least_torque(0.3, &o));
+  check_ok(pendres_rotation_onset_find(0.3, &o));
   for (int way = 1; way >= -1; way -= 2) {
     const pendres_pendulum p = {.damping = 0.3};
     pendres_hysteresis *h = sweep(*state, p, PENDRES_TORQUE, 0.0, 1.5 * way, N, 0.0);
-    assert_int_equal(pendres_hysteresis_jumps(h), 2);
-    const pendres_jump *up = pendres_hysteresis_jump(h, 0), *down = pendres_hysteresis_jump(h, 1);
+    assert_int_equal(pendres_hysteresis_jump_count(h), 2);
+    const pendres_jump *up = pendres_hysteresis_jump_get(h, 0),
+    *down = pendres_hysteresis_jump_get(h, 1);
     assert_true(up->kind == PENDRES_JUMP_FOLD && up->certain && up->to == PENDRES_LABEL_RUNNING);
     check_near(up->value, way, up->value_error);
     assert_true(down->kind == PENDRES_JUMP_HOMOCLINIC && down->to == PENDRES_LABEL_PERIODIC);
@@ -330,16 +331,16 @@ static void other_ends(void **state)
   pendres_rotation_onset o;
   const pendres_pendulum half = {.torque = 0.5}, over = {.damping = 1.5};
   pendres_hysteresis *h = sweep(*state, half, PENDRES_DAMPING, 0.1, 0.8, 71, 5.0);
-  assert_int_equal(pendres_hysteresis_jumps(h), 1);
-  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
-  check_ok(pendres_rotation_least_torque(j->value, &o));
+  assert_int_equal(pendres_hysteresis_jump_count(h), 1);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, 0);
+  check_ok(pendres_rotation_onset_find(j->value, &o));
   assert_true(j->value_error < 1e-12 && j->from == PENDRES_LABEL_RUNNING);
   check_near(o.torque, 0.5, 2.0 * j->value_error);
   pendres_hysteresis_free(h);
   h = sweep(*state, over, PENDRES_TORQUE, 0.5, 1.25, 76, 0.0);
-  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
   for (size_t k = 0; k < 2; k++) {
-    j = pendres_hysteresis_jump(h, k);
+    j = pendres_hysteresis_jump_get(h, k);
     assert_true(j->kind == PENDRES_JUMP_FOLD && j->certain);
     check_near(j->value, 1.0, j->value_error);
   }
@@ -360,9 +361,9 @@ static void starts(void **state)
     const double start = -6.0 + 0.5 * i;
     double y = 0.0, v = start;
     pendres_hysteresis *h = NULL;
-    check_ok(pendres_hysteresis_follow(*state, &p, &(pendres_state){0.5 * pi, start},
-                                       &(pendres_hysteresis_path){PENDRES_TORQUE, 1, &p.torque},
-                                       &h));
+    check_ok(pendres_hysteresis_find(*state, &p, &(pendres_state){0.5 * pi, start},
+                                     &(pendres_hysteresis_path){PENDRES_TORQUE, 1, &p.torque},
+                                     &h));
     for (int k = 0; k < 50000; k++) step(p.damping, p.torque, 2e-3, &y, &v);
     assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label,
                      v > 0.1 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC);

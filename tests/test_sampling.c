@@ -128,12 +128,12 @@ static void shares_of_basins(void **state)
                          .v_last = 2.0, .shape = PENDRES_ENSEMBLE_RECTANGLE, .rows = 128 };
   (void)state;
   check_ok(pendres_context_create(&(pendres_options){ .tolerance = 1e-6 }, &ctx));
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &fine));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &fine));
   e.members = 1024;
   e.rows = 32;
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &some));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &some));
   e.shape = PENDRES_ENSEMBLE_RANDOM;
-  check_ok(pendres_response_compute(ctx, 1, &p, &e, &random));
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &random));
   print_message("share of LA %.4f +- %.4f, %.4f +- %.4f, at random %.4f +- %.4f\n",
                 fine.la_fraction, fine.la_fraction_error, some.la_fraction,
                 some.la_fraction_error, random.la_fraction, random.la_fraction_error);

@@ -424,7 +424,7 @@ static void one_call_switches(void **state)
   check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
   pendres_switching_survey survey = { .set = set, .trajectories = 600, .periods = 300 };
   pendres_switching_states(set, survey.state);
-  check_ok(pendres_switching_measure(ctx, &survey, 2, temperature, rates, activation));
+  check_ok(pendres_switching_find(ctx, &survey, 2, temperature, rates, activation));
   for (int k = 0; k < PENDRES_SWITCHING_WAYS; k++) {
     char name[40];
     double value[2], energy;
@@ -465,7 +465,7 @@ static void one_call_makes_a_cloud(void **state)
   check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
   const pendres_cloud_request q = { .set = set, .attractor = 1, .temperature = 0.02,
                                     .trajectories = 400, .record = 30 };
-  check_ok(pendres_cloud_measure(ctx, &q, &cloud, x, v));
+  check_ok(pendres_cloud_find(ctx, &q, &cloud, x, v));
   get("scene", "strobe_cov_xv", value, 6);
   get("scene", "escape_rate_upper", rate, 6);
   get("scene", "strobe_x", scene_x, 6 * S);

@@ -24,9 +24,9 @@ static pendres_hysteresis *sweep(pendres_context *ctx, const pendres_pendulum *p
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] =
       range->low + (range->high - range->low) * (double)i / (double)(n - 1);
-  check_ok(pendres_hysteresis_follow(ctx, p, &(pendres_state){x, 0.0},
-                                     &(pendres_hysteresis_path){range->parameter, 2 * n, value},
-                                     &h));
+  check_ok(pendres_hysteresis_find(ctx, p, &(pendres_state){x, 0.0},
+                                   &(pendres_hysteresis_path){range->parameter, 2 * n, value},
+                                   &h));
   for (size_t i = 0; i < 2 * n; i++)
     assert_int_equal(pendres_hysteresis_get(h, i)->outcome, PENDRES_OK);
   free(value);
@@ -44,7 +44,7 @@ static void no_end_of_the_drive_frequency(void **state)
   for (int k = 0; k < 2; k++) {
     const pendres_branch_options range = {PENDRES_DRIVE_FREQUENCY, 2.0, highest[k], 0, 0, 0};
     pendres_hysteresis *h = sweep(*state, &p, &range, N, 1.6);
-    assert_int_equal(pendres_hysteresis_jumps(h), 0);
+    assert_int_equal(pendres_hysteresis_jump_count(h), 0);
     for (size_t i = 0; i < N; i++) {
       const pendres_orbit *up = &pendres_hysteresis_get(h, i)->attractor.orbit;
       const pendres_orbit *down = &pendres_hysteresis_get(h, 2 * N - 1 - i)->attractor.orbit;
@@ -65,7 +65,7 @@ static void no_end_of_the_torque(void **state)
                               .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0}};
   const pendres_branch_options range = {PENDRES_TORQUE, 0.0, 12.0, 0, 0, 0};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.1);
-  assert_int_equal(pendres_hysteresis_jumps(h), 0);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 0);
   for (size_t i = 0; i < 2 * N; i++) {
     const pendres_orbit *o = &pendres_hysteresis_get(h, i)->attractor.orbit;
     check_near(o->amplitude, 0.2, o->amplitude_error);
@@ -82,7 +82,7 @@ static void no_end_of_rest(void **state)
   const pendres_pendulum p = {.damping = 0.2, .drive_frequency = 10.0};
   const pendres_branch_options range = {PENDRES_PARAMETRIC_AMPLITUDE, -30.0, -5.0, 0, 0, 0};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 1.6);
-  assert_int_equal(pendres_hysteresis_jumps(h), 0);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 0);
   for (size_t i = 0; i < 2 * N; i++)
     check_near(pendres_hysteresis_get(h, i)->attractor.orbit.amplitude, 0.0, 1e-12);
   pendres_hysteresis_free(h);
@@ -116,14 +116,15 @@ static void only_bifurcations(void **state)
                               .force_coefficients = {0.0, 0.0, 1.0}};
   const pendres_branch_options range = {PENDRES_DRIVE_AMPLITUDE, 0.5, 30.0, 0, 0, 0};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.1);
-  assert_int_equal(pendres_hysteresis_jumps(h), JUMPS);
+  assert_int_equal(pendres_hysteresis_jump_count(h), JUMPS);
   for (size_t k = 0; k < JUMPS; k++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
     assert_int_equal(j->kind, kinds[k]);
     assert_int_equal(j->gradual, kinds[k] == PENDRES_JUMP_SYMMETRY);
     assert_true(j->value_error < 1e-8);
   }
-  const pendres_jump *lost = pendres_hysteresis_jump(h, 2), *back = pendres_hysteresis_jump(h, 7);
+  const pendres_jump *lost = pendres_hysteresis_jump_get(h, 2),
+  *back = pendres_hysteresis_jump_get(h, 7);
   check_near(lost->value, back->value, lost->value_error + back->value_error);
   /* The orbit of its own image at the next value leads there. The multiplier passes 1 at a rate of
      order one, so that it is off by some errors of the value (2e-10); 1e-7 is a wide margin. */
@@ -146,10 +147,10 @@ static void doublings_of_a_short_branch(void **state)
                               .drive_frequency = 0.47158924700965588};
   const pendres_branch_options range = {PENDRES_DRIVE_AMPLITUDE, 2.58, 2.6793, 0, 0, 0};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.65);
-  assert_int_equal(pendres_hysteresis_jumps(h), JUMPS);
+  assert_int_equal(pendres_hysteresis_jump_count(h), JUMPS);
   for (size_t k = 0; k < JUMPS; k++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
-    const pendres_jump *back = pendres_hysteresis_jump(h, JUMPS - 1 - k);
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
+    const pendres_jump *back = pendres_hysteresis_jump_get(h, JUMPS - 1 - k);
     assert_true(j->kind == PENDRES_JUMP_FLIP && j->gradual);
     assert_int_equal(j->to_period, to[k]);
     check_near(j->value, back->value, j->value_error + back->value_error);
@@ -157,7 +158,7 @@ static void doublings_of_a_short_branch(void **state)
   const pendres_orbit *o = &pendres_hysteresis_get(h, N - 1)->attractor.orbit;
   pendres_pendulum q = o->pendulum;
   pendres_reference_cycle c;
-  q.drive_amplitude = pendres_hysteresis_jump(h, 2)->value;
+  q.drive_amplitude = pendres_hysteresis_jump_get(h, 2)->value;
   check_ok(pendres_reference_orbit(&q, (long double)o->x - 1.57079632679489662L,
                                    (long double)o->v, o->period, o->winding, &c));
   /* It changes by some thousands a unit of F0, and the value is known to some 1e-11. */
@@ -187,11 +188,11 @@ static void one_bifurcation_at_a_place(void **state)
     int row = 0, most = 0;
     for (int i = 0; i < N; i++)
       value[i] = value[2 * N - 1 - i] = low[c] + (high[c] - low[c]) * i / (N - 1.0);
-    check_ok(pendres_hysteresis_follow(
+    check_ok(pendres_hysteresis_find(
       *state, &p[c], &start[c],
       &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2 * N, value}, &h));
-    for (size_t k = 0; k < pendres_hysteresis_jumps(h); k++) {
-      const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    for (size_t k = 0; k < pendres_hysteresis_jump_count(h); k++) {
+      const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
       if (j->direction > 0) continue;
       assert_true(fabs(j->value - last) > 1e-7);
       last = j->value;
@@ -210,7 +211,7 @@ static pendres_orbit orbit_at(pendres_context *ctx, const pendres_pendulum *p, d
   const pendres_orbit_guess guess = {.pendulum = *p, .x = x, .period = 1};
   pendres_orbit o;
   pendres_status outcome;
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &o, &outcome));
   assert_int_equal(outcome, PENDRES_OK);
   return o;
 }
@@ -229,7 +230,7 @@ static void one_branch(void **state)
   check_ok(pendres_branches_find(*state, 2, orbit, &range, &set));
   assert_int_equal(pendres_branches_count(set), 1);
   for (int end = 0; end < 2; end++)
-    assert_int_equal(pendres_branch_end_of(pendres_branches_get(set, 0), end), PENDRES_END_RANGE);
+    assert_int_equal(pendres_branch_end_get(pendres_branches_get(set, 0), end), PENDRES_END_RANGE);
   pendres_branches_free(set);
 }
 
@@ -244,8 +245,8 @@ static void upright(void **state)
   pendres_branch *b = NULL;
   pendres_reference_image image;
   check_ok(pendres_branch_follow(*state, 1, &start, &range, &b));
-  assert_int_equal(pendres_branch_bifurcations(b), 1);
-  const pendres_bifurcation *held = pendres_branch_bifurcation(b, 0);
+  assert_int_equal(pendres_branch_bifurcation_count(b), 1);
+  const pendres_bifurcation *held = pendres_branch_bifurcation_get(b, 0);
   p.parametric_amplitude = held->value;
   check_ok(pendres_reference_map(&p, 3.14159265358979323846L, 0.0L, 1, &image));
   const long double trace = image.monodromy[0][0] + image.monodromy[1][1];

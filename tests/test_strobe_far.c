@@ -91,7 +91,7 @@ static void test_too_far(void **state)
           : call == 1 ? pendres_strobe_record(ctx, &p, &(pendres_state){x, v}, 2, 1,
                                               &(pendres_record){.x = xs, .v = vs})
           : call == 2 ? pendres_settle(ctx, 1, &p, &x, &v, &outcome, NULL)
-                      : pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &how);
+                      : pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &how);
         assert_int_equal(status, PENDRES_INVALID_ARGUMENT);
         assert_non_null(strstr(pendres_context_message(ctx), cases[i].word));
         assert_true(x == cases[i].x && v == cases[i].v);

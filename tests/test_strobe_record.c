@@ -93,7 +93,7 @@ static void test_phases(void **state)
   double x[N], v[N];
   pendres_context *ctx = context(1e-13);
   (void)state;
-  check_ok(pendres_harmonic_response(&p, &h));
+  check_ok(pendres_harmonic_find(&p, &h));
   const pendres_state start = {0.5 * pi + h.amplitude * cos(h.phase_lag),
                                0.8 * h.amplitude * sin(h.phase_lag)};
   check_ok(pendres_strobe_record(ctx, &p, &start, PERIODS, SAMPLES,
@@ -196,7 +196,7 @@ static void test_pieces(void **state)
     ctx = context(1e-8);
     if (some > PERIODS - done) some = PERIODS - done;
     r = before;
-    check_ok(pendres_recording_go_on(
+    check_ok(pendres_recording_advance(
       ctx, &r, some, &(pendres_record){got[0] + at, got[1] + at, got[2] + at, got[3] + at}));
     assert_true(r.periods == done + some && r.x == got[0][at + (size_t)some * SAMPLES]);
   }

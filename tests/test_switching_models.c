@@ -219,7 +219,7 @@ static void rotations_are_refused(void **state)
   pendres_rotation_onset onset;
   pendres_switching_tally tally;
   (void)state;
-  check_ok(pendres_rotation_least_torque(0.3, &onset));
+  check_ok(pendres_rotation_onset_find(0.3, &onset));
   for (int above = 0; above < 2; above++) {
     const pendres_pendulum p = {.damping = 0.3, .drive_frequency = 1.0, .temperature = 0.2,
                                 .torque = (above ? 1.001 : 0.999) * onset.torque};

@@ -108,7 +108,7 @@ static void both_ways_are_judged(void **state)
   pendres_switching_survey q = {.set = set, .state = {0, 1}, .trajectories = 192,
                                 .periods = 4000, .steps_per_period = 24};
   (void)state;
-  check_ok(pendres_switching_measure(ctx, &q, TEMPERATURES, t, rates, energy));
+  check_ok(pendres_switching_find(ctx, &q, TEMPERATURES, t, rates, energy));
   for (int i = 0; i < TEMPERATURES; i++)
     for (int s = 0; s < 2; s++) {
       const pendres_langevin_estimate a = rates[i].occupation[s], b = rates[i].implied[s];

@@ -37,7 +37,7 @@ static pendres_orbit orbit_near(pendres_context *ctx, const pendres_pendulum *p,
   pendres_status outcome;
   const pendres_orbit_guess g = {
     .pendulum = *p, .x = x, .v = v, .period = period, .winding = winding};
-  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
   check_ok(outcome);
   return o;
 }
@@ -220,7 +220,7 @@ static void short_of_the_saddle(void **state)
       pendres_orbit o;
       pendres_status outcome;
       pendres_trapping_ellipse t;
-      check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+      check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
       assert_true(outcome != PENDRES_NOT_CONVERGED && o.stable);
       check_ok(pendres_trapping_find(ctx, 1, &o, (pendres_trapping_effort)effort, &t));
       const double reach =

@@ -19,7 +19,7 @@ static void ask_attractors(const problem *q)
   NOTE(pendres_attractors_weakest_multiplier(set), 0, 0);
   for (size_t i = 0; i < pendres_attractors_count(set); i++) {
     note_attractor(to, pendres_attractors_get(set, i));
-    NOTE(pendres_attractors_point(q->ctx, set, i, &point), 0, 0);
+    NOTE(pendres_attractors_point_find(q->ctx, set, i, &point), 0, 0);
     note_arrays(to, 1, &point.x, &point.v);
   }
   for (int i = 0; i < N; i++) {
@@ -63,7 +63,7 @@ static void ask_orbit(const problem *q, const pendres_orbit *o)
   pendres_orbit slope;
   notes *to = q->to;
   const pendres_orbit_guess g = {o->pendulum, o->x, o->v, o->period, o->winding};
-  check_ok(pendres_orbit_refine(q->ctx, 1, &g, PENDRES_ORBIT_FREQUENCY_SLOPE, &slope, &outcome));
+  check_ok(pendres_orbit_find(q->ctx, 1, &g, PENDRES_ORBIT_FREQUENCY_SLOPE, &slope, &outcome));
   NOTE(outcome, 0, 0);
   note_orbit(to, &slope);
   check_ok(pendres_orbit_sample(q->ctx, o, SAMPLES / o->period, x, v, error));
@@ -140,8 +140,8 @@ static void ask_branch(const problem *q, const pendres_orbit *o)
     NOTE(p->doubt, 0, 0);
     note_orbit(to, &p->orbit);
   }
-  for (size_t i = 0; i < pendres_branch_bifurcations(branch); i++)
-    note_bifurcation(to, pendres_branch_bifurcation(branch, i), 0, -1);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(branch); i++)
+    note_bifurcation(to, pendres_branch_bifurcation_get(branch, i), 0, -1);
   check_ok(pendres_branch_cross(q->ctx, branch, 1.4 * rate, 8, crossed, &found));
   NOTE(found, 0, 0);
   for (size_t i = 0; i < found; i++) note_orbit(to, &crossed[i]);
@@ -173,7 +173,7 @@ static void ask_path(const problem *q, pendres_parameter parameter, int l, int t
   notes *to = q->to;
   for (size_t i = 0; i < n; i++) value[i] = plain_value[i] * factor(q->u, l, t);
   const pendres_hysteresis_path path = {parameter, n, value};
-  check_ok(pendres_hysteresis_follow(q->ctx, &q->p, &start, &path, &h));
+  check_ok(pendres_hysteresis_find(q->ctx, &q->p, &start, &path, &h));
   for (size_t i = 0; i < n; i++) {
     const pendres_hysteresis_point *p = pendres_hysteresis_get(h, i);
     NOTE(p->value, l, t);
@@ -183,9 +183,9 @@ static void ask_path(const problem *q, pendres_parameter parameter, int l, int t
     NOTE(p->mean_velocity, 1, -1);
     NOTE(p->mean_velocity_error, 1, -1);
   }
-  NOTE(pendres_hysteresis_jumps(h), 0, 0);
-  for (size_t i = 0; i < pendres_hysteresis_jumps(h); i++) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, i);
+  NOTE(pendres_hysteresis_jump_count(h), 0, 0);
+  for (size_t i = 0; i < pendres_hysteresis_jump_count(h); i++) {
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, i);
     NOTE(j->step, 0, 0);
     NOTE(j->kind, 0, 0);
     NOTE(j->value, l, t);

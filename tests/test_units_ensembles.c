@@ -32,9 +32,9 @@ static void ask_ensemble(const problem *q)
   notes *to = q->to;
   const pendres_ensemble e = {.members = 12, .x_first = -1.0 * q->u.length,
                               .x_last = 1.5 * q->u.length, .v = 0.25 * q->u.length / q->u.time};
-  check_ok(pendres_response_compute(q->ctx, 1, &q->p, &e, &r));
+  check_ok(pendres_response_find(q->ctx, 1, &q->p, &e, &r));
   note_response(to, &r);
-  check_ok(pendres_response_add_noise(q->ctx, &r, 1e-4 * energy, 12, 4, &noise));
+  check_ok(pendres_response_noise_find(q->ctx, &r, 1e-4 * energy, 12, 4, &noise));
   NOTE(noise.temperature, 2, -2);
   NOTE(noise.loop_area.value, 2, -2);
   NOTE(noise.loop_area.bias_error, 2, -2);
@@ -77,7 +77,7 @@ static void ask_basin(const problem *q)
   }
   const pendres_basin_grid grid = {.nx = SIDE, .nv = SIDE, .x = x, .v = v};
   check_ok(pendres_basin_attractors(q->ctx, &q->p, &grid, &set));
-  check_ok(pendres_basin_compute(q->ctx, set, &grid, state));
+  check_ok(pendres_basin_find(q->ctx, set, &grid, state));
   for (int i = 0; i < SIDE * SIDE; i++) {
     NOTE(state[i].attractor, 0, 0);
     NOTE(state[i].settling_periods, 0, 0);
@@ -120,7 +120,7 @@ static void ask_noise(const problem *q)
   check_ok(pendres_attractors_find(q->ctx, &q->p, 0, NULL, NULL, &set));
   const pendres_orbit *o = &pendres_attractors_get(set, 0)->orbit;
   p[0].temperature = 1e-5 * energy;
-  check_ok(pendres_langevin_linear_theory(&p[0], o->x, o->v, o->period, &linear));
+  check_ok(pendres_langevin_linear_find(&p[0], o->x, o->v, o->period, &linear));
   NOTE(linear.covariance.xx, 2, 0);
   NOTE(linear.covariance.xv, 2, -1);
   NOTE(linear.covariance.vv, 2, -2);
@@ -128,7 +128,7 @@ static void ask_noise(const problem *q)
   NOTE(linear.monodromy[2], 0, -1);
   const pendres_cloud_request request = {.set = set, .temperature = 1e-5 * energy,
                                          .trajectories = 16, .record = 4};
-  check_ok(pendres_cloud_measure(q->ctx, &request, &cloud, NULL, NULL));
+  check_ok(pendres_cloud_find(q->ctx, &request, &cloud, NULL, NULL));
   NOTE(cloud.measured.statistics[PENDRES_LANGEVIN_MEAN_X].value, 1, 0);
   NOTE(cloud.measured.statistics[PENDRES_LANGEVIN_COV_XV].value, 2, -1);
   NOTE(cloud.measured.statistics[PENDRES_LANGEVIN_COV_VV].error, 2, -2);
@@ -142,7 +142,7 @@ static void ask_noise(const problem *q)
                                            .periods = 100, .steps_per_period = 24};
   const double warm[2] = {0.02 * energy, 0.03 * energy};
   if (pendres_attractors_count(set) > 1) {
-    check_ok(pendres_switching_measure(q->ctx, &survey, 2, warm, rates, activation));
+    check_ok(pendres_switching_find(q->ctx, &survey, 2, warm, rates, activation));
     for (int i = 0; i < 2; i++)
       for (int w = 0; w < PENDRES_SWITCHING_WAYS; w++) {
         NOTE(rates[i].way[w].value, 0, -1);

@@ -69,10 +69,10 @@ static void attractors(void **state)
     assert_true(exponent[i].exponent == own.exponent && exponent[i].label == own.label);
   }
   pendres_attractors_free(found);
-  check_ok(pendres_orbit_refine(m.ctx, N, guess, PENDRES_ORBIT_PLAIN, orbit, status));
+  check_ok(pendres_orbit_find(m.ctx, N, guess, PENDRES_ORBIT_PLAIN, orbit, status));
   for (int i = 0; i < N; i++) {
     pendres_status own_status;
-    check_ok(pendres_orbit_refine(m.ctx, 1, &guess[i], PENDRES_ORBIT_PLAIN, &refined, &own_status));
+    check_ok(pendres_orbit_find(m.ctx, 1, &guess[i], PENDRES_ORBIT_PLAIN, &refined, &own_status));
     assert_int_equal(own_status, status[i]);
     assert_true(refined.x == orbit[i].x && refined.loop_area == orbit[i].loop_area &&
                 refined.loop_area_error == orbit[i].loop_area_error);
@@ -122,9 +122,9 @@ static void ensembles(void **state)
   pendres_pendulum p[3];
   for (int i = 0; i < 3; i++) p[i] = m.p[some[i]];
   p[2].force_coefficients[2] = 0.0625;
-  check_ok(pendres_response_compute(m.ctx, 3, p, &e, all));
+  check_ok(pendres_response_find(m.ctx, 3, p, &e, all));
   for (int i = 0; i < 3; i++) {
-    check_ok(pendres_response_compute(m.ctx, 1, &p[i], &e, &one));
+    check_ok(pendres_response_find(m.ctx, 1, &p[i], &e, &one));
     assert_true(one.mean_loop_area == all[i].mean_loop_area &&
                 one.mean_loop_area_error == all[i].mean_loop_area_error &&
                 one.mean_amplitude == all[i].mean_amplitude);

@@ -72,10 +72,10 @@ static void jumps(void **state)
     pendres_hysteresis *h = NULL;
     for (int i = 0; i < N; i++) value[i] = path[i] * rate;
     const pendres_hysteresis_path along = {PENDRES_DRIVE_FREQUENCY, N, value};
-    check_ok(pendres_hysteresis_follow(q.ctx, &q.p, &start, &along, &h));
-    assert_int_equal(pendres_hysteresis_jumps(h), 2);
+    check_ok(pendres_hysteresis_find(q.ctx, &q.p, &start, &along, &h));
+    assert_int_equal(pendres_hysteresis_jump_count(h), 2);
     for (size_t i = 0; i < 2; i++) {
-      const pendres_jump *j = pendres_hysteresis_jump(h, i);
+      const pendres_jump *j = pendres_hysteresis_jump_get(h, i);
       assert_int_equal(j->kind, PENDRES_JUMP_FOLD);
       assert_true(j->certain);
       /* Known to the digits printed here. */
@@ -154,12 +154,12 @@ static void micromechanical(void **state)
     }
     for (int i = 0; i < N; i++) along_value[i] = path[i] * rate;
     const pendres_hysteresis_path along = {PENDRES_DRIVE_FREQUENCY, N, along_value};
-    check_ok(pendres_hysteresis_follow(q.ctx, &q.p, &start, &along, &h));
-    assert_int_equal(pendres_hysteresis_jumps(h), 2);
+    check_ok(pendres_hysteresis_find(q.ctx, &q.p, &start, &along, &h));
+    assert_int_equal(pendres_hysteresis_jump_count(h), 2);
     for (size_t i = 0; i < 2; i++) {
-      assert_int_equal(pendres_hysteresis_jump(h, i)->kind, PENDRES_JUMP_FOLD);
-      value[s][i] = pendres_hysteresis_jump(h, i)->value / rate;
-      error[s][i] = pendres_hysteresis_jump(h, i)->value_error / rate;
+      assert_int_equal(pendres_hysteresis_jump_get(h, i)->kind, PENDRES_JUMP_FOLD);
+      value[s][i] = pendres_hysteresis_jump_get(h, i)->value / rate;
+      error[s][i] = pendres_hysteresis_jump_get(h, i)->value_error / rate;
     }
     pendres_hysteresis_free(h);
     pendres_context_free(q.ctx);

@@ -125,7 +125,7 @@ pendres_status hard_orbit(hard_sheet *sheet, pendres_context *ctx, const pendres
   const pendres_orbit_guess g = { .pendulum = *p, .x = x, .v = v, .period = 1 };
   pendres_status outcome = PENDRES_OK;
   const pendres_status status =
-    pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, out, &outcome);
+    pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, out, &outcome);
   if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
   return outcome != PENDRES_NOT_CONVERGED ? PENDRES_OK : hard_failed(sheet, outcome, NULL);
 }

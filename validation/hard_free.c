@@ -145,7 +145,7 @@ static pendres_status put_multiplier(hard_sheet *sheet, pendres_context *ctx, do
   pendres_orbit orbit = { .stable = 1 };
   pendres_status outcome = PENDRES_OK;
   const pendres_status status =
-    pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome);
+    pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome);
   if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
   const double error = fabs(orbit.multiplier_re[0] / exp(2.0 * pi) - 1.0);
   const int found = outcome == PENDRES_OK && !orbit.stable;

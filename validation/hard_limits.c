@@ -105,7 +105,7 @@ static pendres_status orbit_error(pendres_context *ctx, const pendres_orbit_gues
   pendres_orbit o;
   pendres_status outcome = PENDRES_OK;
   *error = 0.0;
-  pendres_status status = pendres_orbit_refine(ctx, 1, guess, PENDRES_ORBIT_PLAIN, &o, &outcome);
+  pendres_status status = pendres_orbit_find(ctx, 1, guess, PENDRES_ORBIT_PLAIN, &o, &outcome);
   if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED) status = outcome; /* there is one */
   if (status != PENDRES_OK) return status;
   status = pendres_reference_orbit(&o.pendulum, (long double)o.x - half_pi_exact, o.v, 1, 0, cycle);
@@ -132,7 +132,7 @@ static pendres_status put_orbits(hard_sheet *sheet, const hard_ways *way)
     pendres_harmonic h;
     pendres_reference_cycle cycle;
     double error = 0.0;
-    status = pendres_harmonic_response(&g.pendulum, &h);
+    status = pendres_harmonic_find(&g.pendulum, &h);
     if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
     h.amplitude = fmin(h.amplitude, 1.0);
     g.x = 0.5 * pi + h.amplitude * cos(h.phase_lag);
@@ -226,7 +226,7 @@ static pendres_status put_small_drive(hard_sheet *sheet, const hard_ways *way,
   const pendres_pendulum p = driven_by(drive_amplitude);
   pendres_harmonic h;
   reached r;
-  pendres_status status = pendres_harmonic_response(&p, &h);
+  pendres_status status = pendres_harmonic_find(&p, &h);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
   status = both_ways(sheet, way, drive_amplitude, 0.5 * pi + 0.3, 0.0, &r);
   if (status != PENDRES_OK) return status;

@@ -204,7 +204,7 @@ static pendres_status error_over_claimed(hard_sheet *sheet, const truth *t, doub
   pendres_status outcome;
   pendres_status status = hard_context(sheet, &(pendres_options){ .tolerance = tolerance }, &ctx);
   if (status != PENDRES_OK) return status;
-  status = pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &o, &outcome);
+  status = pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &o, &outcome);
   if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
   *ratio = INFINITY;
   if (status == PENDRES_OK && outcome != PENDRES_NOT_CONVERGED) {

@@ -67,7 +67,7 @@ static pendres_status weak_orbits(hard_sheet *sheet, pendres_context *ctx, doubl
     pendres_harmonic h;
     w->p[i] = (pendres_pendulum){ .damping = damping, .drive_amplitude = 0.02,
                                   .drive_frequency = frequency[i] };
-    pendres_status status = pendres_harmonic_response(&w->p[i], &h);
+    pendres_status status = pendres_harmonic_find(&w->p[i], &h);
     if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
     const double y = i < SMALL ? h.amplitude * cos(h.phase_lag) : -4.0 * sqrt(1.0 - frequency[i]);
     status = hard_orbit(sheet, ctx, &w->p[i], 0.5 * pi + y, 0.0, &w->orbit[i]);
@@ -243,7 +243,7 @@ static pendres_status put_fast(hard_sheet *sheet, const hard_ways *way)
     status = put_ways(sheet, "frequency_50", "frequency_50_estimate", "drive frequency 50, "
                       "F0 = 0.2: largest error of point, loop area, amplitude", &ways);
   if (status != PENDRES_OK) return status;
-  status = pendres_harmonic_response(&ways.orbit.pendulum, &h);
+  status = pendres_harmonic_find(&ways.orbit.pendulum, &h);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
   status = hard_sheet_add(sheet, "frequency_linear", "the same: amplitude over that of a harmonic "
                           "oscillator, less 1", fabs(ways.orbit.amplitude / h.amplitude - 1.0),

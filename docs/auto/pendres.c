@@ -63,8 +63,9 @@ static pendres_branches *branch_of(const pendres_orbit *start, pendres_parameter
 
 static const pendres_bifurcation *first_of(const pendres_branch *b, pendres_special kind)
 {
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++)
-    if (pendres_branch_bifurcation(b, i)->kind == kind) return pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++)
+    if (pendres_branch_bifurcation_get(b, i)->kind == kind)
+      return pendres_branch_bifurcation_get(b, i);
   fprintf(stderr, "a bifurcation is missing\n");
   exit(1);
 }
@@ -78,8 +79,8 @@ static void s_shape(double damping)
   const pendres_orbit start = orbit(damping, 0.2, 0.75, 0);
   pendres_branches *set_b = branch_of(&start, PENDRES_DRIVE_FREQUENCY, 0.6, 0.9);
   const pendres_branch *b = pendres_branches_get(set_b, 0);
-  for (size_t i = 0; i < 2 && i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < 2 && i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     print_at(folds[i], damping, "", f->value, f->value_error);
     print_at(folds[i], damping, "_area", f->orbit.loop_area, f->orbit.loop_area_error);
   }
@@ -134,11 +135,11 @@ static void polynomial(const char *name, pendres_pendulum p, double low, double 
   pendres_orbit o;
   pendres_status outcome = PENDRES_OK;
   fail_if(pendres_strobe_advance(ctx, 1, &p, &g.x, &g.v, 300, NULL));
-  fail_if(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  fail_if(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
   pendres_branches *set_b = branch_of(&o, PENDRES_DRIVE_FREQUENCY, 0.9 * low, high);
   const pendres_branch *b = pendres_branches_get(set_b, 0);
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, i);
     if (f->kind != PENDRES_FOLD) continue;
     snprintf(whole, sizeof whole, "%s_fold_%zu", name, i + 1);
     print(whole, f->value, f->value_error);

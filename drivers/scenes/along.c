@@ -43,7 +43,7 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, req
   }
   if (status == PENDRES_OK && out->label == PENDRES_LABEL_CHAOTIC) {
     pendres_state point = {NAN, NAN};
-    status = pendres_attractors_point(ctx, set, chosen, &point);
+    status = pendres_attractors_point_find(ctx, set, chosen, &point);
     out->orbit.x = point.x;
     out->orbit.v = point.v;
     if (status == PENDRES_NOT_FOUND)
@@ -89,7 +89,7 @@ static int not_reached(const pendres_hysteresis_point *p)
 
 static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
 {
-  const head n = { pendres_hysteresis_count(h), pendres_hysteresis_jumps(h) };
+  const head n = { pendres_hysteresis_count(h), pendres_hysteresis_jump_count(h) };
   const size_t points = n.points * sizeof(pendres_hysteresis_point);
   unsigned char *to = farm_record_resize(out, sizeof n + points + n.jumps * sizeof(pendres_jump));
   if (to == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -98,7 +98,7 @@ static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
   for (size_t i = 0; i < n.points; i++, to += sizeof(pendres_hysteresis_point))
     memcpy(to, pendres_hysteresis_get(h, i), sizeof(pendres_hysteresis_point));
   for (size_t i = 0; i < n.jumps; i++, to += sizeof(pendres_jump))
-    memcpy(to, pendres_hysteresis_jump(h, i), sizeof(pendres_jump));
+    memcpy(to, pendres_hysteresis_jump_get(h, i), sizeof(pendres_jump));
   return PENDRES_OK;
 }
 
@@ -157,7 +157,7 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
              deck_axis_name(way->axis), way->value[0]);
   const pendres_hysteresis_path path = {deck_axis_parameter(way->axis), way->n,
                                         way->value};
-  status = pendres_hysteresis_follow(ctx, &p, &(pendres_state){x, v}, &path, &h);
+  status = pendres_hysteresis_find(ctx, &p, &(pendres_state){x, v}, &path, &h);
   if (farm_gave_up(out, status)) status = leave_rest(h, out);
   if (status == PENDRES_OK) status = keep(h, out);
   pendres_hysteresis_free(h);

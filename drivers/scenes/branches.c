@@ -98,7 +98,7 @@ static size_t take_points(const scene_lines *l, row *rows)
   size_t n = 0;
   int number = 0;
   for (size_t i = 0; i < l->grid.lines; i++) {
-    const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
+    const pendres_branches *all = pendres_phase_diagram_branches_get(l->diagram, i);
     for (size_t k = 0; k < pendres_branches_count(all); k++, number++) {
       const pendres_branch *b = pendres_branches_get(all, k);
       for (size_t m = 0; m < pendres_branch_count(b); m++, n++)
@@ -235,7 +235,7 @@ static part part_of(const scene_lines *l, const pendres_branch *b, const pendres
     snprintf(out.why[i], sizeof out.why[i], "%s",
              kind[k] != PENDRES_REGULAR ? pendres_name_get(PENDRES_NAMES_SPECIAL, kind[k])
                                         : pendres_name_get(PENDRES_NAMES_BRANCH_END,
-                                                           pendres_branch_end_of(b, k)));
+                                                           pendres_branch_end_get(b, k)));
   }
   return out;
 }
@@ -245,7 +245,7 @@ static size_t take_parts(const scene_lines *l, part *rows)
 {
   size_t count = 0;
   for (size_t i = 0; i < l->grid.lines; i++) {
-    const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
+    const pendres_branches *all = pendres_phase_diagram_branches_get(l->diagram, i);
     for (size_t k = 0; k < pendres_branches_count(all); k++) {
       const pendres_branch *b = pendres_branches_get(all, k);
       pendres_branch_part found[MOST_PARTS];

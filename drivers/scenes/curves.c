@@ -52,7 +52,7 @@ static row row_of(const scene_lines *l, const pendres_orbit *o, const double err
                   pendres_special kind, double curvature)
 {
   const pendres_label ending = kind == PENDRES_FOLD
-                                 ? pendres_phase_diagram_ending(l->diagram, o, curvature)
+                                 ? pendres_phase_diagram_ending_get(l->diagram, o, curvature)
                                  : PENDRES_LABEL_PERIODIC;
   return (row){.place = scene_lines_place(l, &o->pendulum, error),
                .amplitude = o->amplitude,
@@ -87,7 +87,7 @@ static size_t take_curves(const scene_lines *l, int folds, row *rows)
   int number = 0;
   for (size_t i = 0; i < pendres_curves_count(curves); i++) {
     const pendres_curve *curve = pendres_curves_get(curves, i);
-    const pendres_special kind = pendres_curve_kind(curve);
+    const pendres_special kind = pendres_curve_kind_get(curve);
     if ((kind == PENDRES_FOLD) != folds) continue;
     for (size_t k = 0; k < pendres_curve_count(curve); k++, n++) {
       const pendres_curve_point *p = pendres_curve_get(curve, k);
@@ -197,8 +197,10 @@ void scene_curves_write_paper(const scene_lines *l)
                                   .computed = c->value[1],
                                   .error = c->value_error[1]};
   const size_t line = line_at(l, 0.13);
-  const pendres_bifurcation *la = pendres_phase_diagram_fold(l->diagram, line, PENDRES_LABEL_LA);
-  const pendres_bifurcation *sa = pendres_phase_diagram_fold(l->diagram, line, PENDRES_LABEL_SA);
+  const pendres_bifurcation *la = pendres_phase_diagram_fold_get(l->diagram, line,
+                                                                 PENDRES_LABEL_LA);
+  const pendres_bifurcation *sa = pendres_phase_diagram_fold_get(l->diagram, line,
+                                                                 PENDRES_LABEL_SA);
   if (main_case && la != NULL)
     values[n++] = (scene_printed){.name = "sa_only_below_frequency_damping_0_13",
                                   .printed = 0.74, .computed = la->value, .error = la->value_error};

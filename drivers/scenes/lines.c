@@ -109,7 +109,7 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
     int left_out = l->failed.reason[point] != SCENE_FAILURE_NONE;
     scene_point_begin(out, l->run->deck, point, 1, 2, l->axis);
     if (!left_out)
-      status = pendres_response_compute(ctx, 1, &p, &grid.options.ensemble, &response);
+      status = pendres_response_find(ctx, 1, &p, &grid.options.ensemble, &response);
     if (farm_gave_up(out, status)) {
       farm_lost(out, NULL, 0);
       left_out = 1;
@@ -175,7 +175,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
     status = pendres_phase_diagram_take(l->diagram, task, in->size, in->data);
   for (size_t i = first; i < first + l->grid.values && status == PENDRES_OK; i++) {
     const int lost = in->size == 0 ||
-                     pendres_phase_diagram_outcome(l->diagram, i, NULL) == PENDRES_UNSUPPORTED;
+                     pendres_phase_diagram_outcome_get(l->diagram, i, NULL) == PENDRES_UNSUPPORTED;
     if (lost && l->failed.reason[i] == SCENE_FAILURE_NONE)
       scene_failures_mark(&l->failed, i, SCENE_FAILURE_OUT_OF_TIME, NULL);
   }
@@ -230,7 +230,7 @@ static void judge(scene_lines *l)
     char words[SCENE_TOLD];
     const char *message = NULL;
     const size_t unresolved = l->points[i].unresolved;
-    const pendres_status outcome = pendres_phase_diagram_outcome(l->diagram, i, &message);
+    const pendres_status outcome = pendres_phase_diagram_outcome_get(l->diagram, i, &message);
     const scene_failure reason = scene_failure_of(outcome);
     if (reason != SCENE_FAILURE_NONE) {
       scene_failures_mark(&l->failed, i, reason, message);
@@ -277,7 +277,7 @@ void scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
   leave_out(l);
   do_rounds(l);
   if (!scene_going(run)) return;
-  for (size_t i = 0; i < l->n; i++) l->points[i] = *pendres_phase_diagram_point(l->diagram, i);
+  for (size_t i = 0; i < l->n; i++) l->points[i] = *pendres_phase_diagram_point_get(l->diagram, i);
   judge_curves(l);
   judge(l);
 }
@@ -351,7 +351,7 @@ static int32_t count_doubts(const scene_lines *l, const pendres_branch_point **f
 {
   int32_t doubts = 0;
   for (size_t i = 0; i < l->grid.lines; i++) {
-    const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
+    const pendres_branches *all = pendres_phase_diagram_branches_get(l->diagram, i);
     for (size_t k = 0; k < pendres_branches_count(all); k++) {
       const pendres_branch *b = pendres_branches_get(all, k);
       for (size_t m = 0; m < pendres_branch_count(b); m++) {

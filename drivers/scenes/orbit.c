@@ -133,7 +133,7 @@ static pendres_status sample_escape(orbit_work *w, pendres_context *ctx, size_t 
   size_t at = 0;
   for (long k = 0; k < periods && begun && status == PENDRES_OK; k++, at += count) {
     const pendres_record to = from(out, at);
-    status = pendres_recording_go_on(ctx, &w->recording, 1, &to);
+    status = pendres_recording_advance(ctx, &w->recording, 1, &to);
     if (status != PENDRES_OK) break;
   }
   const pendres_record rest = from(out, at);
@@ -159,7 +159,7 @@ static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
     return sample_escape(w, ctx, task, out);
   if (w->transient || w->found.label == PENDRES_LABEL_CHAOTIC) {
     const pendres_status status = task == 0 ? begin_trajectory(w, ctx) : PENDRES_OK;
-    return status == PENDRES_OK ? pendres_recording_go_on(ctx, &w->recording, periods, out)
+    return status == PENDRES_OK ? pendres_recording_advance(ctx, &w->recording, periods, out)
                                 : status;
   }
   if (w->found.closed) return pendres_orbit_record(ctx, &w->found.orbit, &stretch, out);

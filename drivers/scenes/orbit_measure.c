@@ -84,8 +84,8 @@ static void measure_correlation(orbit_work *w)
   for (size_t k = 0; k < m->points; k++) m->v[k] *= time;
   const pendres_section section = { m->points, m->x, m->v,
                                     pendres_model_of(w->pendulum.force)->period };
-  scene_asked(w->run, pendres_correlation_measure(ctx, &section,
-                                                  RESOLUTION * w->d->precision.tolerance, c));
+  scene_asked(w->run, pendres_correlation_find(ctx, &section,
+                                               RESOLUTION * w->d->precision.tolerance, c));
 }
 
 typedef struct dimensions {

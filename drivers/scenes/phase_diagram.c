@@ -60,7 +60,7 @@ static void print_table(const scene_lines *l, FILE *out)
     differ += p->regime != PENDRES_REGIME_OTHER && p->regime != p->exact;
   }
   for (size_t i = 0; i < l->grid.lines; i++)
-    skipped += pendres_branches_skipped(pendres_phase_diagram_branches(l->diagram, i));
+    skipped += pendres_branches_skipped(pendres_phase_diagram_branches_get(l->diagram, i));
   fprintf(out, "regime        points\n");
   for (int r = 0; r < PENDRES_REGIME_COUNT; r++)
     fprintf(out, "%-12s  %zu\n", scene_regime_names(r), tally[r]);

@@ -118,7 +118,7 @@ static pendres_status follow(const scene_some *some)
   double *x = (double *)(jump + w->ramp.jumps);
   const pendres_ramp_record record = {.every = w->every, .x = x, .v = x + n, .x_error = x + 2 * n,
                                       .v_error = x + 3 * n};
-  return pendres_ramp_follow(some->ctx, &w->ramp, &record, jump);
+  return pendres_ramp_find(some->ctx, &w->ramp, &record, jump);
 }
 
 static void leave_out(const scene_points *p, size_t point, void *out)

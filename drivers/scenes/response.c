@@ -96,7 +96,7 @@ static pendres_status compute(const scene_some *some)
   pendres_pendulum pendulums[CHUNK] = { 0 };
   for (size_t i = 0; i < some->n; i++) pendulums[i] = pendulum_at(g, some->first + i);
   const pendres_status status =
-    pendres_response_compute(some->ctx, some->n, pendulums, &g->ensemble, some->rows);
+    pendres_response_find(some->ctx, some->n, pendulums, &g->ensemble, some->rows);
   for (size_t i = 0; i < some->n && status == PENDRES_OK; i++) judge(some, i);
   return status;
 }
@@ -168,7 +168,7 @@ static pendres_status name_states(const void *arg, size_t task, pendres_context 
   const pendres_status status = scene_temporary_get(&g->kept, task * g->values, g->values,
                                                     out->data,
                                                     out->message, sizeof out->message);
-  return status == PENDRES_OK ? pendres_response_name(ctx, g->values, out->data) : status;
+  return status == PENDRES_OK ? pendres_response_label(ctx, g->values, out->data) : status;
 }
 
 static int check_names(const void *arg, size_t task, const farm_record *in)

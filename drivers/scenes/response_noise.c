@@ -1,7 +1,8 @@
 /*
  * response_noise.c -- loop area, phase lag and amplitude against temperature.
  *
- * There is one task for each temperature, damping and drive period: see pendres_response_add_noise.
+ * There is one task for each temperature, damping and drive period: see
+ * pendres_response_noise_find.
  */
 #include "scenes/response_noise.h"
 
@@ -21,9 +22,9 @@ static pendres_status compute(const scene_some *some)
     scene_temporary_get(w->grid->kept, some->first % w->plane, 1, &still, some->message,
                         SCENE_MESSAGE);
   if (status != PENDRES_OK) return status;
-  return pendres_response_add_noise(some->ctx, &still, temperature,
-                                    (size_t)w->d->noise.trajectories, (long)w->d->noise.periods,
-                                    some->rows);
+  return pendres_response_noise_find(some->ctx, &still, temperature,
+                                     (size_t)w->d->noise.trajectories, (long)w->d->noise.periods,
+                                     some->rows);
 }
 
 /* ---- results ------------------------------------------------------------------------------- */

@@ -31,7 +31,7 @@ static row row_of(const pendres_pendulum *p)
   pendres_rotation r;
   pendres_rotation_onset onset;
   row out = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-  if (pendres_rotation_least_torque(p->damping, &onset) == PENDRES_OK) {
+  if (pendres_rotation_onset_find(p->damping, &onset) == PENDRES_OK) {
     out.least_torque = onset.torque;
     out.least_torque_error = onset.torque_error;
   }

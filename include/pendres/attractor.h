@@ -46,7 +46,7 @@ extern "C" {
  * continues one of the two if both coexist at other parameters, which cannot be decided from one
  * set of parameters. With the weak drives of the paper (|F0| <= 0.25) it is SA if its phase lag is
  * less than pi/3 (or it is at rest), otherwise LA, which is equivalent; with stronger ones it is
- * PERIODIC until pendres_response_name() or a phase diagram has compared it with its neighbours.
+ * PERIODIC until pendres_response_label() or a phase diagram has compared it with its neighbours.
  */
 typedef enum pendres_label {
   PENDRES_LABEL_SA = 0,         /**< small amplitude */
@@ -153,8 +153,8 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
  * Errors: PENDRES_INVALID_ARGUMENT; PENDRES_NOT_FOUND if no start leads to a chaotic attractor;
  * otherwise those of pendres_attractors_settle(). Thread safety: as for the context.
  */
-pendres_status pendres_attractors_point(pendres_context *ctx, const pendres_attractors *set,
-                                        size_t i, pendres_state *out);
+pendres_status pendres_attractors_point_find(pendres_context *ctx, const pendres_attractors *set,
+                                             size_t i, pendres_state *out);
 
 /**
  * Largest modulus of a Floquet multiplier of any closed orbit in a set: that of the attractor which

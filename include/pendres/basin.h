@@ -14,7 +14,7 @@
  *   3. pendres_basin_states: the deferred ones, many at a time, with all their budget
  *   4. what is still unresolved: pendres_basin_extend; if it finds an attractor, all again
  *
- * pendres_basin_compute does these steps on one thread for a grid that fits into memory.
+ * pendres_basin_find does these steps on one thread for a grid that fits into memory.
  * Results depend only on the grid, its attractors and the tolerance, not on how it is divided.
  */
 #ifndef PENDRES_BASIN_H
@@ -96,8 +96,8 @@ pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *se
                                     const size_t *index, size_t *grown);
 
 /** A whole grid in memory on this thread; state[nx * nv] is written, *set may grow. */
-pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *set,
-                                     const pendres_basin_grid *grid, pendres_basin_state *state);
+pendres_status pendres_basin_find(pendres_context *ctx, pendres_attractors *set,
+                                  const pendres_basin_grid *grid, pendres_basin_state *state);
 
 /* ---- Refinement ------------------------------------------------------------------------------ */
 

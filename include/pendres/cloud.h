@@ -4,7 +4,7 @@
  *
  * Owns: the cloud around an attractor of a set, followed long enough after a start on the attractor
  * and with steps fine enough, its covariance beside that of linear noise theory, whether the two
- * agree, and the rate of escapes. pendres_cloud_measure() does all of this; the functions after
+ * agree, and the rate of escapes. pendres_cloud_find() does all of this; the functions after
  * it do its parts, so that a program may divide them among threads. The results are the same bytes
  * either way.
  *
@@ -83,11 +83,11 @@ typedef struct pendres_cloud {
  *
  * Errors: PENDRES_INVALID_ARGUMENT, and those of the integration.
  */
-pendres_status pendres_cloud_measure(pendres_context *ctx, const pendres_cloud_request *request,
-                                     pendres_cloud *cloud, double *x, double *v);
+pendres_status pendres_cloud_find(pendres_context *ctx, const pendres_cloud_request *request,
+                                  pendres_cloud *cloud, double *x, double *v);
 
 /**
- * The first part of pendres_cloud_measure: linear theory, the choice of steps, and their bias. A
+ * The first part of pendres_cloud_find: linear theory, the choice of steps, and their bias. A
  * cloud that is not to be followed is complete with that, x and v included.
  */
 pendres_status pendres_cloud_prepare(pendres_context *ctx, const pendres_cloud_request *request,
@@ -110,7 +110,7 @@ pendres_status pendres_cloud_follow(pendres_context *ctx, const pendres_cloud_re
                                     double *v);
 
 /**
- * The last part of pendres_cloud_measure: merge what the parts of a prepared cloud have measured,
+ * The last part of pendres_cloud_find: merge what the parts of a prepared cloud have measured,
  * in their order, compare with theory, and compute the rate of escapes.
  */
 pendres_status pendres_cloud_conclude(const pendres_cloud_request *request, size_t parts,

@@ -156,11 +156,11 @@ size_t pendres_branch_count(const pendres_branch *branch);
 /** Point number i, owned by the branch; NULL out of range. */
 const pendres_branch_point *pendres_branch_get(const pendres_branch *branch, size_t i);
 /** How many bifurcations lie on a branch; 0 for NULL. */
-size_t pendres_branch_bifurcations(const pendres_branch *branch);
+size_t pendres_branch_bifurcation_count(const pendres_branch *branch);
 /** Bifurcation number i in the order of the branch, owned by it; NULL out of range. */
-const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *branch, size_t i);
+const pendres_bifurcation *pendres_branch_bifurcation_get(const pendres_branch *branch, size_t i);
 /** How the branch ends at its first (which = 0) and its last point (1). */
-pendres_branch_end pendres_branch_end_of(const pendres_branch *branch, int which);
+pendres_branch_end pendres_branch_end_get(const pendres_branch *branch, int which);
 
 /** A part of a branch along which its orbits attract. */
 typedef struct pendres_branch_part {
@@ -276,15 +276,15 @@ typedef struct pendres_curve_point {
 typedef struct pendres_curve pendres_curve;
 
 /** What happens all along a curve; PENDRES_REGULAR for NULL. */
-pendres_special pendres_curve_kind(const pendres_curve *curve);
+pendres_special pendres_curve_kind_get(const pendres_curve *curve);
 /** How many points a curve has; 0 for NULL. */
 size_t pendres_curve_count(const pendres_curve *curve);
 /** Point number i, owned by the curve; NULL out of range. */
 const pendres_curve_point *pendres_curve_get(const pendres_curve *curve, size_t i);
 /** How many cusps lie on a curve; 0 for NULL. */
-size_t pendres_curve_cusps(const pendres_curve *curve);
+size_t pendres_curve_cusp_count(const pendres_curve *curve);
 /** Cusp number i in the order of the curve, owned by it; NULL out of range. */
-const pendres_cusp *pendres_curve_cusp(const pendres_curve *curve, size_t i);
+const pendres_cusp *pendres_curve_cusp_get(const pendres_curve *curve, size_t i);
 
 /**
  * All bifurcations of a curve at a value of its second parameter, in the order of the curve; each

@@ -67,8 +67,8 @@ typedef struct pendres_section {
  * one that is not a number, a turn or a resolution below 0), PENDRES_OUT_OF_MEMORY,
  * PENDRES_INTERRUPTED. Thread safety: as for the context.
  */
-pendres_status pendres_correlation_measure(pendres_context *ctx, const pendres_section *section,
-                                           double resolution, pendres_correlation *out);
+pendres_status pendres_correlation_find(pendres_context *ctx, const pendres_section *section,
+                                        double resolution, pendres_correlation *out);
 
 /**
  * The Lyapunov dimension of a pendulum's attractor from its largest exponent per unit time, by

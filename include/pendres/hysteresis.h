@@ -139,10 +139,10 @@ typedef struct pendres_hysteresis pendres_hysteresis;
  * PENDRES_INTERRUPTED, those of the integration. PENDRES_OK also where some points are unresolved.
  * Thread safety: as for the context.
  */
-pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
-                                         const pendres_state *start,
-                                         const pendres_hysteresis_path *path,
-                                         pendres_hysteresis **out);
+pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendulum *p,
+                                       const pendres_state *start,
+                                       const pendres_hysteresis_path *path,
+                                       pendres_hysteresis **out);
 /** Free a path; NULL is allowed. */
 void pendres_hysteresis_free(pendres_hysteresis *h);
 
@@ -151,9 +151,9 @@ size_t pendres_hysteresis_count(const pendres_hysteresis *h);
 /** Point number i, owned by h; NULL out of range. */
 const pendres_hysteresis_point *pendres_hysteresis_get(const pendres_hysteresis *h, size_t i);
 /** How many jumps there are. */
-size_t pendres_hysteresis_jumps(const pendres_hysteresis *h);
+size_t pendres_hysteresis_jump_count(const pendres_hysteresis *h);
 /** Jump number i in the order of the path, owned by h; NULL out of range. */
-const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t i);
+const pendres_jump *pendres_hysteresis_jump_get(const pendres_hysteresis *h, size_t i);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

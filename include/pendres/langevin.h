@@ -181,10 +181,10 @@ typedef struct pendres_langevin_cloud {
  * Errors: as pendres_langevin_advance; PENDRES_NOT_FOUND if fewer than two trajectories had a
  * strobe that counts: statistics are then NaN, but left, exposure and strobes are valid.
  */
-pendres_status pendres_langevin_measure(pendres_context *ctx,
-                                        const pendres_langevin_request *request,
-                                        pendres_langevin_cloud *cloud, double *strobe_x,
-                                        double *strobe_v);
+pendres_status pendres_langevin_cloud_find(pendres_context *ctx,
+                                           const pendres_langevin_request *request,
+                                           pendres_langevin_cloud *cloud, double *strobe_x,
+                                           double *strobe_v);
 
 /** The systematic error (bias) that steps of finite length give a cloud. */
 typedef struct pendres_langevin_bias {
@@ -205,7 +205,7 @@ typedef struct pendres_langevin_bias {
  * the bias is too large, more trajectories are followed, up to 64 times the request's.
  *
  * Errors: PENDRES_INVALID_ARGUMENT also at temperature zero, where a cloud has no width;
- * PENDRES_NOT_CONVERGED (bias then holds the last); as pendres_langevin_measure.
+ * PENDRES_NOT_CONVERGED (bias then holds the last); as pendres_langevin_cloud_find.
  */
 pendres_status pendres_langevin_choose_steps(pendres_context *ctx,
                                              const pendres_langevin_request *request,
@@ -252,8 +252,8 @@ typedef struct pendres_langevin_linear {
  * Errors: PENDRES_INVALID_ARGUMENT; PENDRES_NOT_FOUND if the orbit does not attract;
  * PENDRES_TOLERANCE_UNREACHABLE if that would take more than 1e8 steps.
  */
-pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, double x,
-                                              double v, int cycle, pendres_langevin_linear *out);
+pendres_status pendres_langevin_linear_find(const pendres_pendulum *pendulum, double x,
+                                            double v, int cycle, pendres_langevin_linear *out);
 
 #ifdef __cplusplus
 }

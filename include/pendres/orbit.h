@@ -134,9 +134,9 @@ typedef enum pendres_orbit_want {
  * tolerance (out[i] is complete, errors say how far).
  * Returns PENDRES_OK unless nothing could be computed at all.
  */
-pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
-                                    const pendres_orbit_guess *guess, pendres_orbit_want want,
-                                    pendres_orbit *out, pendres_status *outcome);
+pendres_status pendres_orbit_find(pendres_context *ctx, size_t n,
+                                  const pendres_orbit_guess *guess, pendres_orbit_want want,
+                                  pendres_orbit *out, pendres_status *outcome);
 
 /**
  * Samples of an orbit over its period: count equally spaced points a drive period, count * q in

@@ -177,7 +177,7 @@ typedef struct pendres_harmonic {
     whose other fields are only checked. Undamped at resonance the amplitude is infinite, the loop
     area NaN. Returns PENDRES_OK, or PENDRES_INVALID_ARGUMENT if p is not valid or out is NULL.
     Source: Landau and Lifshitz, Mechanics, section 26. */
-pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harmonic *out);
+pendres_status pendres_harmonic_find(const pendres_pendulum *p, pendres_harmonic *out);
 
 #ifdef __cplusplus
 }

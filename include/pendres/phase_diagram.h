@@ -183,7 +183,7 @@ pendres_status pendres_phase_diagram_next(pendres_phase_diagram *diagram,
 /**
  * Do a task of the present round. The diagram is only read, so several threads may do different
  * tasks of it at once. What fails of a point, line or family alone is part of what is made: see
- * pendres_phase_diagram_outcome(). A line that cannot be completed stays as it was; if a curve
+ * pendres_phase_diagram_outcome_get(). A line that cannot be completed stays as it was; if a curve
  * cannot be followed, the rest of its family is not followed either.
  *
  * @param ctx     belongs to one thread at a time
@@ -207,19 +207,19 @@ pendres_status pendres_phase_diagram_take(pendres_phase_diagram *diagram, size_t
 
 /** A point, owned by the diagram; NULL if there is no such point. One without results has
     PENDRES_REGIME_OTHER as both regimes, and NaN as its numbers. */
-const pendres_phase_point *pendres_phase_diagram_point(const pendres_phase_diagram *diagram,
-                                                       size_t point);
+const pendres_phase_point *pendres_phase_diagram_point_get(const pendres_phase_diagram *diagram,
+                                                           size_t point);
 
 /**
  * The outcome of a point: PENDRES_OK, or why it has no results, or has not been completed.
  * *message (may be NULL) receives a message, owned by the diagram; NULL where there is none.
  */
-pendres_status pendres_phase_diagram_outcome(const pendres_phase_diagram *diagram, size_t point,
-                                             const char **message);
+pendres_status pendres_phase_diagram_outcome_get(const pendres_phase_diagram *diagram, size_t point,
+                                                 const char **message);
 
 /** The branches of a line, owned by the diagram; NULL if there are none, or no such line. */
-const pendres_branches *pendres_phase_diagram_branches(const pendres_phase_diagram *diagram,
-                                                       size_t line);
+const pendres_branches *pendres_phase_diagram_branches_get(const pendres_phase_diagram *diagram,
+                                                           size_t line);
 
 /** What a diagram has found beside its points and branches; all of it is owned by the diagram, and
     holds until its next round begins. */
@@ -241,14 +241,14 @@ pendres_phase_curves pendres_phase_diagram_get(const pendres_phase_diagram *diag
     pendres_bifurcation): PENDRES_LABEL_SA or PENDRES_LABEL_LA; PENDRES_LABEL_PERIODIC for orbits
     that can be neither. With a cusp the amplitude there decides; without one, the curvature and the
     side to which the resonance bends. */
-pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *diagram,
-                                           const pendres_orbit *orbit, double curvature);
+pendres_label pendres_phase_diagram_ending_get(const pendres_phase_diagram *diagram,
+                                               const pendres_orbit *orbit, double curvature);
 
 /** The fold of a line at which a state, PENDRES_LABEL_SA or PENDRES_LABEL_LA, ends: of several, the
     one with the largest value of the line's parameter, or with the smallest where the resonance
     bends to higher values. Owned by the diagram; NULL if there is none. */
-const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagram *diagram,
-                                                      size_t line, pendres_label state);
+const pendres_bifurcation *pendres_phase_diagram_fold_get(const pendres_phase_diagram *diagram,
+                                                          size_t line, pendres_label state);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -59,7 +59,7 @@ typedef struct pendres_ramp {
                                     more points between two values make the old state better
                                     known */
   size_t jumps;                /**< on the path */
-  const pendres_jump *jump;    /**< [jumps] as pendres_hysteresis_jump(h, 0) points to them */
+  const pendres_jump *jump;    /**< [jumps] as pendres_hysteresis_jump_get(h, 0) points to them */
 } pendres_ramp;
 
 /** When a pendulum leaves the state that jump k of the path ends. */
@@ -103,8 +103,8 @@ double pendres_ramp_value(const pendres_ramp *ramp, double time);
  * Errors: PENDRES_INVALID_ARGUMENT (the message says which), PENDRES_OUT_OF_MEMORY,
  * PENDRES_INTERRUPTED, PENDRES_INTEGRATION_FAILED. What was written is to be ignored then.
  */
-pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ramp,
-                                   const pendres_ramp_record *record, pendres_ramp_jump *jump);
+pendres_status pendres_ramp_find(pendres_context *ctx, const pendres_ramp *ramp,
+                                 const pendres_ramp_record *record, pendres_ramp_jump *jump);
 
 /**
  * Follow n noisy trajectories through a ramp at the pendulum's temperature. All start from the
@@ -117,7 +117,7 @@ pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ram
  * Steps are the context's steps_per_period or, if these are not chosen, such that without noise the
  * strobe points meet the tolerance, or 1e-6 if that is more.
  *
- * Errors: as pendres_ramp_follow.
+ * Errors: as pendres_ramp_find.
  */
 pendres_status pendres_ramp_scatter(pendres_context *ctx, const pendres_ramp *ramp, size_t n,
                                     uint64_t first_id, double *time, double *value);

@@ -71,7 +71,7 @@ typedef struct pendres_response {
                                          (pendres_outcome.certain); means count them where they
                                          were found, errors allow for any other state */
   size_t unlisted;                  /**< members on attractors beyond those that are listed; in
-                                         the means of pendres_response_compute like all others */
+                                         the means of pendres_response_find like all others */
   double sampling;                  /**< of a rectangle or random starts: the share of members that
                                          another such ensemble may have on other states, two
                                          standard errors: of counts for random starts, from the
@@ -87,9 +87,9 @@ typedef struct pendres_response {
  *
  * Errors: PENDRES_INVALID_ARGUMENT, those of the integration.
  */
-pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
-                                        const pendres_pendulum *pendulums,
-                                        const pendres_ensemble *ensemble, pendres_response *out);
+pendres_status pendres_response_find(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums,
+                                     const pendres_ensemble *ensemble, pendres_response *out);
 
 /**
  * The means of a response whose state[], state_members[], unresolved, uncertain and unlisted are
@@ -112,7 +112,7 @@ double pendres_response_weakest_multiplier(const pendres_response *r);
  *
  * Errors: PENDRES_INVALID_ARGUMENT, those of the integration.
  */
-pendres_status pendres_response_name(pendres_context *ctx, size_t n, pendres_response *responses);
+pendres_status pendres_response_label(pendres_context *ctx, size_t n, pendres_response *responses);
 
 /* ---- With thermal noise -------------------------------------------------------------------- */
 
@@ -146,9 +146,9 @@ typedef struct pendres_response_noise {
  *
  * Errors: PENDRES_INVALID_ARGUMENT, those of the integration.
  */
-pendres_status pendres_response_add_noise(pendres_context *ctx, const pendres_response *still,
-                                          double temperature, size_t trajectories, long periods,
-                                          pendres_response_noise *out);
+pendres_status pendres_response_noise_find(pendres_context *ctx, const pendres_response *still,
+                                           double temperature, size_t trajectories, long periods,
+                                           pendres_response_noise *out);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -64,7 +64,7 @@ typedef struct pendres_rotation {
  * The least torque under which a pendulum rotates for ever, for a damping from 1e-9 to 100.
  * PENDRES_INVALID_ARGUMENT for other dampings or without out. Thread safe.
  */
-pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_onset *out);
+pendres_status pendres_rotation_onset_find(double damping, pendres_rotation_onset *out);
 
 /**
  * The rotation of p, which has the pendulum's force and neither drive nor parametric drive; its

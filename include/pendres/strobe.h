@@ -122,8 +122,8 @@ pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendu
  *
  * On a failure *recording is unchanged. Thread safety: as for the context.
  */
-pendres_status pendres_recording_go_on(pendres_context *ctx, pendres_recording *recording,
-                                       long periods, const pendres_record *out);
+pendres_status pendres_recording_advance(pendres_context *ctx, pendres_recording *recording,
+                                         long periods, const pendres_record *out);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -3,7 +3,7 @@
  * @brief How often noise carries a pendulum from one attractor, or well, to another.
  *
  * Owns: counting transitions along noisy trajectories, their rates with confidence intervals,
- * and the activation energy from rates at several temperatures. pendres_switching_measure() does
+ * and the activation energy from rates at several temperatures. pendres_switching_find() does
  * all of it for two states; the functions after it do parts of that work, which a program may
  * divide among its threads, with the same results to the last bit.
  *
@@ -246,10 +246,10 @@ typedef struct pendres_switching_rates {
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED; those of
  * pendres_switching_choose_steps.
  */
-pendres_status pendres_switching_measure(pendres_context *ctx,
-                                         const pendres_switching_survey *survey, size_t n,
-                                         const double *temperature, pendres_switching_rates *rates,
-                                         pendres_switching_activation *activation);
+pendres_status pendres_switching_find(pendres_context *ctx,
+                                      const pendres_switching_survey *survey, size_t n,
+                                      const double *temperature, pendres_switching_rates *rates,
+                                      pendres_switching_activation *activation);
 
 /**
  * Choose the steps a drive period for a state (0: the first, 1: the second): twice those that keep

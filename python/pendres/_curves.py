@@ -18,8 +18,8 @@ class Branch:
         self.points = stacked("pendres_branch_point", [
             c.branch_get(pointer, i) for i in range(c.branch_count(pointer))])
         self.bifurcations = stacked("pendres_bifurcation", [
-            c.branch_bifurcation(pointer, i) for i in range(c.branch_bifurcations(pointer))])
-        self.ends = c.branch_end_of(pointer, 0), c.branch_end_of(pointer, 1)
+            c.branch_bifurcation_get(pointer, i) for i in range(c.branch_bifurcation_count(pointer))])
+        self.ends = c.branch_end_get(pointer, 0), c.branch_end_get(pointer, 1)
 
     def at(self, value, *, context=None):
         """All orbits of the branch at a value of its parameter."""
@@ -45,7 +45,7 @@ class Curve:
         self.points = stacked("pendres_curve_point", [
             c.curve_get(pointer, i) for i in range(c.curve_count(pointer))])
         self.cusps = stacked("pendres_cusp", [
-            c.curve_cusp(pointer, i) for i in range(c.curve_cusps(pointer))])
+            c.curve_cusp_get(pointer, i) for i in range(c.curve_cusp_count(pointer))])
 
     def at(self, value, *, context=None):
         """The bifurcations of the curve at a value of its second parameter."""
@@ -159,7 +159,7 @@ class Hysteresis(Handle):
         self.points = stacked("pendres_hysteresis_point", [
             c.hysteresis_get(self, i) for i in range(c.hysteresis_count(self))])
         self.jumps = stacked("pendres_jump", [
-            c.hysteresis_jump(self, i) for i in range(c.hysteresis_jumps(self))])
+            c.hysteresis_jump_get(self, i) for i in range(c.hysteresis_jump_count(self))])
 
 
 def hysteresis(p, values, x=np.pi / 2, v=0.0, *, parameter="drive_frequency", context=None):
@@ -170,7 +170,7 @@ def hysteresis(p, values, x=np.pi / 2, v=0.0, *, parameter="drive_frequency", co
     start = filled("pendres_state", {"x": x, "v": v})
     path = filled("pendres_hysteresis_path", {"parameter": parameter, "n": along.size,
                                               "value": along.ctypes.data})
-    return make(Hysteresis, c.hysteresis_follow, default_context(context), one_pendulum(p), start,
+    return make(Hysteresis, c.hysteresis_find, default_context(context), one_pendulum(p), start,
                 path)
 
 

@@ -56,7 +56,7 @@ def orbits(p, x, v, *, period=1, winding=0, slopes=False, context=None):
                                            "period": periods, "winding": turns},
                    array("pendres_orbit_guess", xs.shape))
     found, outcome = array("pendres_orbit", xs.shape), array("pendres_status", xs.shape)
-    c.orbit_refine(default_context(context), xs.size, guess, 1 if slopes else 0, found, outcome)
+    c.orbit_find(default_context(context), xs.size, guess, 1 if slopes else 0, found, outcome)
     return record(found.reshape(shape)), outcome.reshape(shape)[()]
 
 

@@ -56,7 +56,7 @@ def cloud(request, *, points=False, context=None):
     found, shape = array("pendres_langevin_cloud"), (int(request["trajectories"][0]),
                                                      int(request["record"][0]))
     xs, vs = (np.empty(shape) for _ in range(2)) if points else (None, None)
-    c.langevin_measure(default_context(context), request, found, xs, vs)
+    c.langevin_cloud_find(default_context(context), request, found, xs, vs)
     return (found[()], xs, vs) if points else found[()]
 
 
@@ -78,7 +78,7 @@ def linear_noise(p, x, v, *, cycle=1):
     drive periods, exact to first order in the temperature: covariance (xx, xv, vv), monodromy,
     closure, error."""
     out = array("pendres_langevin_linear")
-    c.langevin_linear_theory(one_pendulum(p), x, v, cycle, out)
+    c.langevin_linear_find(one_pendulum(p), x, v, cycle, out)
     return out[()]
 
 

@@ -59,7 +59,7 @@ def response(p, ensemble=None, *, context=None):
     la_fraction, each with its error, unresolved, uncertain, state[...] (see pendres_response)."""
     pendulums = as_pendulums(p)
     out = array("pendres_response", pendulums.shape)
-    c.response_compute(default_context(context), pendulums.size, np.ascontiguousarray(pendulums),
+    c.response_find(default_context(context), pendulums.size, np.ascontiguousarray(pendulums),
                        as_ensemble(ensemble), out)
     return record(out)
 
@@ -99,12 +99,12 @@ def phase_line(p, ensemble=None, *, parameter="drive_frequency", spacing=0.0, co
     ctx = default_context(context)
     found = make(PhaseDiagram, c.phase_diagram_find, ctx, grid)
     for i in range(values.size):
-        failed = c.phase_diagram_outcome(found, i, None)
+        failed = c.phase_diagram_outcome_get(found, i, None)
         if failed:
             raise failed
     points = stacked("pendres_phase_point", [
-        c.phase_diagram_point(found, i) for i in range(values.size)])
-    all_branches = c.phase_diagram_branches(found, 0)
+        c.phase_diagram_point_get(found, i) for i in range(values.size)])
+    all_branches = c.phase_diagram_branches_get(found, 0)
     return points, [Branch(c.branches_get(all_branches, i), found)
                     for i in range(c.branches_count(all_branches))]
 
@@ -145,5 +145,5 @@ def basins(p, x, v, *, context=None):
     grid = _grid(xs, vs)
     found = make(Attractors, c.basin_attractors, ctx, one, grid)
     state = array("pendres_basin_state", (xs.size, vs.size))
-    c.basin_compute(ctx, found, grid, state)
+    c.basin_find(ctx, found, grid, state)
     return Basins(xs, vs, found, state)

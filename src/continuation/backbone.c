@@ -159,7 +159,7 @@ static pendres_status backbone_find(pendres_context *ctx, size_t n,
        left = again) {
     again = 0;
     for (size_t i = 0; i < left; i++) guess[i] = s[i].guess;
-    status = pendres_orbit_refine(ctx, left, guess, PENDRES_ORBIT_PLAIN, orbit, refined);
+    status = pendres_orbit_find(ctx, left, guess, PENDRES_ORBIT_PLAIN, orbit, refined);
     for (size_t i = 0; i < left && status == PENDRES_OK; i++)
       if (!improve(ctx, &s[i], &orbit[i], refined[i])) s[again++] = s[i];
   }

@@ -12,7 +12,7 @@
 
 static const double wildest = 300.0; /* default */
 
-pendres_special pendres_curve_kind(const pendres_curve *c)
+pendres_special pendres_curve_kind_get(const pendres_curve *c)
 {
   return c != NULL ? pendres_continuation_kind(c->kind.system.condition, &c->kind.system.map)
                    : PENDRES_REGULAR;
@@ -28,12 +28,12 @@ const pendres_curve_point *pendres_curve_get(const pendres_curve *c, size_t i)
   return c != NULL && i < c->count ? &c->point[i] : NULL;
 }
 
-size_t pendres_curve_cusps(const pendres_curve *c)
+size_t pendres_curve_cusp_count(const pendres_curve *c)
 {
   return c != NULL ? c->specials : 0;
 }
 
-const pendres_cusp *pendres_curve_cusp(const pendres_curve *c, size_t i)
+const pendres_cusp *pendres_curve_cusp_get(const pendres_curve *c, size_t i)
 {
   return c != NULL && i < c->specials ? &c->cusp[i] : NULL;
 }
@@ -113,7 +113,7 @@ static void fill_point(pendres_curve *c, size_t k)
     c->point[k].value[i] = pair->fine[c->kind.system.unknown[2 + i]];
     c->point[k].value_error[i] = s != NULL ? s->value_error[i] : c->error[p->i][i];
   }
-  pendres_continuation_orbit_set_critical(pendres_curve_kind(c), 2, parameter,
+  pendres_continuation_orbit_set_critical(pendres_curve_kind_get(c), 2, parameter,
                                           c->point[k].value_error, &c->point[k].orbit);
 }
 

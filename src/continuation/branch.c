@@ -28,17 +28,17 @@ const pendres_branch_point *pendres_branch_get(const pendres_branch *b, size_t i
   return b != NULL && i < b->curve.count ? &b->curve.branch_point[i] : NULL;
 }
 
-size_t pendres_branch_bifurcations(const pendres_branch *b)
+size_t pendres_branch_bifurcation_count(const pendres_branch *b)
 {
   return b != NULL ? b->curve.specials : 0;
 }
 
-const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *b, size_t i)
+const pendres_bifurcation *pendres_branch_bifurcation_get(const pendres_branch *b, size_t i)
 {
   return b != NULL && i < b->curve.specials ? &b->curve.bifurcation[i] : NULL;
 }
 
-pendres_branch_end pendres_branch_end_of(const pendres_branch *b, int which)
+pendres_branch_end pendres_branch_end_get(const pendres_branch *b, int which)
 {
   return b != NULL ? b->curve.end[which != 0] : PENDRES_END_STUCK;
 }

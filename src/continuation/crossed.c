@@ -67,7 +67,7 @@ static pendres_status branch_cross(pendres_context *ctx, const pendres_curve *b,
     else if (to == 0.0 && k == b->count - 1 && !closed)
       guess[n++] = between(b, i, k, 1.0, value);
   }
-  status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  status = pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     if (outcome[i] == PENDRES_NOT_CONVERGED) continue;
     if (*found < room) out[*found] = orbit[i];

@@ -270,7 +270,7 @@ static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendre
 {
   const double value = pendres_parameter_get(second, &b->orbit.pendulum);
   const pendres_curve_point *p = pendres_curve_get(c, 0);
-  if (pendres_curve_kind(c) != b->kind || p->orbit.period != b->orbit.period ||
+  if (pendres_curve_kind_get(c) != b->kind || p->orbit.period != b->orbit.period ||
       !same_winding(&p->orbit, &b->orbit))
     return 0;
   for (size_t i = 0; i + 1 < pendres_curve_count(c); i++) {

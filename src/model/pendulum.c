@@ -61,7 +61,7 @@ double pendres_pendulum_energy(const pendres_pendulum *p, double x, double v)
   return 0.5 * v * v + pendres_model_potential(p, x);
 }
 
-pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harmonic *out)
+pendres_status pendres_harmonic_find(const pendres_pendulum *p, pendres_harmonic *out)
 {
   const pendres_status status = pendres_pendulum_check(p, NULL);
   if (status != PENDRES_OK || out == NULL) return PENDRES_INVALID_ARGUMENT;

@@ -257,7 +257,7 @@ static int none_at_one(double damping, finesse how)
   return damping > 1.0 && !(gap(&at_one) > 0.0);
 }
 
-pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_onset *out)
+pendres_status pendres_rotation_onset_find(double damping, pendres_rotation_onset *out)
 {
   if (!sound_damping(damping) || out == NULL) return PENDRES_INVALID_ARGUMENT;
   *out = (pendres_rotation_onset){.torque = 1.0, .end = PENDRES_ROTATION_SADDLE_NODE};

@@ -188,7 +188,7 @@ static void ask_theory(const pendres_langevin_request *r, const pendres_orbit *o
 {
   pendres_langevin_linear linear;
   const pendres_status status =
-    pendres_langevin_linear_theory(&r->pendulum, r->x, r->v, o->period, &linear);
+    pendres_langevin_linear_find(&r->pendulum, r->x, r->v, o->period, &linear);
   c->way = PENDRES_CLOUD_FOLLOWED;
   if (status != PENDRES_OK) return;
   if (!(linear.covariance.xx > least_variance)) c->way = PENDRES_CLOUD_NARROW;
@@ -323,7 +323,7 @@ static pendres_status follow(pendres_context *ctx, const pendres_cloud_request *
   if (status != PENDRES_OK) return status;
   r.trajectories = pendres_cloud_part(q, part, &first);
   r.first_id += first;
-  status = pendres_langevin_measure(ctx, &r, out, x, v);
+  status = pendres_langevin_cloud_find(ctx, &r, out, x, v);
   return status == PENDRES_NOT_FOUND ? PENDRES_OK : status; /* all have left: an empty part */
 }
 
@@ -381,8 +381,8 @@ static pendres_status measure(pendres_context *ctx, const pendres_cloud_request 
   return status;
 }
 
-pendres_status pendres_cloud_measure(pendres_context *ctx, const pendres_cloud_request *request,
-                                     pendres_cloud *cloud, double *x, double *v)
+pendres_status pendres_cloud_find(pendres_context *ctx, const pendres_cloud_request *request,
+                                  pendres_cloud *cloud, double *x, double *v)
 {
   return behind_door(ctx, request, cloud, x, v, measure);
 }

@@ -80,7 +80,7 @@ static pendres_status ellipse(pendres_context *ctx, const pendres_attractors *se
   hot.temperature = temperature;
   pendres_status status = PENDRES_OK;
   if (temperature > 0.0 &&
-      pendres_langevin_linear_theory(&hot, a->orbit.x, a->orbit.v, a->orbit.period, &linear) ==
+      pendres_langevin_linear_find(&hot, a->orbit.x, a->orbit.v, a->orbit.period, &linear) ==
         PENDRES_OK) {
     double reach = fmin(widest, fmin(0.5 * turn, lengths * length) / sqrt(linear.covariance.xx));
     for (int k = 0; k < TRIALS && status == PENDRES_OK && !inside; k++, reach *= narrower) {

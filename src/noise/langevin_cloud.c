@@ -288,10 +288,10 @@ static pendres_status measure(pendres_context *ctx, const pendres_langevin_reque
   return status;
 }
 
-pendres_status pendres_langevin_measure(pendres_context *ctx,
-                                        const pendres_langevin_request *request,
-                                        pendres_langevin_cloud *cloud, double *strobe_x,
-                                        double *strobe_v)
+pendres_status pendres_langevin_cloud_find(pendres_context *ctx,
+                                           const pendres_langevin_request *request,
+                                           pendres_langevin_cloud *cloud, double *strobe_x,
+                                           double *strobe_v)
 {
   pendres_door d;
   pendres_noise_window window;

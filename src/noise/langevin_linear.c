@@ -138,8 +138,8 @@ static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, 
 }
 
 /* Without a context there is no door: the pendulum is brought into its units here. */
-pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, double x,
-                                              double v, int cycle, pendres_langevin_linear *out)
+pendres_status pendres_langevin_linear_find(const pendres_pendulum *pendulum, double x,
+                                            double v, int cycle, pendres_langevin_linear *out)
 {
   const pendres_scales s = {pendres_units_of(pendulum), 1.0, 1.0};
   pendres_pendulum p = {.damping = 0.0};

@@ -63,9 +63,9 @@ pendres_status pendres_langevin_merge(size_t n, const pendres_langevin_cloud *pa
 /*
  * Bias of n = request->steps_per_period steps a period for the cloud of a request, from pairs of
  * trajectories with n and 2 n steps and the same noise. At order four their difference is 15/16 of
- * the bias; *bias holds 16/15 of it. The noise differs from that of pendres_langevin_measure.
+ * the bias; *bias holds 16/15 of it. The noise differs from that of pendres_langevin_cloud_find.
  *
- * Errors: as pendres_langevin_measure.
+ * Errors: as pendres_langevin_cloud_find.
  */
 pendres_status pendres_langevin_measure_bias(pendres_context *ctx,
                                              const pendres_langevin_request *request,

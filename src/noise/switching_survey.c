@@ -334,10 +334,10 @@ static pendres_status measure(pendres_context *ctx, const pendres_switching_surv
   return pendres_context_fail(ctx, status, "activation energies cannot be computed");
 }
 
-pendres_status pendres_switching_measure(pendres_context *ctx,
-                                         const pendres_switching_survey *survey, size_t n,
-                                         const double *temperature, pendres_switching_rates *rates,
-                                         pendres_switching_activation *activation)
+pendres_status pendres_switching_find(pendres_context *ctx,
+                                      const pendres_switching_survey *survey, size_t n,
+                                      const double *temperature, pendres_switching_rates *rates,
+                                      pendres_switching_activation *activation)
 {
   return PENDRES_CONTEXT_CALL(ctx, measure(ctx, survey, n, temperature, rates, activation));
 }

@@ -235,8 +235,8 @@ static pendres_status attractors_point(pendres_context *ctx, const pendres_attra
   return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no start is found that leads to it");
 }
 
-pendres_status pendres_attractors_point(pendres_context *ctx, const pendres_attractors *set,
-                                        size_t i, pendres_state *out)
+pendres_status pendres_attractors_point_find(pendres_context *ctx, const pendres_attractors *set,
+                                             size_t i, pendres_state *out)
 {
   pendres_door d;
   pendres_attractors_open(&d, ctx, set);

@@ -196,7 +196,7 @@ static pendres_status find_points(pendres_context *ctx, long_orbits *l)
     n += others;
   }
   if (status == PENDRES_OK)
-    status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, l->point, outcome);
+    status = pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, l->point, outcome);
   for (size_t i = l->count; i-- > 0 && status == PENDRES_OK;) {
     if (!l->complete[i]) continue;
     const int q = l->orbit[i]->period;
@@ -423,7 +423,7 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *a
     goto done;
   }
   size_t count = distinct_guesses(n, guesses, attractor_sets, g, set);
-  status = pendres_orbit_refine(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
+  status = pendres_orbit_find(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
   if (status != PENDRES_OK) goto done;
   count = distinct_orbits(count, orbits, set, outcome, attractor_sets);
   status = find_short(ctx, count, orbits, attractor_sets[0].effort, ellipses);

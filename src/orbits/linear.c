@@ -60,7 +60,7 @@ static pendres_status refine(pendres_context *ctx, size_t n, const pendres_pendu
                                : (pendres_orbit_guess){.pendulum = p[i], .period = 1};
     count++;
   }
-  status = pendres_orbit_refine(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  status = pendres_orbit_find(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
   for (size_t k = 0; k < count && status == PENDRES_OK; k++)
     if (outcome[k] != PENDRES_NOT_CONVERGED) take_over(&orbit[k], multipliers, of[k]);
     else of[k]->fate = PENDRES_LINEAR_NOT;

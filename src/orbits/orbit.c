@@ -410,9 +410,9 @@ done:
   return status;
 }
 
-pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
-                                    const pendres_orbit_guess *guess, pendres_orbit_want want,
-                                    pendres_orbit *out, pendres_status *outcome)
+pendres_status pendres_orbit_find(pendres_context *ctx, size_t n,
+                                  const pendres_orbit_guess *guess, pendres_orbit_want want,
+                                  pendres_orbit *out, pendres_status *outcome)
 {
   pendres_door d;
   pendres_door_open_many(&d, ctx, n, guess, sizeof *guess);

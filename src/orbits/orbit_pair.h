@@ -17,7 +17,7 @@ typedef struct pendres_orbit_coarser {
   double slope_rounding; /* and in the slope */
 } pendres_orbit_coarser;
 
-/* pendres_orbit_refine with slopes; coarser[n] is NaN where there is no orbit. */
+/* pendres_orbit_find with slopes; coarser[n] is NaN where there is no orbit. */
 pendres_status pendres_orbit_refine_pair(pendres_context *ctx, size_t n,
                                          const pendres_orbit_guess *guess, pendres_orbit *out,
                                          pendres_orbit_coarser *coarser, pendres_status *outcome);

@@ -96,7 +96,7 @@ static pendres_status refine(pendres_context *ctx, job *j, size_t *n)
     guess[i] = (pendres_orbit_guess){.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                      .period = c->period, .winding = c->winding};
   }
-  status = pendres_orbit_refine(ctx, *n, guess, PENDRES_ORBIT_PLAIN, shorter, outcome);
+  status = pendres_orbit_find(ctx, *n, guess, PENDRES_ORBIT_PLAIN, shorter, outcome);
   size_t kept = 0;
   for (size_t i = 0; i < *n && status == PENDRES_OK; i++) {
     closing c = j->found[i];

@@ -247,8 +247,8 @@ static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long per
   return status;
 }
 
-pendres_status pendres_recording_go_on(pendres_context *ctx, pendres_recording *recording,
-                                       long periods, const pendres_record *out)
+pendres_status pendres_recording_advance(pendres_context *ctx, pendres_recording *recording,
+                                         long periods, const pendres_record *out)
 {
   const int valid = recording != NULL && !too_many(recording, periods);
   const size_t points = valid ? (size_t)periods * (size_t)recording->samples + 1 : 0;
@@ -267,7 +267,7 @@ static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum 
   pendres_recording r;
   const pendres_status status =
     pendres_recording_begin(ctx, pendulum, start, periods, samples, &r);
-  return status == PENDRES_OK ? pendres_recording_go_on(ctx, &r, periods, out) : status;
+  return status == PENDRES_OK ? pendres_recording_advance(ctx, &r, periods, out) : status;
 }
 
 pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,

@@ -290,7 +290,7 @@ static pendres_bifurcation bifurcation_out_of(const pendres_bifurcation *b, accu
 static void look(accuracy_random *r, const pendres_branch *b, item *t)
 {
   const accuracy_units u = accuracy_near_units(t->units);
-  const size_t n = pendres_branch_count(b), met = pendres_branch_bifurcations(b);
+  const size_t n = pendres_branch_count(b), met = pendres_branch_bifurcation_count(b);
   for (int k = 0; k < POINTS && n > 0; k++) {
     place *at = &t->points[k];
     at->point = *pendres_branch_get(b, (size_t)accuracy_choice(r, (int)n));
@@ -302,7 +302,7 @@ static void look(accuracy_random *r, const pendres_branch *b, item *t)
   }
   for (size_t k = 0; k < met && k < BIFURCATIONS; k++) {
     place *at = &t->bifurcations[k];
-    at->bifurcation = bifurcation_out_of(pendres_branch_bifurcation(b, k), u);
+    at->bifurcation = bifurcation_out_of(pendres_branch_bifurcation_get(b, k), u);
     at->there = exact_of(at);
   }
 }
@@ -338,7 +338,7 @@ static void compute_one(accuracy_random *r, int (*draw)(accuracy_random *r, item
   const pendres_branch_options options = {
     .parameter = t->parameter, .low = t->low, .high = t->high, .most_points = 60};
   if (ctx != NULL &&
-      pendres_orbit_refine(ctx, 1, &t->guess, PENDRES_ORBIT_PLAIN, &start, &outcome) ==
+      pendres_orbit_find(ctx, 1, &t->guess, PENDRES_ORBIT_PLAIN, &start, &outcome) ==
         PENDRES_OK &&
       outcome != PENDRES_NOT_CONVERGED &&
       pendres_branch_follow(ctx, 1, &start, &options, &b) == PENDRES_OK)

@@ -69,7 +69,7 @@ static void compute(accuracy_random *r, void *of, long number)
   const pendres_options options = {.tolerance = t->tolerance};
   pendres_status status = pendres_context_create(&options, &ctx);
   if (status == PENDRES_OK)
-    status = pendres_response_compute(ctx, 1, &t->pendulum, &t->ensemble, &t->found);
+    status = pendres_response_find(ctx, 1, &t->pendulum, &t->ensemble, &t->found);
   pendres_context_free(ctx);
   t->known = status == PENDRES_OK && t->found.states > 0;
   for (size_t k = 1; k <= MEMBERS && t->known; k++) {

@@ -120,8 +120,8 @@ static void compute(accuracy_random *r, void *of, long number)
   double x = t->guess.x, v = t->guess.v;
   pendres_status status = pendres_context_create(&options, &ctx);
   if (status == PENDRES_OK)
-    status = pendres_orbit_refine(ctx, 1, &t->guess, PENDRES_ORBIT_FREQUENCY_SLOPE, &t->orbit,
-                                  &outcome);
+    status = pendres_orbit_find(ctx, 1, &t->guess, PENDRES_ORBIT_FREQUENCY_SLOPE, &t->orbit,
+                                &outcome);
   if (status == PENDRES_OK && outcome != PENDRES_NOT_CONVERGED)
     status = pendres_strobe_advance(ctx, 1, &t->guess.pendulum, &x, &v, t->periods, &t->claim);
   pendres_context_free(ctx);

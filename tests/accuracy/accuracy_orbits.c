@@ -109,7 +109,7 @@ static void compute(accuracy_random *r, void *of, long number)
   pendres_status outcome = PENDRES_NOT_CONVERGED;
   const pendres_orbit_guess *g = &t->guess;
   if (ctx != NULL && g->period > 0 &&
-      pendres_orbit_refine(ctx, 1, g, t->want, &t->orbit, &outcome) == PENDRES_OK &&
+      pendres_orbit_find(ctx, 1, g, t->want, &t->orbit, &outcome) == PENDRES_OK &&
       outcome != PENDRES_NOT_CONVERGED) {
     const pendres_status status = pendres_reference_orbit(
       &g->pendulum, t->orbit.x - half_pi, t->orbit.v, g->period, g->winding, &t->exact);

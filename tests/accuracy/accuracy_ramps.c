@@ -64,13 +64,13 @@ static pendres_status sweep(pendres_context *ctx, const pendres_pendulum *p,
   double value[POINTS];
   for (int i = 0; i < n; i++) value[i] = range[0] + (range[1] - range[0]) * i / (n - 1.0);
   const pendres_hysteresis_path path = {parameter, (size_t)n, value};
-  return pendres_hysteresis_follow(ctx, p, start, &path, out);
+  return pendres_hysteresis_find(ctx, p, start, &path, out);
 }
 
 /* Whether a jump leads from one closed orbit to another that x goes round with alike. */
 static int plain(const pendres_hysteresis *h, size_t k)
 {
-  const pendres_jump *j = pendres_hysteresis_jump(h, k);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
   const pendres_hysteresis_point *a = pendres_hysteresis_get(h, j->step - 1);
   const pendres_orbit *o = &a->attractor.orbit, *q = &a[1].attractor.orbit;
   return a->outcome == PENDRES_OK && a[1].outcome == PENDRES_OK && !j->gradual && o->period > 0 &&
@@ -91,9 +91,9 @@ static void lay(accuracy_random *r, pendres_context *ctx, item *t)
   pendres_hysteresis *h = NULL, *near = NULL;
   size_t k = 0;
   t->status = sweep(ctx, &p, parameter, ends, SEARCHED, &start, &h);
-  while (t->status == PENDRES_OK && k < pendres_hysteresis_jumps(h) && !plain(h, k)) k++;
-  if (t->status == PENDRES_OK && k < pendres_hysteresis_jumps(h)) {
-    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+  while (t->status == PENDRES_OK && k < pendres_hysteresis_jump_count(h) && !plain(h, k)) k++;
+  if (t->status == PENDRES_OK && k < pendres_hysteresis_jump_count(h)) {
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, k);
     const pendres_hysteresis_point *a = pendres_hysteresis_get(h, j->step - 1);
     t->value[0] = j->value - j->direction * fmin(3.0 * reach, fabs(j->value - a->value));
     t->value[1] = j->value + j->direction * 6.0 * reach;
@@ -109,8 +109,8 @@ static void lay(accuracy_random *r, pendres_context *ctx, item *t)
   t->ramp = (pendres_ramp){.pendulum = p, .parameter = parameter, .corners = 2,
                            .period = t->period, .value = t->value, .points = POINTS,
                            .point = pendres_hysteresis_get(t->path, 0),
-                           .jumps = pendres_hysteresis_jumps(t->path),
-                           .jump = pendres_hysteresis_jump(t->path, 0)};
+                           .jumps = pendres_hysteresis_jump_count(t->path),
+                           .jump = pendres_hysteresis_jump_get(t->path, 0)};
   t->found = t->path != NULL && t->ramp.jumps == 1 && plain(t->path, 0) && periods >= CHECKS;
   pendres_hysteresis_free(h);
   pendres_hysteresis_free(near);
@@ -210,7 +210,7 @@ static void compute(accuracy_random *r, void *of, long number)
     t->window = fabs(t->value[1] - t->value[0]) / (double)all * longest;
     t->status = PENDRES_OUT_OF_MEMORY;
     if (rows != NULL)
-      t->status = pendres_ramp_follow(
+      t->status = pendres_ramp_find(
         ctx, &t->ramp,
         &(pendres_ramp_record){every, rows, rows + n, rows + 2 * n, rows + 3 * n}, &t->jump);
     for (size_t i = 0; i < CHECKS && t->status == PENDRES_OK; i++) {

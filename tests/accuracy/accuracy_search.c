@@ -57,7 +57,7 @@ static void look_everywhere(pendres_context *ctx, item *t)
       p[i].drive_frequency = pendres_range_value(&range, (size_t)(first + i));
     }
     if (seconds_of_this_thread() - start > most_seconds ||
-        pendres_response_compute(ctx, PART, p, &ensemble, r) != PENDRES_OK)
+        pendres_response_find(ctx, PART, p, &ensemble, r) != PENDRES_OK)
       break;
     t->seen += PART;
     for (int i = 0; i < PART; i++)

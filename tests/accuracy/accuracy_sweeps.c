@@ -264,7 +264,7 @@ static void check(item *t)
 static void take(item *t, const pendres_hysteresis *h, const pendres_pendulum *asked)
 {
   const accuracy_units near = accuracy_near_units(t->units);
-  const size_t jumps = pendres_hysteresis_jumps(h);
+  const size_t jumps = pendres_hysteresis_jump_count(h);
   const double unit = value_in(t, 1.0, near);
   t->pendulum = accuracy_in_units(asked, (accuracy_units){1.0 / near.length, 1.0 / near.time});
   for (size_t i = 0; i < POINTS; i++) {
@@ -275,7 +275,7 @@ static void take(item *t, const pendres_hysteresis *h, const pendres_pendulum *a
   if (jumps > JUMPS) complain(t, "too many jumps", t->low, t->high, (double)jumps);
   for (t->jumps = 0; t->jumps < JUMPS && (size_t)t->jumps < jumps; t->jumps++) {
     pendres_jump *j = &t->jump[t->jumps];
-    *j = *pendres_hysteresis_jump(h, (size_t)t->jumps);
+    *j = *pendres_hysteresis_jump_get(h, (size_t)t->jumps);
     j->value /= unit;
     j->value_error /= unit;
   }
@@ -297,7 +297,7 @@ static void compute(accuracy_random *r, void *of, long number)
   const pendres_state start = {t->x / t->units.length, t->v * t->units.time / t->units.length};
   t->status = pendres_context_create(NULL, &ctx);
   if (t->status == PENDRES_OK)
-    t->status = pendres_hysteresis_follow(ctx, &asked, &start, &path, &h);
+    t->status = pendres_hysteresis_find(ctx, &asked, &start, &path, &h);
   if (t->status == PENDRES_OK) {
     take(t, h, &asked);
     check(t);

@@ -124,7 +124,7 @@ static void compute(accuracy_random *r, void *of, long number)
     const pendres_switching_survey survey = {
       .set = set, .state = {0, 1}, .trajectories = TRAJECTORIES, .periods = PERIODS};
     t->status =
-      pendres_switching_measure(ctx, &survey, 1, &t->temperature, &t->rates, activation);
+      pendres_switching_find(ctx, &survey, 1, &t->temperature, &t->rates, activation);
     if (t->status == PENDRES_OK) t->status = t->rates.status;
     if (!t->driven) t->boltzmann = boltzmann_of(t, set);
     follow_own(r, set, t);

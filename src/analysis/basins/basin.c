@@ -321,8 +321,8 @@ static pendres_status basin_compute(pendres_context *ctx, pendres_attractors *se
   return status;
 }
 
-pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *set,
-                                     const pendres_basin_grid *grid, pendres_basin_state *state)
+pendres_status pendres_basin_find(pendres_context *ctx, pendres_attractors *set,
+                                  const pendres_basin_grid *grid, pendres_basin_state *state)
 {
   return PENDRES_CONTEXT_CALL(ctx, basin_compute(ctx, set, grid, state));
 }

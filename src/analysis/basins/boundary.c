@@ -333,7 +333,7 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
                                   .winding = saddle->winding};
       status = pendres_strobe_advance(ctx, 1, &next.pendulum, &next.x, &next.v, 1, NULL);
       if (status == PENDRES_OK)
-        status = pendres_orbit_refine(ctx, 1, &next, PENDRES_ORBIT_PLAIN, &point, &outcome);
+        status = pendres_orbit_find(ctx, 1, &next, PENDRES_ORBIT_PLAIN, &point, &outcome);
       if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED)
         status = pendres_context_fail(ctx, outcome, "a point of the saddle could not be refined");
       if (status != PENDRES_OK) break;

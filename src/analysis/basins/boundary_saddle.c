@@ -39,7 +39,7 @@ static pendres_status refine(pendres_context *ctx, const pendres_followed *kind,
                                      .winding = attractor->winding};
   pendres_status outcome = PENDRES_OK;
   const pendres_status status =
-    pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, out, &outcome);
+    pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, out, &outcome);
   if (status != PENDRES_OK) return status;
   if (outcome == PENDRES_NOT_CONVERGED || out->stable) return PENDRES_NOT_FOUND;
   if (outcome != PENDRES_OK)

@@ -223,8 +223,8 @@ static pendres_status correlation_measure(pendres_context *ctx, const pendres_se
   return status;
 }
 
-pendres_status pendres_correlation_measure(pendres_context *ctx, const pendres_section *section,
-                                           double resolution, pendres_correlation *out)
+pendres_status pendres_correlation_find(pendres_context *ctx, const pendres_section *section,
+                                        double resolution, pendres_correlation *out)
 {
   return PENDRES_CONTEXT_CALL(ctx, correlation_measure(ctx, section, resolution, out));
 }

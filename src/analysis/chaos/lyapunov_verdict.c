@@ -144,7 +144,7 @@ static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_
     pendres_coordinates_out(r->lane.pendulum, &at, &g->x, &g->v);
   }
   const pendres_status status =
-    pendres_orbit_refine(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+    pendres_orbit_find(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
   if (status != PENDRES_OK) return status;
   k = 0;
   for (size_t i = 0; i < j->n; i++) {

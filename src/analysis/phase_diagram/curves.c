@@ -47,7 +47,7 @@ static pendres_status gather(pendres_phase_diagram *d)
   size_t n = 0;
   for (size_t i = 0; i < d->grid.lines; i++)
     for (size_t k = 0; k < pendres_branches_count(d->line[i].branches); k++)
-      n += pendres_branch_bifurcations(pendres_branches_get(d->line[i].branches, k));
+      n += pendres_branch_bifurcation_count(pendres_branches_get(d->line[i].branches, k));
   pendres_bifurcation *all = malloc((n + 1) * sizeof *all);
   if (all == NULL) return PENDRES_OUT_OF_MEMORY;
   free(d->bifurcation);
@@ -59,8 +59,8 @@ static pendres_status gather(pendres_phase_diagram *d)
     d->falling |= pendres_phase_small_end(d->line[i].branches).falling;
     for (size_t k = 0; k < pendres_branches_count(d->line[i].branches); k++) {
       const pendres_branch *b = pendres_branches_get(d->line[i].branches, k);
-      for (size_t m = 0; m < pendres_branch_bifurcations(b); m++)
-        all[n++] = *pendres_branch_bifurcation(b, m);
+      for (size_t m = 0; m < pendres_branch_bifurcation_count(b); m++)
+        all[n++] = *pendres_branch_bifurcation_get(b, m);
     }
   }
   d->first[d->grid.lines] = d->bifurcations = n;
@@ -221,8 +221,8 @@ static void find_cusp(pendres_phase_diagram *d)
 {
   for (size_t i = 0; i < pendres_curves_count(d->curves); i++) {
     const pendres_curve *curve = pendres_curves_get(d->curves, i);
-    for (size_t k = 0; k < pendres_curve_cusps(curve); k++) {
-      const pendres_cusp *cusp = pendres_curve_cusp(curve, k);
+    for (size_t k = 0; k < pendres_curve_cusp_count(curve); k++) {
+      const pendres_cusp *cusp = pendres_curve_cusp_get(curve, k);
       if (!pendres_phase_on_sheets(&cusp->orbit)) continue;
       if (d->has_cusp && pendres_phase_beyond(d->grid.across, d->cusp.value[1], cusp->value[1]))
         continue;

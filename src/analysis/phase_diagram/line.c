@@ -273,7 +273,7 @@ static pendres_status compute_line(pendres_context *ctx, size_t n,
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
     goto done;
   }
-  status = pendres_response_compute(ctx, n, pendulums, &options->ensemble, r);
+  status = pendres_response_find(ctx, n, pendulums, &options->ensemble, r);
   if (status == PENDRES_OK && *branches == NULL)
     status = find_branches(ctx, n, r, options, branches);
   if (status != PENDRES_OK) goto done;
@@ -329,7 +329,7 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
    stability. */
 static int bounds_named(const pendres_curve *c)
 {
-  const pendres_special kind = pendres_curve_kind(c);
+  const pendres_special kind = pendres_curve_kind_get(c);
   return (kind == PENDRES_FOLD || kind == PENDRES_SYMMETRY_BREAKING) &&
          pendres_curve_count(c) > 0 && pendres_phase_on_sheets(&pendres_curve_get(c, 0)->orbit);
 }
@@ -346,8 +346,8 @@ static int beyond_cusps(const pendres_curves *curves, const pendres_pendulum *p)
   size_t cusps = 0;
   for (size_t i = 0; i < pendres_curves_count(curves); i++) {
     const pendres_curve *c = pendres_curves_get(curves, i);
-    for (size_t k = 0; bounds_named(c) && k < pendres_curve_cusps(c); k++, cusps++) {
-      const pendres_cusp *cusp = pendres_curve_cusp(c, k);
+    for (size_t k = 0; bounds_named(c) && k < pendres_curve_cusp_count(c); k++, cusps++) {
+      const pendres_cusp *cusp = pendres_curve_cusp_get(c, k);
       const pendres_parameter across = cusp->parameter[1];
       if (!pendres_phase_beyond(across, pendres_parameter_get(across, p), cusp->value[1])) return 0;
     }

@@ -137,7 +137,7 @@ static pendres_status sort_out(pendres_context *ctx, const pendres_phase_grid *g
     if (l->place[k] == PENDRES_PHASE_NOWHERE) continue;
     const pendres_pendulum p = pendulum_of(g, line, k);
     pendres_response r;
-    const pendres_status status = pendres_response_compute(ctx, 1, &p, &g->options.ensemble, &r);
+    const pendres_status status = pendres_response_find(ctx, 1, &p, &g->options.ensemble, &r);
     l->place[k] = status == PENDRES_OK ? l->count++ : PENDRES_PHASE_NOWHERE;
     const pendres_status rest = keep(ctx, status, &l->mark[k]);
     if (rest != PENDRES_OK) return rest;
@@ -309,7 +309,8 @@ pendres_status pendres_phase_diagram_find(pendres_context *ctx, const pendres_ph
 
 /* ---- results ---- */
 
-const pendres_phase_point *pendres_phase_diagram_point(const pendres_phase_diagram *d, size_t point)
+const pendres_phase_point *pendres_phase_diagram_point_get(const pendres_phase_diagram *d,
+                                                           size_t point)
 {
   if (d == NULL || point >= d->grid.lines * d->grid.values) return NULL;
   const pendres_phase_done *l = &d->line[point / d->grid.values];
@@ -323,15 +324,16 @@ static pendres_status outcome_of(const pendres_phase_mark *m, const char **messa
   return m->outcome;
 }
 
-pendres_status pendres_phase_diagram_outcome(const pendres_phase_diagram *d, size_t point,
-                                             const char **message)
+pendres_status pendres_phase_diagram_outcome_get(const pendres_phase_diagram *d, size_t point,
+                                                 const char **message)
 {
   if (message != NULL) *message = NULL;
   if (d == NULL || point >= d->grid.lines * d->grid.values) return PENDRES_INVALID_ARGUMENT;
   return outcome_of(&d->line[point / d->grid.values].mark[point % d->grid.values], message);
 }
 
-const pendres_branches *pendres_phase_diagram_branches(const pendres_phase_diagram *d, size_t line)
+const pendres_branches *pendres_phase_diagram_branches_get(const pendres_phase_diagram *d,
+                                                           size_t line)
 {
   return d != NULL && line < d->grid.lines ? d->line[line].branches : NULL;
 }
@@ -345,8 +347,9 @@ pendres_phase_curves pendres_phase_diagram_get(const pendres_phase_diagram *d)
     .cusp = d->has_cusp ? &d->cusp : NULL};
 }
 
-pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *d, const pendres_orbit *o,
-                                           double curvature)
+pendres_label pendres_phase_diagram_ending_get(const pendres_phase_diagram *d,
+                                               const pendres_orbit *o,
+                                               double curvature)
 {
   if (d == NULL || o == NULL || !pendres_phase_on_sheets(o)) return PENDRES_LABEL_PERIODIC;
   const int small = d->has_cusp ? o->amplitude < d->cusp.orbit.amplitude
@@ -354,8 +357,9 @@ pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *d, const
   return small ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
 }
 
-const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagram *d, size_t line,
-                                                      pendres_label state)
+const pendres_bifurcation *pendres_phase_diagram_fold_get(const pendres_phase_diagram *d,
+                                                          size_t line,
+                                                          pendres_label state)
 {
   const pendres_bifurcation *best = NULL;
   if (d == NULL || line >= d->grid.lines) return NULL;

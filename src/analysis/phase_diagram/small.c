@@ -33,7 +33,7 @@ static pendres_small_end find_any_small_end(const pendres_branches *branches)
       const pendres_branch_point *p = pendres_branch_get(branch, k);
       if (p->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&p->orbit)) continue;
       const pendres_bifurcation *f =
-        pendres_branch_bifurcation(branch, (size_t)p->bifurcation);
+        pendres_branch_bifurcation_get(branch, (size_t)p->bifurcation);
       if (!ends_small(branch, k) || (end.known && f->orbit.amplitude <= end.amplitude)) continue;
       end = (pendres_small_end){.known = 1,
                                 .parameter = f->parameter,
@@ -52,8 +52,8 @@ static pendres_small_end find_plain_small_end(const pendres_branches *branches)
   pendres_small_end end = {.known = 0};
   for (size_t i = 0; i < pendres_branches_count(branches); i++) {
     const pendres_branch *branch = pendres_branches_get(branches, i);
-    for (size_t k = 0; k < pendres_branch_bifurcations(branch); k++) {
-      const pendres_bifurcation *f = pendres_branch_bifurcation(branch, k);
+    for (size_t k = 0; k < pendres_branch_bifurcation_count(branch); k++) {
+      const pendres_bifurcation *f = pendres_branch_bifurcation_get(branch, k);
       if (f->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&f->orbit) ||
           !(f->curvature < 0.0))
         continue;

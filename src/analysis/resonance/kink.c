@@ -33,8 +33,8 @@ static pendres_status locate(pendres_context *ctx, const pendres_orbit *o, const
   pendres_branch *branch = NULL;
   *found = 0;
   const pendres_status status = pendres_branch_follow(ctx, 1, o, &along, &branch);
-  for (size_t i = 0; i < pendres_branch_bifurcations(branch); i++) {
-    const pendres_bifurcation *b = pendres_branch_bifurcation(branch, i);
+  for (size_t i = 0; i < pendres_branch_bifurcation_count(branch); i++) {
+    const pendres_bifurcation *b = pendres_branch_bifurcation_get(branch, i);
     const double from = o->pendulum.drive_frequency;
     if (b->kind != PENDRES_SYMMETRY_BREAKING || !(b->value > range[0] && b->value < range[1]))
       continue;

@@ -195,7 +195,7 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
 {
   pendres_response there;
   pendres_response *r = &at->response;
-  const pendres_status status = pendres_response_compute(ctx, 1, &r->pendulum, ensemble, &there);
+  const pendres_status status = pendres_response_find(ctx, 1, &r->pendulum, ensemble, &there);
   if (status != PENDRES_OK) return status;
   *same = there.states == r->states && there.unresolved == r->unresolved &&
           there.unlisted == r->unlisted;

@@ -41,7 +41,7 @@ static pendres_status add_sampling(pendres_context *ctx, const pendres_ensemble 
   pendres_response there;
   if (e->shape == PENDRES_ENSEMBLE_LINE || !isfinite(out->frequency)) return PENDRES_OK;
   const pendres_status status =
-    pendres_response_compute(ctx, 1, &out->response.pendulum, e, &there);
+    pendres_response_find(ctx, 1, &out->response.pendulum, e, &there);
   if (status != PENDRES_OK) return status;
   pendres_response_widen(&out->response, there.sampling);
   out->loop_area_error = fmax(out->loop_area_error, out->response.mean_loop_area_error);

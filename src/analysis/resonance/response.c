@@ -362,9 +362,9 @@ static pendres_status compute(pendres_context *ctx, size_t n, const pendres_pend
   return status;
 }
 
-pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
-                                        const pendres_pendulum *pendulums,
-                                        const pendres_ensemble *ensemble, pendres_response *out)
+pendres_status pendres_response_find(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums,
+                                     const pendres_ensemble *ensemble, pendres_response *out)
 {
   pendres_door d;
   pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);

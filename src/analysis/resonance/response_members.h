@@ -9,7 +9,7 @@
 #include "orbits/attractor_set.h"
 
 /*
- * As pendres_response_compute(). where[n * members], unless it is NULL, receives the state that
+ * As pendres_response_find(). where[n * members], unless it is NULL, receives the state that
  * each member is on, as a number in its response's state[]; -1: none of those.
  */
 pendres_status pendres_response_members(pendres_context *ctx, size_t n,

@@ -126,7 +126,7 @@ static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response
   return status;
 }
 
-pendres_status pendres_response_name(pendres_context *ctx, size_t n, pendres_response *responses)
+pendres_status pendres_response_label(pendres_context *ctx, size_t n, pendres_response *responses)
 {
   return PENDRES_CONTEXT_CALL(ctx, name_line(ctx, n, responses));
 }

@@ -44,7 +44,7 @@ static pendres_status measure_state(pendres_context *ctx, const pendres_langevin
   if (status != PENDRES_OK) return status;
   r = *q;
   r.steps_per_period = bias->steps_per_period;
-  return pendres_langevin_measure(ctx, &r, cloud, NULL, NULL);
+  return pendres_langevin_cloud_find(ctx, &r, cloud, NULL, NULL);
 }
 
 static void add_area(pendres_response_mean *q, double share, const pendres_langevin_cloud *cloud,
@@ -191,9 +191,9 @@ static pendres_status add_noise(pendres_context *ctx, const pendres_response *st
   return status;
 }
 
-pendres_status pendres_response_add_noise(pendres_context *ctx, const pendres_response *still,
-                                          double temperature, size_t trajectories, long periods,
-                                          pendres_response_noise *out)
+pendres_status pendres_response_noise_find(pendres_context *ctx, const pendres_response *still,
+                                           double temperature, size_t trajectories, long periods,
+                                           pendres_response_noise *out)
 {
   pendres_door d;
   pendres_door_open(&d, ctx, still != NULL ? &still->pendulum : NULL);

@@ -43,12 +43,12 @@ const pendres_hysteresis_point *pendres_hysteresis_get(const pendres_hysteresis 
   return h != NULL && i < h->count ? &h->point[i] : NULL;
 }
 
-size_t pendres_hysteresis_jumps(const pendres_hysteresis *h)
+size_t pendres_hysteresis_jump_count(const pendres_hysteresis *h)
 {
   return h != NULL ? h->jumps : 0;
 }
 
-const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t i)
+const pendres_jump *pendres_hysteresis_jump_get(const pendres_hysteresis *h, size_t i)
 {
   return h != NULL && i < h->jumps ? &h->jump[i] : NULL;
 }
@@ -271,10 +271,10 @@ static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
   return pendres_path_run(&w, start->x, start->v, out);
 }
 
-pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
-                                         const pendres_state *start,
-                                         const pendres_hysteresis_path *along,
-                                         pendres_hysteresis **out)
+pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendulum *p,
+                                       const pendres_state *start,
+                                       const pendres_hysteresis_path *along,
+                                       pendres_hysteresis **out)
 {
   pendres_door d;
   pendres_hysteresis_path inside = {.n = 0};

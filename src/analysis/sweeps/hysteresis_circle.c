@@ -63,7 +63,7 @@ static pendres_status find_locks(const pendres_path *w, size_t n,
         .period = v[i].turn.period, .winding = v[i].turn.winding};
   if (count == 0) return PENDRES_OK;
   const pendres_status status =
-    pendres_orbit_refine(w->ctx, count, guess, PENDRES_ORBIT_PLAIN, got, outcome);
+    pendres_orbit_find(w->ctx, count, guess, PENDRES_ORBIT_PLAIN, got, outcome);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     if (v[i].turn.motion != PENDRES_CIRCLE_LOCKED) continue;
     orbit[i] = got[k];

@@ -53,7 +53,7 @@ void pendres_path_leave(pendres_path *w);
 /* Add a jump to the results. */
 pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j);
 
-/* pendres_hysteresis_follow() for a path, from position x and velocity v. */
+/* pendres_hysteresis_find() for a path, from position x and velocity v. */
 pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hysteresis **out);
 
 #endif

@@ -21,7 +21,7 @@ static pendres_status stand_still(const pendres_path *w, double at, pendres_sett
   pendres_orbit orbit;
   pendres_status outcome;
   const pendres_status status =
-    pendres_orbit_refine(w->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome);
+    pendres_orbit_find(w->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome);
   if (status != PENDRES_OK) return status;
   *out = pendres_settled_nothing_at(&p, guess.x, 0.0);
   if (outcome != PENDRES_NOT_CONVERGED && (orbit.stable || fabs(p.torque) == 1.0))

@@ -358,8 +358,8 @@ static const pendres_ramp *open_ramp(pendres_door *d, pendres_context *ctx,
   return inside;
 }
 
-pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ramp,
-                                   const pendres_ramp_record *record, pendres_ramp_jump *jump)
+pendres_status pendres_ramp_find(pendres_context *ctx, const pendres_ramp *ramp,
+                                 const pendres_ramp_record *record, pendres_ramp_jump *jump)
 {
   pendres_door d;
   pendres_ramp inside;

@@ -207,7 +207,7 @@ static pendres_status limit_of_damping(const pendres_pendulum *p, double with, d
     if (middle == with || middle == without) break;
     const double before = o.torque, from = out->value;
     out->value = middle;
-    if (pendres_rotation_least_torque(middle, &o) != PENDRES_OK) return PENDRES_NOT_FOUND;
+    if (pendres_rotation_onset_find(middle, &o) != PENDRES_OK) return PENDRES_NOT_FOUND;
     if (middle != from && o.torque != before) slope = (o.torque - before) / (middle - from);
     if (o.torque <= fabs(p->torque)) with = middle;
     else without = middle;
@@ -226,7 +226,7 @@ pendres_status pendres_rotation_limit_between(const pendres_pendulum *p,
   if (parameter == PENDRES_DAMPING) return limit_of_damping(p, with, without, out);
   pendres_rotation_onset o;
   if (parameter != PENDRES_TORQUE) return PENDRES_NOT_FOUND;
-  const pendres_status status = pendres_rotation_least_torque(p->damping, &o);
+  const pendres_status status = pendres_rotation_onset_find(p->damping, &o);
   if (status != PENDRES_OK) return status;
   *out = (pendres_rotation_limit){
     .value = copysign(o.torque, with), .error = o.torque_error, .end = o.end};

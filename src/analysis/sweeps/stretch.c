@@ -77,7 +77,7 @@ static const pendres_branch_point *point_of(const pendres_stretch *s, size_t k)
 {
   const size_t count = pendres_branch_count(s->branch);
   if (k >= count) return NULL;
-  if (pendres_branch_end_of(s->branch, 0) == PENDRES_END_CLOSED)
+  if (pendres_branch_end_get(s->branch, 0) == PENDRES_END_CLOSED)
     return pendres_branch_get(s->branch, (s->first + (s->step > 0 ? k : count - k)) % count);
   if (s->step < 0) return k <= s->first ? pendres_branch_get(s->branch, s->first - k) : NULL;
   return pendres_branch_get(s->branch, s->first + k);
@@ -97,7 +97,7 @@ static double ahead(const pendres_stretch *s, double value, double of)
 /* How the branch ends in the direction of the stretch. */
 static pendres_branch_end branch_end(const pendres_stretch *s)
 {
-  return pendres_branch_end_of(s->branch, s->step > 0);
+  return pendres_branch_end_get(s->branch, s->step > 0);
 }
 
 /* The bifurcation that is the point after number k; NULL: it is none. */
@@ -105,7 +105,7 @@ static const pendres_bifurcation *coming(const pendres_stretch *s, size_t k)
 {
   const pendres_branch_point *p = point_of(s, k + 1);
   if (p == NULL || p->bifurcation < 0) return NULL;
-  return pendres_branch_bifurcation(s->branch, (size_t)p->bifurcation);
+  return pendres_branch_bifurcation_get(s->branch, (size_t)p->bifurcation);
 }
 
 /* Whether a point is so close to a bifurcation that its stability is a matter of rounding. */
@@ -136,7 +136,7 @@ static size_t take_stable(pendres_stretch *s, double limit)
   s->points = 1;
   for (; (p = point_of(s, k)) != NULL; k++) {
     if (p->bifurcation >= 0) {
-      met = pendres_branch_bifurcation(s->branch, (size_t)p->bifurcation);
+      met = pendres_branch_bifurcation_get(s->branch, (size_t)p->bifurcation);
       met_at = k;
       if (met->kind == PENDRES_FOLD) break;
       continue;
@@ -308,7 +308,7 @@ pendres_status pendres_stretch_arrive(pendres_context *ctx, const pendres_stretc
   const pendres_orbit_guess guess = {.pendulum = last->pendulum, .x = last->x, .v = last->v,
                                      .period = last->period, .winding = last->winding};
   const pendres_status status =
-    pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, out, &outcome);
+    pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, out, &outcome);
   if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED) *out = *last;
   return status;
 }
@@ -363,7 +363,7 @@ pendres_status pendres_stretch_orbits(pendres_context *ctx, const pendres_stretc
     guess[i].period = s->period;
     guess[i].winding = s->winding;
   }
-  status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, out, outcome);
+  status = pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, out, outcome);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     found[i] = outcome[i] != PENDRES_NOT_CONVERGED && out[i].stable &&
                out[i].period == guess[i].period && out[i].winding == guess[i].winding;
