@@ -1,12 +1,13 @@
 /*
- * bare_loop.h -- the opponent of the blocks: the same Runge-Kutta method in a plain SIMD loop.
+ * bare_loop.h -- a reference for the speed of blocks: the same Runge-Kutta method in a plain SIMD
+ * loop.
  *
  * Owns: one function, BARE_RUN, for vectors of BARE_LANES doubles; included once for each
  * instruction set, which BARE_TARGET names to the compiler. No ARKODE, no vectors in memory but the
  * slopes of one group: a group of lanes goes through all steps of all periods with its state in
- * registers and its slopes in the nearest cache, several vectors at once so that no operation waits
- * for the one before. Coefficients that are zero are left out, h is multiplied in, and the cosines
- * are known.
+ * registers and its slopes in the nearest cache, several vectors together so that no operation
+ * waits for the one before. Coefficients that are zero are left out, h is multiplied in, and the
+ * cosines are known.
  */
 #include <stddef.h>
 #include <stdint.h>

@@ -3,7 +3,7 @@
  * and ratios of times within one run.
  *
  * `make bench` names a file in BENCH_FIGURES, to which a line each is added:
- * name, value, which way is better ('<' or '>'), and the part by which it may get worse unnoticed.
+ * name, value, which way is better ('<' or '>'), and the fraction by which it may get worse.
  * compare.sh reads it. Without BENCH_FIGURES nothing is written.
  */
 #ifndef FIGURES_H

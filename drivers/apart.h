@@ -1,8 +1,8 @@
 /*
- * apart.h -- what may crash, or never end, is done in a process of its own.
+ * apart.h -- work that may crash, or never end, in a process of its own.
  *
- * Owns: reading files that may be damaged. HDF5 follows what stands in them, and may fault, end the
- * program or run in circles.
+ * Owns: reading files that may be damaged. HDF5 trusts their contents, and may fault, end the
+ * program, or loop without end.
  */
 #ifndef APART_H
 #define APART_H
@@ -10,16 +10,17 @@
 #include <sys/types.h>
 
 enum {
-  APART_FAILED = -1, /* there could be no process; errno says why */
+  APART_FAILED = -1, /* the process could not be started; errno says why */
   APART_CRASHED = -2,
   APART_ENDLESS = -3
 };
 
 /*
- * Call read(arg), which is to read a file of this size in bytes, in a process of its own that says
- * nothing on standard error and leaves the files of this run alone; its result, from 0 to 255, or
- * one of the above. What it writes to standard output it has to flush, and so has the caller
- * before. In a run with several threads only one that no other shares a lock with may call this.
+ * Call read(arg), which is to read a file of this size in bytes, in a process of its own that
+ * writes nothing to standard error and does not touch the files of this run; its result, from 0 to
+ * 255, or one of the above. What it writes to standard output it must flush, and the caller must
+ * flush before. In a run with several threads, only one that shares no lock with others may call
+ * this.
  */
 int apart(int (*read)(const void *arg), const void *arg, off_t bytes);
 

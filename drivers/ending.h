@@ -1,39 +1,38 @@
 /*
  * ending.h -- an orderly end where a library ends the program in the middle of a run.
  *
- * Owns: what happens at exit() and at faults, and that GSL returns where it gets no memory. HDF5
- * (1.10) calls exit() where it gets no memory for one of its handles, follows null pointers
- * elsewhere, and may fault while it is closed after such a failure. GSL and SUNDIALS: see
- * pendres/status.h. An exit() in the middle of a run becomes exit code 1, with a line that says
- * so, and so does a fault in a library's code: for want of memory HDF5 (1.10) follows null
- * pointers, or calls itself without end until the stack overflows, and SUNDIALS (6.4) follows null
- * pointers. A fault in the program's own code stays one, since it is an error of this program, but
- * leaves no part file and says so; a fault when the run is over changes nothing of its exit code.
- * A stack that overflows on another thread than that of ending_watch() ends the program as before,
- * without a word. Like signals.h, state that is not passed around: such functions have no
- * arguments.
+ * Owns: what happens at exit() and at faults, and that GSL returns when it gets no memory. Without
+ * memory HDF5 (1.10) calls exit(), dereferences null pointers, recurses until the stack overflows,
+ * or faults while it is closed afterwards; SUNDIALS (6.4) dereferences null pointers (see also
+ * pendres/status.h). An exit() in the middle of a run, and a fault in a library's code, become exit
+ * code 1 with a message. A fault in the program's own code stays a fault, since it is an error of
+ * this program, but leaves no part file, and is reported; a fault after the end of the run does not
+ * change its exit code. A stack overflow on a thread other than that of ending_watch() ends the
+ * program without a message. As in signals.h, the state is not passed around, since handlers have
+ * no arguments.
  */
 #ifndef ENDING_H
 #define ENDING_H
 
 #include <pendres/store.h>
 
-/* From now on; *store, when it is not NULL, is being written. Before each deck, with the
-   same place, on any thread; *store must live until the end. 0, or -1 if the system refuses. */
+/* Handle such ends from now on; *store, when it is not NULL, is being written. To be called before
+   each deck, with the same address, on any thread; *store must exist until the end. 0, or -1 if the
+   system refuses. */
 int ending_watch(pendres_store *const *store);
 
-/* The file of results is whole, in its place, as will be said of such an end; until the next call
-   of ending_watch(). */
+/* The file of results is complete and in its place, which the message about such an end will say;
+   valid until the next call of ending_watch(). */
 void ending_whole(void);
 
-/* The exit code is known, and all has been said. */
+/* The exit code is known, and all messages have been written. */
 void ending_told(int code);
 
-/* *store is gone: exit() is main's own. */
+/* *store has been freed: exit() is called by main itself from now on. */
 void ending_done(void);
 
-/* In a process that was forked: what it does and how it ends is no matter of the run. Faults and
-   exits are the system's again, and *store is left alone. */
+/* To be called in a forked process, whose end does not concern the run: faults and exits are
+   handled by the system again, and *store is not touched. */
 void ending_forget(void);
 
 #endif

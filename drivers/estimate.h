@@ -1,13 +1,13 @@
 /*
- * estimate.h -- what a run will take, told before it is begun.
+ * estimate.h -- time, memory and size of the output of a run, before it is begun.
  *
- * Owns: the rules for memory and for the size of the output, of which each scene tells its own
- * (scene_size), and what --dry-run says of time. Rules were measured on the decks of input/ and
- * are meant to be right within a factor of two there; what depends on the answers, as how often a
- * pendulum has to go round until it settles and how many neighbours of a grid differ, is found by
- * computing a little of the run (farm/trial.h). Where that ends in the middle of a task the time is
- * told as the least that there is: as if no task took longer than what was seen of that one, and by
- * a rule that knows the damping, whichever is more.
+ * Owns: the rules for memory and for the size of the output, to which each scene contributes its
+ * own (scene_size), and the time that --dry-run reports. The rules were measured on the decks of
+ * input/, where they should be correct within a factor of two. What depends on the results, such as
+ * the number of periods until pendulums settle and the number of neighbours in a grid that differ,
+ * is found by computing a small part of the run (farm/trial.h). If that ends in the middle of a
+ * task the reported time is a lower bound: the larger of two values, one as if no task took longer
+ * than the part of that one, the other from a rule that depends on the damping.
  */
 #ifndef ESTIMATE_H
 #define ESTIMATE_H
@@ -24,9 +24,9 @@ void estimate_print(const deck *d, const farm_trial *t, double outside, int thre
 /* A line on free space in the folder of `path`. */
 void estimate_print_space(const char *path, FILE *out);
 
-/* Tell where the disk will not hold the output; the run goes on, since an estimate is no
-   measure. 0, after an error that says so, where the machine has less memory than the rules tell
-   that the run needs; else 1. */
+/* Warn if the output will not fit on the disk; the run continues, since this is only an estimate.
+   0, after an error message, if the machine has less memory than the rules say that the run needs;
+   otherwise 1. */
 int estimate_fits(const deck *d, const farm *f, progress *p);
 
 #endif

@@ -10,14 +10,14 @@
 #include "deck/deck.h"
 #include "terminal/progress.h"
 
-/* Are the two names one file, there already or to be made? */
+/* Whether the two names are one file, existing or to be made. */
 int files_same(const char *one, const char *other);
 
 /* 0, or 2 after an error that says which would be overwritten. log may be NULL. */
 int files_check(const deck *d, const char *log, progress *p);
 
-/* 0, or 1 after an error that says why nothing can be written where the output goes: to be known
-   without making a file there. */
+/* 0, or 1 after an error that says why nothing can be written where the output goes; makes no file
+   there. */
 int files_writable(const deck *d, progress *p);
 
 /* A file that is about to be replaced, and the name under which it is kept; all zero: none. */
@@ -26,10 +26,10 @@ typedef struct files_kept {
 } files_kept;
 
 /*
- * If the output is there and holds anything but results of this very deck (as resolved, so that the
- * same results would be computed again), give it the name OUTPUT.~1~, or the next one that is free.
- * To be called just before the output is replaced, and files_keep_end after that: `replaced` tells
- * whether it was. 0, or 1 after an error: then it must not be replaced.
+ * If the output exists and holds anything other than results of the same deck (as resolved, so that
+ * the same results would be computed again), rename it to OUTPUT.~1~ or the next name that is free.
+ * To be called just before the output is replaced; afterwards files_keep_end is called with
+ * `replaced` nonzero if it was. 0, or 1 after an error: then it must not be replaced.
  */
 int files_keep(const deck *d, files_kept *kept, progress *p);
 void files_keep_end(files_kept *kept, int replaced, progress *p);

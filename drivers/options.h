@@ -1,8 +1,8 @@
 /*
  * options.h -- the command line.
  *
- * Owns: names and checks of options. What is computed stands in the deck and in the keys set beside
- * it; options say how, and where the result goes.
+ * Owns: names and checks of options. The deck, and keys set on the command line, say what is
+ * computed; options say how, and where the result goes.
  */
 #ifndef OPTIONS_H
 #define OPTIONS_H
@@ -14,7 +14,7 @@ typedef enum options_action {
   OPTIONS_DRY_RUN,       /* check the deck and say what would be computed */
   OPTIONS_DUMP_NAMELIST, /* print the resolved deck */
   OPTIONS_LIST,          /* name the kinds of scenes */
-  OPTIONS_EXPLAIN,       /* tell all about a kind, group or key */
+  OPTIONS_EXPLAIN,       /* describe a kind, group or key */
   OPTIONS_INIT,          /* print a deck to start from */
   OPTIONS_REFERENCE,     /* print the page docs/decks.md */
   OPTIONS_VERIFY,        /* read files of results */
@@ -36,10 +36,10 @@ typedef struct options {
   int merge;            /* put shards together */
   const char *journal; /* its folder; NULL: the output's */
   int csv;            /* nonzero: results as text, too */
-  int force;          /* nonzero: an output that is there is not kept */
+  int force;          /* nonzero: an existing output is not kept */
   const char *log;    /* NULL: none */
   const char *word;   /* of --explain and --init */
-  double budget;      /* processor seconds a point; 0: as many as it takes */
+  double budget;      /* processor seconds per point; 0: no limit */
   int threads;        /* of --threads or OMP_NUM_THREADS; 0: all cores */
   int quiet;
 } options;
@@ -47,7 +47,7 @@ typedef struct options {
 /* 0, or 2 after a message on stderr. Puts argv into order. Not thread safe (getopt). */
 int options_parse(int argc, char **argv, options *out);
 
-/* 0 if all that went to the stream arrived, or 1 after a message. */
+/* 0 if everything sent to the stream was written, or 1 after a message. */
 int options_written(FILE *out);
 
 /* What --help and --version print; 0, or 1 if that could not be written. */

@@ -2,8 +2,8 @@
  * provenance.h -- where a file of results comes from and what it cost.
  *
  * Owns: the group `provenance`: the deck verbatim and as resolved, versions, host, threads, seed,
- * times and counts. All that changes from run to run is here, and nowhere else in the file but for
- * the date in the root's `history`.
+ * times and counts. Everything that changes from run to run is here; nothing else in the file does,
+ * except for the date in the root's `history`.
  */
 #ifndef PROVENANCE_H
 #define PROVENANCE_H

@@ -1,5 +1,5 @@
 /*
- * shard.h -- which part of a run is computed here.
+ * shard.h -- the part of a run that this program computes.
  *
  * Owns: what --shard means, with the variables of arrays of jobs (Slurm, Grid Engine, PBS), and the
  * names of the parts' files.
@@ -11,14 +11,14 @@
 
 enum { SHARD_MOST = 1000000, SHARD_NAME = 32 };
 
-/* "3/8", "auto" or "auto/8" as number *shard, from 1, of *shards. 0 and words[size] if it is none,
-   or there is no array of jobs. */
+/* Read "3/8", "auto" or "auto/8" as number *shard, from 1, of *shards. 0, with a message in
+   words[size], if it has none of these forms, or there is no array of jobs. */
 int shard_parse(const char *text, size_t *shard, size_t *shards, char *words, size_t size);
 
 /* ".3-of-8": what the names of a part's files end in, before ".journal" or ".part". */
 void shard_suffix(size_t shard, size_t shards, char suffix[SHARD_NAME]);
 
-/* Is `name` a part's journal beside the file `base`? Both without a folder. */
+/* Whether `name` is the journal of a part beside the file `base`; both without a folder. */
 int shard_is_journal(const char *name, const char *base);
 
 #endif

@@ -19,31 +19,31 @@ typedef struct progress {
   int quiet;
   int terminal;      /* nonzero: draw a bar */
   char what[48];     /* are counted */
-  size_t total;      /* 0: nothing under way */
+  size_t total;      /* 0: nothing is counted at present */
   size_t before;     /* were done at the start */
   int percent;       /* shown last */
-  char name[120];    /* of what has been at work for the longest; "": not known */
-  double since;      /* that it is, seconds */
-  int width;         /* of the bar's line as it stands; 0: none */
-  double start, drawn, spoken; /* seconds: of what is under way, of the bar, of the last line */
-  double every;      /* seconds after which a line comes in any case */
+  char name[120];    /* of what has been running for the longest time; "": not known */
+  double since;      /* that time, seconds */
+  int width;         /* of the bar's present line; 0: none */
+  double start, drawn, spoken; /* times in seconds: of the start, of the bar, of the last line */
+  double every;      /* seconds after which a line is written in any case */
 } progress;
 
 /* A progress without a log; the stream decides between bar and lines. */
 void progress_init(progress *p, FILE *stream, int quiet);
 
-/* `total` things called `what` are to be done, of which `done` are already; `done` of them are; no
-   more follow. */
+/* Begin: `total` items called `what`, of which `done` are done already. Report that `done` are
+   done. End. */
 void progress_start(progress *p, const char *what, size_t total, size_t done);
 void progress_step(progress *p, size_t done);
 void progress_end(progress *p);
 
-/* To be called now and then while `done` of them are: where there was no line for five minutes one
-   says so, and what has been at work for the longest, `name`, for so many seconds; a bar has it
-   always. */
+/* To be called now and then while `done` items are done. If there was no line for five minutes, one
+   is written, with the name of what has been running for the longest time and its seconds; a bar
+   always shows these. */
 void progress_tick(progress *p, size_t done, const char *name, double seconds);
 
-/* A line on the run; an error. A line break is added. */
+/* A message about the run; an error message. A line break is added. */
 void progress_note(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void progress_error(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -2,8 +2,9 @@
  * signals.h -- how a run is stopped from outside.
  *
  * Owns: the handlers of TERM, INT, HUP, USR1, USR2 and XCPU, which terminals and batch systems send
- * before they kill, and the flag that they set. A second one, a fifth of a second or more after the
- * first, ends the program at once, as if there were no handlers; but not XCPU, which is repeated.
+ * before they kill, and the flag that they set. A second signal, a fifth of a second or more after
+ * the first, ends the program immediately, as if there were no handlers, except for XCPU, which is
+ * repeated.
  * PIPE and XFSZ are ignored, so that a closed pipe
  * and a limit on file sizes become errors of writing, which are reported. The flag is, with that
  * of ending.h, the only state of the program that is not passed around: a handler has no arguments.

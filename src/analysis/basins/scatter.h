@@ -4,12 +4,12 @@
  * Owns: covariances from differences between consecutive groups, and the exponent of the shares of
  * uncertain states as a function of distance.
  *
- * A grid is no random sample: what changes slowly over its rows is known well, and only differences
- * between neighbouring groups of rows are scatter. It is taken from second differences between
- * groups, which leave out a trend. As measured on grids that were shifted by parts of a step, such
- * errors are 0.8 to 2 times the scatter; for independent groups they are the usual ones. Source:
- * Wolter, Introduction to Variance Estimation, 2nd edition (2007), section 8.2, on systematic
- * samples.
+ * A grid is not a random sample: slow changes over its rows are sampled well, and only differences
+ * between neighbouring groups of rows are scatter. It is estimated from second differences between
+ * groups, which eliminate a trend. As measured on grids that were shifted by fractions of a step,
+ * such errors are 0.8 to 2 times the scatter; for independent groups they are the usual ones.
+ * Source: Wolter, Introduction to Variance Estimation, 2nd edition (2007), section 8.2, on
+ * systematic samples.
  */
 #ifndef PENDRES_BASIN_SCATTER_H
 #define PENDRES_BASIN_SCATTER_H
@@ -26,8 +26,8 @@ enum {
 typedef struct pendres_scatter {
   size_t groups;
   double total[PENDRES_SCATTER_QUANTITIES];
-  /* The caller's: of the counts at each distance, those in which an end is uncertain, whom errors
-     move to and fro across boundaries, and those in which it is not known at all. */
+  /* Set by the caller: of the counts at each distance, those with an uncertain outcome, which
+     errors move across boundaries either way, and those with an unknown one. */
   double uncertain[PENDRES_BASIN_SCALES], unknown[PENDRES_BASIN_SCALES];
   double last[2][PENDRES_SCATTER_QUANTITIES]; /* the two groups before */
   double square[PENDRES_SCATTER_QUANTITIES][PENDRES_SCATTER_QUANTITIES]; /* of differences */
@@ -44,10 +44,9 @@ double pendres_scatter_variance(const pendres_scatter *s, const double *weight);
  * The exponent alpha in f ~ distance^alpha over the smallest distances that are usable, from totals
  * of uncertain states and the numbers tried; NaN if fewer than three are.
  *
- * Its error is made of the scatter, and of what slopes between neighbouring distances differ by
- * beyond their scatter, since a power law holds only within limits, and of what is uncertain or
- * not known. From the smallest distance on,
- * as many are used as make that error least.
+ * Its error consists of the scatter, of the differences between slopes at neighbouring distances
+ * beyond their scatter, since a power law holds only within limits, and of the uncertain and
+ * unknown states. The number of distances used, from the smallest on, is that with the least error.
  */
 void pendres_scatter_exponent(const pendres_scatter *s, int scales, const double *distance,
                               const double *tried, double *exponent, double *error);

@@ -55,7 +55,7 @@ typedef struct pendres_phase_family {
   size_t first;            /* the first bifurcation of the family */
   pendres_curves *curves;  /* NULL: not taken yet */
   size_t end;              /* the bifurcation that `mark` is about */
-  pendres_phase_mark mark; /* why it was not gone on with */
+  pendres_phase_mark mark; /* why it was not continued */
 } pendres_phase_family;
 
 struct pendres_phase_diagram {
@@ -78,7 +78,7 @@ struct pendres_phase_diagram {
 };
 
 /* Whether a failure is caused by the parameters, and not by the machine or the caller: the rest of
-   the diagram is then computed all the same. */
+   the diagram is then computed nevertheless. */
 int pendres_phase_is_own(pendres_status status);
 
 /* Gather the bifurcations of all lines. *families receives how many families they form, 0 if there

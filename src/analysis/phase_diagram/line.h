@@ -52,7 +52,7 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
  * Complete a line by curves of bifurcations that were followed from other lines. Where such a
  * curve crosses the line at a fold or a symmetry breaking of orbits that can be SA or LA, and the
  * line's branches have no such bifurcation there, the branch through it is added and the points are
- * judged anew. A branch that no member of this line reaches is found in this way if one of the
+ * classified again. A branch that no member of this line reaches is found in this way if one of the
  * curves bounds it, and stays unknown otherwise. Members are computed once more only where the fold
  * at which SA ends was unknown.
  *

@@ -11,15 +11,16 @@
 
 typedef enum pendres_gap_kind {
   PENDRES_GAP_PLAIN, /* the members keep their states, and the mean rises or falls */
-  PENDRES_GAP_PEAK,  /* they keep them, and it rises first and falls then */
-  PENDRES_GAP_JUMP   /* a state comes or goes, or a member changes its state */
+  PENDRES_GAP_PEAK,  /* they keep them, and it first rises and then falls */
+  PENDRES_GAP_JUMP   /* a state appears or ends, or a member changes its state */
 } pendres_gap_kind;
 
 typedef struct pendres_gap {
   pendres_gap_kind kind;
   double width;
   double bound;  /* no mean area within exceeds this */
-  int loose;     /* the bound allows for members beside a basin boundary that seem to stay */
+  int loose;     /* the bound allows for members near a basin boundary that appear to keep their
+                    states */
   int mixed;     /* members change to larger areas and to smaller ones */
 } pendres_gap;
 

@@ -10,8 +10,8 @@
 typedef struct pendres_scan_point {
   pendres_response response; /* its states have their slopes by frequency */
   double slope;              /* d(mean loop area)/domega with the members' states held */
-  int jump_to_next;          /* there is a jump before the next point, whatever the states say */
-  int fold_sought;           /* the gap to the next point was searched for a fold already */
+  int jump_to_next;          /* there is a jump before the next point, even if the states agree */
+  int fold_sought;           /* the gap to the next point was already searched for a fold */
   int at_fold;               /* not 0: the point is at a fold, on the side without the state that
                                 ends there, which exists at lower (-1) or higher (1) omega; or at
                                 a kink, and belongs to what is on the other side */
@@ -56,13 +56,13 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
                                            const pendres_scan_point *a,
                                            const pendres_scan_point *b, pendres_scan_fold *out);
 
-/* Where a state loses its mirror symmetry: the mean area goes on, and its slope jumps. */
+/* Where a state loses its mirror symmetry: the mean area is continuous, and its slope jumps. */
 typedef struct pendres_scan_kink {
   int found;                /* 0: there is none */
   pendres_scan_point at[2]; /* with the states on the lower side, and those on the upper one */
 } pendres_scan_kink;
 
-/* The kink between a and b that the states of both tell of, if there is one. */
+/* The kink between a and b that follows from the states of both, if there is one. */
 pendres_status pendres_resonance_find_kink(pendres_context *ctx, const pendres_scan_point *a,
                                            const pendres_scan_point *b, pendres_scan_kink *out);
 

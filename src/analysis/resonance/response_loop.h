@@ -1,8 +1,8 @@
 /*
  * response_loop.h -- the loop averaged over an ensemble where its harmonics are many.
  *
- * Owns: averages of loops that are computed anew. Orbits keep 24 harmonics, and those of a slow
- * drive have hundreds that matter.
+ * Owns: averages of loops that are computed again. Orbits keep 24 harmonics, but with a slow drive
+ * hundreds of them are significant.
  */
 #ifndef PENDRES_RESPONSE_LOOP_H
 #define PENDRES_RESPONSE_LOOP_H

@@ -16,7 +16,7 @@ void pendres_response_sample(const pendres_ensemble *e, const signed char *where
 /* The same with a share that is known, for a response that has none yet. */
 void pendres_response_widen(pendres_response *r, double sampling);
 
-/* Whether a motion turns over again and again: it has no amplitude and no loop. */
+/* Whether a motion rotates: it then has no amplitude and no loop. */
 int pendres_response_running(const pendres_attractor *a);
 
 #endif

@@ -39,7 +39,7 @@ typedef struct pendres_search {
   enum { PENDRES_SCAN_COARSE, PENDRES_SCAN_LEVELS, PENDRES_SCAN_DONE } stage;
   size_t cuts, stride;           /* of the first scan's finer part: every stride-th at a time */
   double cut[PENDRES_SEARCH_CUTS];
-  size_t wishes;                 /* frequencies to be looked at next */
+  size_t wishes;                 /* frequencies to be evaluated next */
   double wish[PENDRES_SEARCH_POINTS];
 } pendres_search;
 
@@ -60,7 +60,7 @@ double pendres_scan_frequency(const pendres_scan_point *p);
  */
 pendres_status pendres_search_add(size_t n, pendres_search *const *s);
 
-/* Sort a point in whose members are where those of `like` are; room is not checked. */
+/* Insert a point whose members are on the same states as those of `like`; room is not checked. */
 pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point *point,
                                      const pendres_scan_point *like);
 
@@ -77,8 +77,8 @@ int pendres_search_ended(const pendres_search *s);
 /* The width over which a response may change at a frequency, that of a resonance there. */
 double pendres_search_width(const pendres_pendulum *p, double omega);
 
-/* Ask for the next frequencies of the first scan, which is coarse at first and in the end as fine
-   as the damping demands. If it asks for none, it is done. */
+/* Request the next frequencies of the first scan, which is coarse at first and finally as fine as
+   the damping requires. If it requests none, it is complete. */
 pendres_status pendres_search_scan(pendres_search *s);
 
 #endif

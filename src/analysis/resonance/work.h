@@ -11,7 +11,7 @@
 #include "analysis/resonance/gap.h"
 #include "analysis/resonance/search.h"
 
-/* A gap that was looked at, and what it was looked at with: points are known by their members. */
+/* A gap that was examined, with its points, which are identified by their members. */
 typedef struct pendres_known_gap {
   pendres_gap gap;
   const signed char *from, *to;
@@ -21,7 +21,7 @@ typedef struct pendres_known_gap {
 /* A search with its gaps. */
 typedef struct pendres_resonance_work {
   pendres_search s;
-  size_t gaps;              /* that were looked at last */
+  size_t gaps;              /* that were examined last */
   pendres_known_gap *known; /* known[i] lies between points i and i + 1 */
 } pendres_resonance_work;
 
