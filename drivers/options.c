@@ -269,7 +269,7 @@ int options_parse(int argc, char **argv, options *out)
   int option = 0;
 
   *out = (options){ .action = OPTIONS_RUN };
-  optind = 0; /* start anew, also the second time */
+  optind = 0; /* start again, also the second time */
   while ((option = getopt_long(argc, argv, "no:ft:qhV", table, NULL)) != -1) {
     const int code = apply(option, optarg, name, out);
     if (code != 0) return code;

@@ -10,7 +10,7 @@
  *         tests/golden.h
  *
  * (some ten seconds). The output is the same on every run. Numbers are kept although
- * they could be computed anew in a test, so that a mistake made later in reference.c shows.
+ * they could be computed again in a test, so that a mistake made later in reference.c shows.
  *
  * How many digits are right: the same code in 113 bit arithmetic gave, as largest differences,
  * relative, 1e-15 (states after 100 periods where growth is largest), 1e-18 (measures of orbits,

@@ -60,7 +60,7 @@ static double distance_from_boundary(pendres_context *ctx, const pendres_attract
   return INFINITY;
 }
 
-/* N x N states at a tolerance against 1e-12, where attractors are found anew: at most so many may
+/* N x N states at a tolerance against 1e-12, where attractors are found again: at most so many may
    differ, all of them so near to a boundary. */
 static void check_labels(double tolerance, size_t most, double near)
 {

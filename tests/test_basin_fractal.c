@@ -69,7 +69,7 @@ static int fate_by_reference(double x, double v)
 
 /*
  * The uncertainty exponent, and a share that it is made of once more by another way: random states
- * integrated by the reference for 140 periods and told apart by their turns, with nothing of
+ * integrated by the reference for 140 periods and distinguished by their turns, with nothing of
  * trapping ellipses or orbits.
  */
 static void uncertainty_exponent(void **state)

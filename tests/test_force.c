@@ -3,7 +3,7 @@
  * Josephson junction.
  *
  * References: oracle.h (extrapolated midpoint rule in long double; its force is written out there
- * anew), and linear response. Kernels are in test_kernels.c.
+ * again), and linear response. Kernels are in test_kernels.c.
  */
 #include <pendres/pendres.h>
 

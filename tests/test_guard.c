@@ -85,7 +85,7 @@ static void contexts_in_use_are_refused(void **state)
   }
 }
 
-/* Where the library makes a second context for itself, the first is in use all the same. */
+/* Where the library makes a second context for itself, the first is in use nevertheless. */
 static void second_contexts_ask_for_the_first(void **state)
 {
   const pendres_options o = {.method = PENDRES_BLOCK_ADAPTIVE, .tolerance = 1e-6};

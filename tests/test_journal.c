@@ -140,7 +140,7 @@ static void comes_back(void **state)
   assert_int_equal(journal_open(path, head, 1, &again, words), PENDRES_BUSY);
   assert_null(again);
   journal_close(j);
-  /* Without resume it begins anew, and the older one is kept, and told, whatever becomes of the
+  /* Without resume it starts again, and the older one is kept, and told, whatever becomes of the
      new one; so is a user's file. One without records leaves nothing. */
   save("run.journal.~1~", (const unsigned char *)"my poems", 8);
   check_ok(journal_open(path, head, 0, &j, words));
@@ -322,7 +322,7 @@ static void forged_numbers(void **state)
   assert_int_equal(r.size, 7);
   free(r.data);
   journal_remove(j);
-  /* Stages are told apart by what they are. */
+  /* Stages are distinguished by what they are. */
   const uint64_t number = journal_stage(2, "lines", 8, 100);
   assert_true(number == journal_stage(2, "lines", 8, 100));
   assert_true(number != journal_stage(3, "lines", 8, 100));

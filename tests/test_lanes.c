@@ -378,7 +378,7 @@ static void model_slope(const model *m, const pendres_coefficients *k, int from,
   }
 }
 
-enum { VECTORS = 70, USED = 8 }; /* more vectors than the tape can tell apart */
+enum { VECTORS = 70, USED = 8 }; /* more vectors than the tape can distinguish */
 
 static void random_operation(block *b, const model *m, N_Vector *v, const int *used)
 {

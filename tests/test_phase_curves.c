@@ -131,7 +131,7 @@ static void curves_change_nothing_else(void **state)
 }
 
 /* Where LA goes on below SA's fold, its branch alone does not show that there are two states: at
-   high frequencies its members are LA all the same. */
+   high frequencies its members are LA nevertheless. */
 static void curves_tell_where_sa_ends(void **state)
 {
   (void)state;

@@ -83,7 +83,7 @@ static void maps(void **state)
   }
 }
 
-/* Orbits of the library, closed anew: what the drives and the torque give, friction takes. */
+/* Orbits of the library, closed again: what the drives and the torque give, friction takes. */
 static void orbits(void **state)
 {
   pendres_context *ctx = context_with(NULL);

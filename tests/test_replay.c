@@ -1,7 +1,7 @@
 /*
  * test_replay.c -- periods that are repeated from a recording give the same bytes as ARKODE's own.
  *
- * A context that is made anew for every period has no recording, so that ARKODE computes each of
+ * A context that is made again for every period has no recording, so that ARKODE computes each of
  * them; in a context that is kept ARKODE computes two of each kind. All bytes must be the same.
  */
 #include "check.h"

@@ -95,7 +95,7 @@ static void figures_are_plausible(void **state)
       }
       assert_true(least[k] >= 0.1);
       /* At 1e-4 the runs of a member that passes a saddle slowly are a tenth of a radian apart for
-         some periods: they have lost each other, and that they meet again later proves nothing. */
+         some periods: they have separated, and that they meet again later proves nothing. */
       if (m == ADAPTIVE && t == TOLERANCES - 1 && isinf(estimate[k])) continue;
       assert_true(estimate[k] > 0.1 * e100[k] && estimate[k] < 3.0 * e100[k]);
     }

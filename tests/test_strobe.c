@@ -163,7 +163,7 @@ static void test_errors_are_honest(void **state)
 /*
  * Two runs that end side by side by chance. In the first four steps are few, and a run with 1.4
  * times as many is off by as much (claims 0.31, 0.76, 0.88 and 0.87 of the error); in the others
- * the runs lose each other in a chaotic transient and meet again on one attractor, while the
+ * the runs separate in a chaotic transient and meet again on one attractor, while the
  * pendulum is on another or turns behind: claims of 1e-6 where the error is one of radians. In the
  * last three friction limits adaptive steps, and a smaller tolerance does not shorten them: claims
  * of 0.71, 0.67 and 0.53 of the error.

@@ -54,8 +54,8 @@ static void test_reference(void **state)
 }
 
 /*
- * Two runs that have lost each other and meet again, v to 9 digits, on a running state that the
- * truth does not follow: from where they lost each other on, neither x nor v is known.
+ * Two runs that have separated and meet again, v to 9 digits, on a running state that the
+ * truth does not follow: from where they separated on, neither x nor v is known.
  */
 static void test_lost_for_good(void **state)
 {

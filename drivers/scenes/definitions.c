@@ -79,7 +79,7 @@ static const struct { const char *name, *definition, *no_angle; } definitions[] 
 
 /* ---- where x is no angle ---- */
 
-/* Whether a variable is an angle all the same. */
+/* Whether a variable is an angle nevertheless. */
 static int is_phase(const char *name)
 {
   return strstr(name, "phase") != NULL;

@@ -18,7 +18,7 @@ static double number_at(const pendres_orbit *o, size_t offset)
   return number;
 }
 
-/* What is exact is rounded all the same, in the three operations and the constant of a work. */
+/* What is exact is rounded nevertheless, in the three operations and the constant of a work. */
 static double error_of(const pendres_orbit *o, const pendres_orbit_quantity *q)
 {
   return q->error == PENDRES_ORBIT_EXACT ? 2.0 * eps * fabs(number_at(o, q->value))

@@ -160,7 +160,7 @@ static scene_response_row row_of(const pendres_response *p)
 }
 
 /* States that are alone at a point have their names from the others of its line: the record is the
-   line's points anew. */
+   line's points again. */
 static pendres_status name_states(const void *arg, size_t task, pendres_context *ctx,
                                   farm_record *out)
 {

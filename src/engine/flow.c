@@ -42,7 +42,7 @@ static int count_steps(pendres_flow *flow, int steps)
 /*
  * ERKStep before SUNDIALS 6.7 takes every table whose last node is 1 as
  * first-same-as-last and reuses a wrong stage. A step-postprocess function makes
- * it evaluate the slope anew.
+ * it evaluate the slope again.
  */
 static int after_step(sunrealtype theta, N_Vector y, void *arg)
 {

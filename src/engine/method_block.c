@@ -143,7 +143,7 @@ const pendres_method_functions pendres_method_block_fixed = {.fixed_steps = 1, .
 
 /* ---- block_adaptive ------------------------------------------------------------------------- */
 
-/* Adaptive steps go on from the step before: in a block that is made anew for each run, nothing
+/* Adaptive steps go on from the step before: in a block that is made again for each run, nothing
    depends on what the context did before. */
 static pendres_status run_adaptive(pendres_context *ctx, const pendres_strobe_job *job)
 {

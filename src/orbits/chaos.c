@@ -17,7 +17,7 @@ enum {
   SUSPECTS = 16,         /* lanes that are tested first ... */
   SUSPECT_PERIODS = 128, /* ... over this number of periods */
   REPLICAS = 64,         /* replicas that are followed, once they have separated */
-  WARM_UP = 200,         /* periods in which they lose each other */
+  WARM_UP = 200,         /* periods in which they separate */
   ATTEMPTS = 3,          /* to send out replicas, while some leave the chaotic set immediately */
   BATCHES = 16,          /* that a replica's periods are parted into, an even number */
   BATCH = 120,           /* periods of a batch, at first. Replicas may visit the bands of an
@@ -136,9 +136,9 @@ static size_t trapped_replicas(const ensemble *v)
 }
 
 /*
- * Start replicas around the suspect and let them lose each other. If some of them are in a
+ * Start replicas around the suspect and let them separate. If some of them are in a
  * trapping ellipse then, the suspect may have stood at the edge of the basin of chaos, and
- * replicas start anew around one that has stayed. *together is 1 if none of them has left in the
+ * replicas start again around one that has stayed. *together is 1 if none of them has left in the
  * end.
  */
 static pendres_status send_out(pendres_context *ctx, pendres_attractor_set *c,

@@ -71,7 +71,7 @@ static pendres_status choose_steps(pendres_context *ctx, size_t n, const double 
 /*
  * A clock that runs on from period to period is rounded at each step, by up to half a unit of its
  * last place. Errors that have not faded add up at random, from some hundred steps a period. The
- * state's own rounding is far below. A block's clock starts anew each period.
+ * state's own rounding is far below. A block's clock starts again each period.
  */
 static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p, long periods)
 {
@@ -102,7 +102,7 @@ static double error_of(double apart, double noise, const pendres_strobe_lane *l)
 /* ---- runs beside each other ------------------------------------------------------------------ */
 
 /*
- * The strobes at which a better run is compared with the first. Runs that lose each other on the
+ * The strobes at which a better run is compared with the first. Runs that separate on the
  * way may meet again at the end, both on an attractor that the pendulum itself never comes to, so
  * they are compared at each strobe, and advanced by turns, a stretch of periods at a time. Methods
  * that choose their own steps would choose others if they were stopped: their whole run is one
@@ -115,7 +115,7 @@ typedef struct stretch {
   long every;        /* counted from its end, every `every`-th strobe is compared */
   size_t slots;      /* strobes of a lane that are compared in a stretch */
   pendres_coordinates *at; /* n * slots: where the first run was */
-  double *apart;     /* n: distances at the end; infinite once two runs have lost each other */
+  double *apart;     /* n: distances at the end; infinite once two runs have separated */
 } stretch;
 
 enum { MOST_COMPARED = 64 };

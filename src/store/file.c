@@ -259,7 +259,7 @@ pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole)
   if (fsync(file->fd) && errno != EINVAL)
     return file_failed(file, "write", file->part, file->error = errno);
   *whole = 1;
-  /* The file is renamed while it is still locked: nobody can take the name in between. */
+  /* The file is renamed while it is still locked: no other process can take the name in between. */
   if (rename(file->part, file->path))
     return file_fail(file, "cannot rename '%s' to '%s': %s; the results are whole in the former",
                      file->part, file->path, strerror(errno));

@@ -66,7 +66,7 @@ static char *read_link(const char *path)
 }
 
 /* Whether the name belongs to the system. It may lead to a plain file, as /dev/stdout does, which
-   is then a stream all the same. */
+   is then a stream nevertheless. */
 static int is_stream(const char *path)
 {
   const size_t length = folder_length(path);

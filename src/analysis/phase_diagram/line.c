@@ -17,7 +17,7 @@ enum { MOST_CROSSINGS = 16 };
 
 /* ---- by the ensemble ---- */
 
-/* Whether SA and LA are told apart at a point with these states. */
+/* Whether SA and LA are distinguished at a point with these states. */
 static int distinct(const pendres_small_end *end, const pendres_label_states *s)
 {
   return end->known || s->count > 1;
@@ -109,7 +109,7 @@ static void judge_amplitudes(const pendres_small_end *end, const pendres_label_s
 }
 
 /* Whether all states that can be SA or LA are known at a point: both of them, or the one that
-   exists beyond the fold at which SA ends, or the only one where the two are not told apart. */
+   exists beyond the fold at which SA ends, or the only one where the two are not distinguished. */
 static int enough(const pendres_small_end *end, const pendres_label_states *s,
                   const pendres_phase_point *p)
 {
@@ -408,7 +408,7 @@ static pendres_status judge_again(line *l, size_t n, size_t first,
   return status;
 }
 
-/* Judge all points anew, since the fold at which SA ends has become known. */
+/* Judge all points again, since the fold at which SA ends has become known. */
 static pendres_status compute_again(const line *l, size_t n, pendres_phase_point *points,
                                     pendres_branches *branches)
 {

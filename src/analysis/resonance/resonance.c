@@ -16,7 +16,7 @@
 /*
  * What one search may cost. Several that go side by side may cost as much together: it is not known
  * which of them has spent how much of the common budget, but none can have spent more than it would
- * have alone. When it is spent, those that have not ended begin anew, each with a budget of its
+ * have alone. When it is spent, those that have not ended start again, each with a budget of its
  * own.
  */
 static const double most_work = 30.0;
@@ -160,7 +160,7 @@ static pendres_status step(pendres_context *ctx, const party *p, struct seeker *
 }
 
 /* Go on until all searches have ended, or the budget is spent, or an evaluation fails. That is due
-   to one of them, which will be told when it is begun anew alone. */
+   to one of them, which will be told when it is started again alone. */
 static pendres_status go_together(pendres_context *ctx, party *p)
 {
   for (;;) {

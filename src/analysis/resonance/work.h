@@ -43,7 +43,7 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
                                              pendres_resonance *out);
 
 /* pendres_resonance_find_many; what searches side by side may cost together before they are begun
-   anew one by one. */
+   again one by one. */
 pendres_status pendres_resonance_find_together(pendres_context *ctx, size_t n,
                                                pendres_resonance_search *searches,
                                                const pendres_ensemble *ensemble,
