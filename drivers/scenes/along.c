@@ -19,7 +19,7 @@ typedef struct request {
   const char *start;
   size_t found; /* how many attractors there are */
   char *why;    /* says what is wrong, in ... */
-  size_t size;  /* ... so many bytes */
+  size_t size;  /* ... this number of bytes */
 } request;
 
 static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, request *r,

@@ -15,7 +15,7 @@
 #include "scenes/points.h"
 
 enum {
-  STATES_A_TASK = 65536, /* whole rows of about so many states */
+  STATES_A_TASK = 65536, /* whole rows of about this number of states */
   SLICE = 4096,           /* states of a task in a refinement: several blocks */
   SMALL = 2048,           /* so few states are not worth a task */
   BAND_STATES = 1 << 24,  /* states that a plan holds at a time */

@@ -328,7 +328,7 @@ static pendres_status settle_stretch(pendres_door *d, settling *s)
   return status;
 }
 
-/* What can be said before anything is computed; the sets are made for all of the pendulums. */
+/* Checks before anything is computed; the sets are made for all of the pendulums. */
 static pendres_status settle_begin(pendres_context *ctx, settling *s)
 {
   if (s->n > 0 && (s->pendulums == NULL || s->x == NULL || s->v == NULL || s->outcome == NULL))

@@ -123,8 +123,8 @@ pendres_orbit pendres_orbit_none(const pendres_pendulum *p)
   return o;
 }
 
-/* The means over time of a chaotic motion, for one drive cycle. All that a motion which does not
-   close cannot have is NaN. */
+/* The means over time of a chaotic motion, for one drive cycle. Quantities that exist only for
+   closed orbits are NaN. */
 static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_measures *m)
 {
   const double cycles = p->drive_frequency / two_pi;
@@ -202,7 +202,7 @@ static double key_of(const pendres_attractor_set *c, int attractor, int k, doubl
                               cover != NULL ? cover->mean_y : 0.0, a->lyapunov};
   const double key = cover != NULL ? chaos[k] : orbit[k];
   *same = cover != NULL ? 0.0 : rounding[k];
-  return isnan(key) ? INFINITY : key; /* last, and not in everybody's way */
+  return isnan(key) ? INFINITY : key; /* NaN sorts last */
 }
 
 /* Give a group of their own to attractors that are further from their neighbour than rounding. */

@@ -166,7 +166,8 @@ static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
 }
 
 /* Whether an orbit is back at its first point before its period is over, by where its other points
-   are guessed to be. A guess is off by far less than what tells points of one orbit apart. */
+   are guessed to be. The error of a guess is far smaller than the distance of two points of an
+   orbit. */
 static int returns_earlier(const pendres_orbit *o, const pendres_orbit_guess *guess)
 {
   for (int d = 1; d < o->period; d++)
@@ -258,7 +259,7 @@ static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
 
 /* ---- adding orbits ---- */
 
-/* Stable orbits, of which those of a set lie one after another, and what has become of them. */
+/* Stable orbits, of which those of a set lie one after another, with their outcomes. */
 typedef struct candidates {
   size_t count;
   const pendres_orbit *orbit;

@@ -1,4 +1,5 @@
-/* attractor_set_explore.c -- pendulums that go ahead to find attractors; see attractor_set.h. */
+/* attractor_set_explore.c -- integrating initial guesses to find attractors; see attractor_set.h.
+   */
 #include "orbits/attractor_set.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   me->y = lane->y;
   me->w = lane->w;
   me->period = 1;
-  /* An initial guess on its way to infinity finds nothing: the NaN marks that it is no guess. */
+  /* An initial guess on its way to infinity finds nothing: NaN marks that it is not to be used. */
   if (pendres_model_escapes(lane->pendulum, lane->y, lane->w)) me->y = NAN;
   if (!(isfinite(advance) && isfinite(me->y))) return 1;
   me->winding = (int)turns;
@@ -85,7 +86,7 @@ done:
 
 /* Positions across the turn of a pendulum, or across a well, each at rest and moving either way. */
 enum { ACROSS = 12, MOST_WELLS = (PENDRES_ATTRACTOR_SET_STARTS / (3 * ACROSS)) - 1 };
-/* Wells are looked for this far, in the units of length of a force, and so finely. */
+/* The range in which wells are searched for, in units of length of a force, and its resolution. */
 enum { FAR = 8, FINENESS = 64, POINTS = 2 * FAR * FINENESS + 1 };
 
 static double place(int i)

@@ -1,4 +1,4 @@
-/* chaos.c -- telling chaos from slow settling; see chaos.h. */
+/* chaos.c -- distinguishing chaos from slow settling; see chaos.h. */
 #include "orbits/chaos.h"
 
 #include <math.h>
@@ -18,8 +18,8 @@ enum {
   SUSPECT_PERIODS = 128, /* ... over this number of periods */
   REPLICAS = 64,         /* replicas that are followed, once they have separated */
   WARM_UP = 200,         /* periods in which they separate */
-  ATTEMPTS = 3,          /* to send out replicas, while some leave the chaotic set immediately */
-  BATCHES = 16,          /* that a replica's periods are parted into, an even number */
+  ATTEMPTS = 3,          /* to start replicas, while some leave the chaotic set immediately */
+  BATCHES = 16,          /* into which a replica's periods are divided, an even number */
   BATCH = 120,           /* periods of a batch, at first. Replicas may visit the bands of an
                             attractor in turn, all in step: 120 periods are whole rounds of 2, 3, 4,
                             5, 6 or 8 bands */
@@ -31,7 +31,8 @@ enum {
 
 /* The exponent of chaos must be above zero by this many standard errors. */
 static const double significance = 5.0;
-/* The logarithm must grow by this much a period: less cannot be told from slow settling. */
+/* The logarithm must grow by this much a period: less cannot be distinguished from slow settling.
+   */
 static const double least_growth = 0.01;
 /* The logarithm of a suspect's tangent vector must have grown by this. Without chaos the vector
    grows by a small factor at most. */
@@ -46,7 +47,7 @@ static const double agreement = 2.0;
 /* The confidence of a mean's error, and that of the bound on the escape rate. */
 static const double confidence = 0.999, escape_confidence = 0.95;
 
-/* ---- replicas that are watched ---- */
+/* ---- replicas that are followed ---- */
 
 typedef struct ensemble {
   pendres_replica a[REPLICAS];
@@ -220,7 +221,7 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_attractor_set *c
 /* ---- statistics ---- */
 
 /* The mean of a measure a period over all replicas, and its standard error. *ratio is the variance
-   of the replicas' means over what the scatter of their batches lets one expect. */
+   of the replicas' means over that expected from the scatter of their batches. */
 static pendres_chaos_mean mean_of(const ensemble *v, pendres_replica_measure m, double *ratio)
 {
   const double periods = (double)v->length, batches = v->batches;
@@ -291,7 +292,7 @@ static pendres_chaos_measures measures_of(const pendres_attractor_set *c, const 
     .watched_periods = watched,
     .escape_rate_bound = -log(1.0 - escape_confidence) / watched};
   m.growth.error += fabs(mean_of(v, PENDRES_REPLICA_COARSE, &ratio).value);
-  /* In the long run friction takes what the drives and the torque give. */
+  /* In the long run friction dissipates the work of the drives and the torque. */
   const double other = mean_of(v, PENDRES_REPLICA_OTHER, &ratio).value;
   const double imbalance = fabs(m.work.value + other - m.loss.value);
   m.work.error += imbalance;
@@ -302,9 +303,9 @@ static pendres_chaos_measures measures_of(const pendres_attractor_set *c, const 
 /* ---- the verdict ---- */
 
 /*
- * Whether nothing more is to be learned from replicas: they agree, and each by itself is chaotic.
- * Before all of their batches are over, after a number of them that is the former one doubled, that
- * takes an exponent as accurate as it is wanted.
+ * Whether replicas need not be followed further: they agree, and each by itself is chaotic. Before
+ * all of their batches are over this is asked after 4 and after 8, and then the exponent must
+ * also be as accurate as requested.
  */
 static int seen_enough(const pendres_context *ctx, const pendres_attractor_set *c,
                        const ensemble *v)

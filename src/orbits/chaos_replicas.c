@@ -1,4 +1,4 @@
-/* chaos_replicas.c -- pendulums that carry tangent vectors along; see chaos_replicas.h. */
+/* chaos_replicas.c -- pendulums with tangent vectors; see chaos_replicas.h. */
 #include "orbits/chaos_replicas.h"
 
 #include <math.h>
@@ -10,14 +10,16 @@
 #include "engine/steps.h"
 #include "model/model.h"
 
-/* The error of a period that steps are chosen for. In chaos a single error is soon forgotten: it is
-   enough that means over time are off by less than their statistical errors, which tangent vectors,
-   of fourth order alone, ask more of than the states do. */
+/* The error of a period that steps are chosen for. In chaos the effect of a single error
+   is soon forgotten: it is enough that errors of means over time are below their statistical
+   errors. For this tangent vectors, which are of fourth order only, need more steps than the
+   states. */
 static const double accuracy = 1e-8;
 /* With steps twice as long the growth has 16 times the error: the difference is 15 times the error
    that is to be subtracted. */
 static const double extrapolated = 15.0;
-/* Tangent vectors are put back to length one where they are longer, or shorter than its inverse. */
+/* Tangent vectors are rescaled to length one if they are longer than this, or shorter than its
+   inverse. */
 static const double longest = 1e100;
 
 pendres_replica pendres_replica_at(double y, double w)
@@ -67,8 +69,8 @@ static void reach(pendres_replica *a, double y)
 }
 
 /*
- * At the end of each half period the latest two halves make a whole one, and its amplitude counts
- * for a half. The mirror image of a motion, half a period later, thus has the same sum.
+ * At the end of each half period the latest two halves form a whole one, whose amplitude is added
+ * with the weight 1/2. The mirror image of a motion, half a period later, thus has the same sum.
  */
 static void end_half(pendres_replica *a, double y)
 {
@@ -159,7 +161,7 @@ static void arrive(const pendres_attractor_set *c, size_t i, const pendres_rows 
     a->high[k] = watched ? a->high[k] + (a->y - y) : a->y;
   }
   a->periods++;
-  /* What escapes is in no chaos any longer either. */
+  /* A replica that escapes has left the chaos, too. */
   if (a->trapped == 0 &&
       (in_ellipse(c, a) || !isfinite(a->y) || pendres_model_escapes(&c->pendulum, a->y, a->w)))
     a->trapped = a->periods;
@@ -212,7 +214,7 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
   for (size_t i = 0; i < n; i++)
     fastest = fmax(fastest, pendres_steps_speed(&c->pendulum, a[i].y + origin, a[i].w * omega));
   pendres_status status = pendres_steps_choose(ctx, &c->pendulum, fastest, accuracy, &steps);
-  steps += steps % 2; /* for tangents by steps twice as long */
+  steps += steps % 2; /* for tangents with steps twice as long */
   if (status == PENDRES_OK) status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
   if (status != PENDRES_OK) return status;
 

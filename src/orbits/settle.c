@@ -17,7 +17,7 @@ enum { GUESSES = 12 /* pendulums of a parameter set that are integrated before t
 
 /* ---- batches ---- */
 
-/* Send ahead pendulums of each set, equally spaced among those of the set. */
+/* Integrate some pendulums of each set first, equally spaced among those of the set. */
 static pendres_status send_guesses(pendres_context *ctx, size_t sets,
                                    pendres_attractor_set *attractor_sets,
                                    size_t n, const size_t *set, const pendres_strobe_lane *lanes)
@@ -42,7 +42,7 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
   return status;
 }
 
-/* Tell the sets whose force is linear and lets all motions grow without bound. */
+/* Mark the sets whose force is linear and lets all motions grow without bound. */
 static pendres_status tell_growing(pendres_context *ctx, size_t sets,
                                    pendres_attractor_set *attractor_sets)
 {

@@ -8,8 +8,8 @@
 
 /* The error a period of the most exact run: rounding in some hundred steps is as large. */
 static const double most_exact = 1e-14;
-/* A further run is this much more exact than would just do, and at least this much more exact than
-   the run before. */
+/* A further run is by this factor more exact than would just suffice, and by at least this factor
+   more exact than the run before. */
 static const double to_spare = 4.0, at_least = 30.0;
 
 /* The pendulums with uncertain labels that are to be run again. */
@@ -188,7 +188,7 @@ static void take_over(const pendres_settle_labelled *l, uncertain_labels *d)
   d->count = left;
 }
 
-/* For methods whose errors are not carried along: labels stay, and are certain where those of fixed
+/* For methods whose errors are not propagated: labels stay, and are certain where those of fixed
    steps are certain and agree. */
 static pendres_status compare(pendres_context *ctx, const pendres_settle_labelled *l,
                               uncertain_labels *d)

@@ -12,12 +12,12 @@
 #include "orbits/escape.h"
 #include "orbits/strobe_noise.h"
 
-/* A lane that is in a chaotic attractor's cells at so many strobes in a row is chaotic. */
+/* A lane that is in a chaotic attractor's cells at this number of strobes in a row is chaotic. */
 enum { CHAOTIC_STREAK = 32 };
 
-/* Steps after which a lane is given up, unless the caller has set a budget of periods: seconds'
-   where it is alone, ten times what settling takes at a damping of 1e-4. Slow drives take many
-   steps a period: they get some periods in any case. */
+/* Steps after which a lane is given up, unless the caller has set a budget of periods: they take
+   seconds if the lane is alone, and are ten times what settling takes at a damping of 1e-4. Slow
+   drives take many steps per period: they get some periods in any case. */
 static const double most_steps = 5e6;
 static const long some_periods = 200;
 
@@ -34,7 +34,7 @@ long pendres_settle_first_budget(const pendres_pendulum *p)
 
 /*
  * Close to a fold a known attractor attracts slowly, and lanes get the time that this takes. They
- * also get the time to leave a chaos that ends: one of e^10 pendulums in it is left then.
+ * also get the time to leave transient chaos: one of e^10 pendulums is still in it then.
  */
 long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attractor_set *c)
 {
@@ -88,8 +88,8 @@ static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
   h->w[k] = lane->w;
 }
 
-/* One number holds for how many strobes in a row a lane has been in the cells of one chaotic
-   attractor, and the number of the attractor's cover times this. */
+/* A streak is one number: the number of successive strobes at which a lane has been in the cells of
+   one chaotic attractor, plus this constant times the number of the attractor's cover. */
 enum { STREAK_SCALE = 1 << 16 };
 
 /* The streak after one more strobe. */
@@ -105,12 +105,12 @@ static int longer_streak(const pendres_attractor_set *c, const pendres_strobe_la
 }
 
 /*
- * What decides is the ratio of the error to the largest one that cannot change the label.
- * The error is three standard deviations of what was carried along. Inside an ellipse a twentieth
- * of the radius is allowed (trapping_ellipse.h). On the way there the error must stay small against
- * the distance to a basin boundary: the two grow alike, until the distance is that between
- * different fates, of order one; a thirtieth of that is allowed. Where the error itself is some
- * times as large as that distance, it is no longer known what the pendulum does: the lane is lost.
+ * The ratio of the error to the largest one that cannot change the label decides whether that is
+ * certain. The error is three propagated standard deviations. Inside an ellipse a twentieth of the
+ * radius is allowed (trapping_ellipse.h). On the way there the error must stay small against the
+ * distance to a basin boundary: both grow at the same rate, until the distance is that between
+ * different outcomes, of order one; a thirtieth of that is allowed. Where the error itself is
+ * several times that distance, it is no longer known what the pendulum does: the lane is lost.
  */
 static const double deviations = 3.0, borne = 0.03;
 static const double most_error_ratio = 100.0; /* of a lane that is not lost */
@@ -128,13 +128,13 @@ static double error_ratio_in_ellipse(const pendres_trapping_ellipse *t,
     t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
   const double here = deviations * sqrt(variance) / (pendres_trapping_margin * t->radius);
   const double before = pendres_settle_error_ratio(lane->worst);
-  if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not carried */
+  if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not propagated */
   return isnan(before) || before > here ? before : here;
 }
 
 static void judge(const pendres_settle_labelling *l, size_t i, double error_ratio)
 {
-  l->outcome[i].certain = error_ratio <= 1.0; /* what is no number is not */
+  l->outcome[i].certain = error_ratio <= 1.0; /* not if it is NaN */
   if (l->error_ratio != NULL) l->error_ratio[i] = error_ratio;
 }
 
@@ -186,7 +186,7 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
   judge(l, i, lane->added > 0.0 ? pendres_settle_error_ratio(worst) : NAN);
 }
 
-/* Whether a lane has escaped, or is lost. The last period of a lost one is looked at once more. */
+/* Whether a lane has escaped, or is lost. The last period of a lost one is examined once more. */
 static int escapes(const pendres_settle_labelling *l, size_t i, const pendres_strobe_lane *lane)
 {
   if (pendres_escape_lost(lane->y, lane->w)) return 1;

@@ -43,7 +43,7 @@ typedef struct lost_lanes {
   pendres_settle_history *histories;
   pendres_initial_guess *guesses;
   const pendres_strobe_lane **suspects;
-  size_t *known;   /* attractors of each set when the hunt began */
+  size_t *known;   /* attractors of each set when the search began */
   size_t *watched; /* covers of each set when the latest round began */
   unsigned char *found; /* of each set: whether chaos was found after the latest round */
   unsigned char *over;  /* of each set: its budget had been spent before the latest round */
@@ -111,9 +111,9 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
 
 /*
  * Whether a lost lane is on none of the known attractors. The cells of chaotic attractors that were
- * known before the latest round do not count: the lane has left them again and again, or it would
- * not be lost. It only passes through them, as chaos does whose bands lie beside those of its
- * mirror image.
+ * known before the latest round do not count: the lane has left them repeatedly, or it would not be
+ * lost. It only passes through them, as chaos does whose bands lie next to those of its mirror
+ * image.
  */
 static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres_strobe_lane *lane)
 {
@@ -125,7 +125,7 @@ static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres
 
 /*
  * Look for chaos among the lost lanes, set by set, one attractor after the other. Lanes that are on
- * their way to what has been found, or that have left a chaos which ends, will settle in the next
+ * their way to what has been found, or that have left transient chaos, will settle in the next
  * round.
  */
 static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l,
@@ -149,8 +149,8 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l,
   return status;
 }
 
-/* Run lanes that have settled on an attractor found by the hunt once more from the start: only then
-   is the time known in which they settle. */
+/* Run lanes that have settled on an attractor found by the search once more from the start, to find
+   the time in which they settle. */
 static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_remaining *q,
                              pendres_settle_labelling *job)
 {
@@ -173,9 +173,9 @@ static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_
 }
 
 /*
- * Set the budgets of the next round, set by set: no set has more or less for its neighbours' sake.
- * Where all has been spent the hunt is over, but if chaos was found in the last round, there is one
- * more round, in which lanes may be found to be on it.
+ * Set the budgets of the next round, set by set: they do not depend on the other sets. Where all
+ * has been spent the search is over, but if chaos was found in the last round, there is one more
+ * round, in which lanes may be found to be on it.
  */
 static void raise_budgets(const pendres_context *ctx, const pendres_settle_remaining *q, int round,
                           lost_lanes *l)

@@ -36,7 +36,7 @@ static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendul
   return PENDRES_OK;
 }
 
-/* Fail where a state is no number. */
+/* Fail if a state is not a number. */
 static pendres_status check_ends(pendres_context *ctx, size_t n, const pendres_strobe_lane *lanes)
 {
   for (size_t i = 0; i < n; i++)
@@ -167,10 +167,10 @@ static void stretch_close(stretch *s)
 }
 
 /*
- * The better run has twice the steps, and goes beside the first, stretch by stretch. Fewer would
- * not do: where steps are few, errors do not yet fall as the order of the method says, and a run
- * with half as many more may be off by as much, in the same direction. noise[n] receives the
- * rounding errors.
+ * The better run has twice the steps, and is compared with the first, stretch by stretch. Fewer
+ * steps would not suffice: where steps are few, errors do not yet fall with the order of the
+ * method, and a run with half as many more may have an equally large error of the same sign.
+ * noise[n] receives the rounding errors.
  */
 static pendres_status run_with_twice_the_steps(pendres_context *ctx, size_t n, stretch *s,
                                                pendres_strobe_lane *lanes,
@@ -196,9 +196,9 @@ static pendres_status run_with_twice_the_steps(pendres_context *ctx, size_t n, s
 
 /*
  * There are two better runs, each with a smaller tolerance, since adaptive steps follow their
- * tolerance only loosely. Where stability limits the steps, a tenth of the tolerance changes next
- * to nothing, and three runs may be off by as much, in the same direction: methods of one step at a
- * time are therefore bound to take more steps in the better runs.
+ * tolerance only loosely. Where stability limits the steps, a tenth of the tolerance changes almost
+ * nothing, and three runs may have equally large errors of the same sign: one-step methods are
+ * therefore forced to take more steps in the better runs.
  */
 static pendres_status run_with_less_tolerance(pendres_context *ctx, size_t n, stretch *s,
                                               pendres_strobe_lane *lanes,

@@ -2,7 +2,7 @@
  * strobe_record.c -- a trajectory at equally spaced drive phases; see strobe.h.
  *
  * Errors: discretisation from a second run with twice the steps; rounding from the covariance of
- * the state's rounding errors, carried along by the variational equation of the second run.
+ * the state's rounding errors, propagated by the variational equation of the second run.
  */
 #include <pendres/strobe.h>
 
@@ -105,7 +105,7 @@ static pendres_status run(pendres_context *ctx, const piece *what, pendres_flow_
 /*
  * Make the second run, and tell the errors from the distance to it and twice the standard error of
  * rounding. Where the error of x or that of v is infinite, both are, from there on: the trajectory
- * may have become another one, and it tells nothing if the two runs meet again.
+ * may have become another one, even if the two runs meet again.
  */
 static pendres_status estimate(pendres_context *ctx, pendres_recording *next, const piece *first,
                                double *x_error, double *v_error)

@@ -12,7 +12,7 @@
 
 
 enum {
-  BASE_POINTS = 12, /* of a base ring, which tells only whether the map is nearly linear */
+  BASE_POINTS = 12, /* of a base ring, which shows only whether the map is nearly linear */
   BASE_LOOKS = 8,   /* iterates that the map may take to contract a base ring */
   BASE_PASSES = 8,  /* base rings that are tried */
   FEW_POINTS = 16,  /* points of any other ring, by effort */
@@ -24,7 +24,7 @@ enum {
   MANY_MORE = 96
 };
 
-/* The radius of the first base ring; how much of the contraction non-linearity may take up. */
+/* The radius of the first base ring; the fraction of the contraction that nonlinearity may use. */
 static const double base_first = 0.25, base_departure = 0.7;
 /* Iterates are taken together until the linear map contracts to this. */
 static const double base_contraction = 0.6;
