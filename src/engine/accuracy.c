@@ -5,7 +5,7 @@
 
 #include "engine/context_internal.h"
 
-static const double least_step_error = 1e-15; /* what CVODE still works with */
+static const double least_step_error = 1e-15; /* the least with which CVODE works */
 
 double pendres_accuracy_first(const pendres_context *ctx)
 {

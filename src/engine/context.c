@@ -14,7 +14,7 @@
 
 enum { DEFAULT_LANES = 512, MOST_LANES = 4096, MOST_STEPS = 1000000 };
 
-/* NULL when all is well, else what is wrong. */
+/* NULL if the options are valid, otherwise what is wrong. */
 static const char *resolve(pendres_options *o)
 {
   if (o->tolerance == 0.0) o->tolerance = PENDRES_ACCURACY_DEFAULT;
@@ -188,7 +188,7 @@ pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind
                                                   PENDRES_ROWS_SENSITIVITY, PENDRES_ROWS_DRIVES,
                                                   PENDRES_ROWS_ALL};
   pendres_status status = PENDRES_OK;
-  /* ARKODE (6.4) crashes when it is called again after it has got no memory. */
+  /* ARKODE (6.4) crashes when it is called again after an allocation has failed. */
   if (ctx->flows[kind] != NULL && pendres_flow_failure(ctx->flows[kind]) == ARK_MEM_FAIL) {
     pendres_flow_free(ctx->flows[kind]);
     ctx->flows[kind] = NULL;

@@ -1,4 +1,4 @@
-/* coordinates.c -- the one way into lanes and out of them; see coordinates.h. */
+/* coordinates.c -- states on their way into lanes and out of them; see coordinates.h. */
 #include "engine/coordinates.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ pendres_coordinates pendres_coordinates_in(const pendres_pendulum *p, double x, 
   pendres_coordinates s = {.y = NAN, .w = v / p->drive_frequency};
   if (!(fabs(x) <= farthest)) return s;
   const double origin = pendres_model_origin(p);
-  /* Whole turns first: of a large x the digits would be lost in the difference. */
+  /* Whole turns first: the difference would lose digits of a large x. */
   const double k = rint((x - origin) / pendres_model_turn(p));
   s.turns = (long)k;
   s.y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - origin;

@@ -1,4 +1,4 @@
-/* door.c -- the way of public functions into canonical units; see door.h. */
+/* door.c -- how public functions go into canonical units; see door.h. */
 #include "engine/door.h"
 
 #include <math.h>
@@ -44,7 +44,7 @@ static void begin(pendres_door *d, pendres_units u)
   d->scales = (pendres_scales){u, 1.0, 1.0};
   ctx->canonical = 1;
   if (ctx->tolerance_given) ctx->options.tolerance = d->tolerance / u.length;
-  /* More exact than asked for is what was asked for; less is not. */
+  /* A result may be more exact than requested, but not less. */
   const double t = fmin(ctx->options.tolerance, PENDRES_ACCURACY_LOOSEST);
   ctx->options.tolerance = t;
   if (!(t >= PENDRES_ACCURACY_TIGHTEST))
@@ -206,7 +206,7 @@ void *pendres_door_out(pendres_door *d, const pendres_dimensions *kind, size_t n
 pendres_status pendres_door_close(pendres_door *d)
 {
   if (!d->entered) return d->status;
-  /* Numbers of a message are canonical ones. */
+  /* Numbers in a message are in canonical units. */
   if (d->status != PENDRES_OK && pendres_door_changes(d)) {
     char words[PENDRES_MESSAGE_LENGTH];
     memcpy(words, d->ctx->guard.message, sizeof words);

@@ -202,7 +202,7 @@ static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
 }
 
 /* The record of such a period; NULL: there is none. Wide blocks have none: they would gain nothing,
-   and the question whether to go on would come too seldom. */
+   and stop() would be called too seldom. */
 static const pendres_lanes_replay *known(pendres_flow *flow, int span)
 {
   const int steps = flow->drive.steps;
@@ -215,7 +215,7 @@ static const pendres_lanes_replay *known(pendres_flow *flow, int span)
   return NULL;
 }
 
-/* A part of the period is over: let the others see the numbers as they are now. */
+/* A part of the period is over: copy the state to the rows that the rest of the engine reads. */
 static void show(pendres_flow *flow)
 {
   pendres_lanes_read(flow->state, flow->rows);
@@ -318,8 +318,8 @@ int pendres_flow_failure(const pendres_flow *flow)
 /* ---- The drive ------------------------------------------------------------------------------ */
 
 /*
- * ARKODE adds its clock up step by step and always rounds the same way: after 3e5 steps it is off
- * by 1e-10. The phase that it means is a whole number of steps and the node of a stage.
+ * ARKODE adds up its clock step by step and always rounds in the same direction: after 3e5 steps
+ * its error is 1e-10. The exact phase is a whole number of steps plus the node of a stage.
  */
 double pendres_flow_drive_phase(const pendres_flow_drive *d, double theta)
 {

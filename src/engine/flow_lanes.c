@@ -1,4 +1,4 @@
-/* flow_lanes.c -- what stands in the lanes of a block; see flow.h. */
+/* flow_lanes.c -- the contents of the lanes of a block; see flow.h. */
 #include "engine/flow.h"
 
 #include <math.h>
@@ -54,7 +54,8 @@ void pendres_flow_resize(pendres_flow *flow, size_t lanes)
       memset(data + r * stride + old, 0, (stride - old) * sizeof *data);
     }
   flow->lanes = lanes;
-  /* Lanes that only fill up a vector rest at the bottom, and cost no special case. */
+  /* Lanes that only fill up a vector are at rest at the bottom, so that no special case is needed.
+     */
   for (size_t i = lanes; i < stride; i++) {
     for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + i] = 0.0;
     for (int c = 0; c < COEFFICIENTS; c++) flow->coefficient[c][i] = 0.0;

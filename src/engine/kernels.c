@@ -134,7 +134,7 @@ PENDRES_VECTOR_INLINE void slope_vectors(pendres_model_terms model, int count,
   accelerate(model, count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
 }
 
-/* What a lane feels: the slope of w, and the factor by which an error of y enters it. */
+/* The forces on a lane, and the factors by which an error of y enters them. */
 typedef struct felt {
   double slope, spring;
   double force; /* f (1 + b cos theta) */
@@ -252,7 +252,7 @@ PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, siz
 
 /*
  * Errors over the step from half a step before a state to half a step after it: half a step's
- * drift, what spring and drag at the state make of it, and the other half.
+ * drift, the action of spring and drag at the state, and the other half.
  */
 PENDRES_VECTOR_INLINE void carry(pendres_model_terms model, const pendres_strip *s,
                                  const pendres_operation *o)

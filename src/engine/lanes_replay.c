@@ -1,4 +1,5 @@
-/* lanes_replay.c -- the operations of a drive period, kept to be done again; see lanes_replay.h. */
+/* lanes_replay.c -- the operations of a drive period, recorded to be repeated; see lanes_replay.h.
+   */
 #include "engine/lanes_replay.h"
 
 #include <stdlib.h>
@@ -25,7 +26,7 @@ struct pendres_lanes_replays {
   int recording;
   size_t used, latest, kept;
   entry entries[MOST_KINDS];
-  pendres_lanes_replay record; /* the period that is going on; it has room for the most */
+  pendres_lanes_replay record; /* the current period; it has room for the most */
 };
 
 static void clear(pendres_lanes_replay *p)
@@ -123,7 +124,7 @@ void pendres_lanes_replays_add(pendres_lanes_replays *r, const pendres_operation
   if (!r->recording) return;
   for (size_t i = 0; i < n; i++) {
     pendres_operation o = operations[i];
-    if (o.sum == NULL && o.from == NULL && o.to == NULL) continue; /* found to be in vain */
+    if (o.sum == NULL && o.from == NULL && o.to == NULL) continue; /* found to be unnecessary */
     if (o.sum != NULL) o.sum = keep_sum(p, o.sum);
     if (p->operations == MOST_OPERATIONS || (operations[i].sum != NULL && o.sum == NULL)) {
       r->recording = 0;
@@ -189,7 +190,7 @@ static void forget_all(pendres_lanes_replays *r)
   r->used = r->kept = 0;
 }
 
-/* A place for a kind; all others are forgotten where there is none left. */
+/* An entry for a kind; if there is none left, all others are discarded. */
 static entry *place_for(pendres_lanes_replays *r, const pendres_lanes_replay_kind *kind)
 {
   entry *e = find(r, kind);

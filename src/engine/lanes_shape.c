@@ -1,4 +1,4 @@
-/* lanes_shape.c -- how a block is cut, and what is done strip by strip; see lanes_shape.h. */
+/* lanes_shape.c -- the strips of a block, and operations on them; see lanes_shape.h. */
 #include "engine/lanes_shape.h"
 
 /*

@@ -1,4 +1,4 @@
-/* lanes_tape.c -- operations on vectors of a block that were put off; see lanes_tape.h. */
+/* lanes_tape.c -- deferred operations on vectors of a block; see lanes_tape.h. */
 #include "engine/lanes_tape.h"
 
 #include <stdint.h>
@@ -10,7 +10,7 @@ enum {
   MOST_SUMS = 128         /* several steps' worth: the last of a period may differ by rounding */
 };
 
-/* A sum as it was asked for. */
+/* A sum as it was requested. */
 typedef struct request {
   N_Vector z, x[PENDRES_KERNELS_TERMS];
   double c[PENDRES_KERNELS_TERMS];
@@ -74,8 +74,8 @@ static pendres_operation *next(pendres_lanes_shape *s)
   return &s->tape->operation[s->tape->operations++];
 }
 
-/* Note that o reads some vectors and then writes v, and which earlier writing is in vain because of
-   that. */
+/* Note that o reads some vectors and then writes v, and which earlier operation becomes unnecessary
+   by this. */
 static void note(pendres_lanes_tape *t, pendres_operation *o, uint64_t reads, N_Vector v)
 {
   const uint64_t bit = pendres_lanes_of(v)->bit;
@@ -162,8 +162,8 @@ void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, d
 }
 
 /*
- * The sum put off that made y, if the slope at y may be taken in the same go: nothing but errors
- * that were carried and a copy came after it, and one that has nothing to do with the slope.
+ * The deferred sum whose result is y, if the slope at y may be computed together with it: only
+ * propagated errors and an unrelated copy may have followed it.
  */
 static pendres_operation *made_by(pendres_lanes_tape *t, const double *y, const double *slope)
 {

@@ -11,7 +11,7 @@ typedef struct block {
   pendres_context *ctx;
   pendres_flow *flow;
   const pendres_strobe_job *job;
-  size_t *slot; /* which lane sits in a slot of the block */
+  size_t *slot; /* the lane that is in a slot of the block */
   size_t filled;
   int carry; /* errors */
 } block;
@@ -39,7 +39,7 @@ static int look(block *b, size_t slot)
   if (b->carry) {
     l->off = pendres_flow_get_error(b->flow, slot);
     const double off = l->off.yy + l->off.ww;
-    /* An error that is no number is as bad as an infinite one. */
+    /* An error that is NaN counts as infinite. */
     if (!(off <= l->worst)) l->worst = off;
   }
   return b->job->visit(b->job->arg, b->slot[slot], l);
@@ -74,7 +74,7 @@ static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
       } else if (next < n) {
         put(b, slot++, queue[next++].index);
       } else {
-        /* No lane waits for the place: the last lane, which is yet to be looked at, takes it. */
+        /* No lane waits for this slot: the last lane, which is still to be visited, takes it. */
         b->filled--;
         if (slot < b->filled) {
           b->slot[slot] = b->slot[b->filled];

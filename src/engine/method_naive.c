@@ -1,10 +1,10 @@
 /*
- * method_naive.c -- how one would integrate a pendulum without further thought: a yardstick.
+ * method_naive.c -- a straightforward integration of a pendulum, as a baseline.
  *
  * Plain adaptive ARKODE, one problem a pendulum: position and velocity over time as the equation is
  * printed, the default explicit method and step controller, the tolerance both relative and
- * absolute, a clock and an angle that grow without bound, interpolated output. Nothing here is
- * meant to be improved: the other methods are measured against it.
+ * absolute, a clock and an angle that grow without bound, interpolated output. This is
+ * deliberately not improved: the other methods are compared with it.
  */
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
@@ -37,7 +37,7 @@ static int open(pendres_one *b)
          ERKStepSStolerances(b->memory, tolerance, tolerance) != 0;
 }
 
-/* ARKODE comes back after every 500 steps: as anyone would, ask for more. */
+/* ARKODE returns after every 500 steps, and is called again. */
 static int advance(pendres_one *b, double theta)
 {
   const double end = theta / b->p->drive_frequency;

@@ -108,7 +108,7 @@ static pendres_status run_one(pendres_one *b, const pendres_one_solver *solver,
                               const pendres_strobe_job *job, size_t index)
 {
   pendres_strobe_lane *lane = &job->lanes[index];
-  /* The clock starts now, however many periods the lane has behind it. */
+  /* The clock starts now, whatever the number of periods of the lane so far. */
   const long turns = lane->turns, first = lane->period;
   pendres_status status = open_problem(b, solver, lane);
   for (int done = 0; status == PENDRES_OK && !done;) {

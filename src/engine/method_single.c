@@ -5,7 +5,7 @@
 #include "engine/flow_table.h"
 #include "engine/method_one.h"
 
-/* See the trap described in flow.c. */
+/* See flow.c on ERKStep before SUNDIALS 6.7. */
 static int after_step(sunrealtype theta, N_Vector state, void *arg)
 {
   (void)theta, (void)state, (void)arg;

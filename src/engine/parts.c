@@ -1,7 +1,7 @@
 /*
  * parts.c -- work on several threads, each with a context of its own; see <pendres/parts.h>.
  *
- * The calling thread works, too: where the system gives no threads, all is done by it. Parts begin
+ * The calling thread works, too: if no others can be started, it does everything. Parts begin
  * in ascending order, so that all before a failed one have begun and end, and the first failed part
  * does not depend on which thread was faster.
  */
@@ -57,8 +57,8 @@ static void fail(pool *c, size_t part, pendres_status status, const char *why)
   (void)pthread_mutex_unlock(&c->lock);
 }
 
-/* Do parts until there are none. Of a thread's own failures only that no context can be made is
-   told. */
+/* Do parts until there are none. Of a thread's own failures only the lack of a context is
+   reported. */
 static pendres_status labour(pool *c)
 {
   pendres_context *ctx = NULL;

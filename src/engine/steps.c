@@ -111,7 +111,7 @@ static int open_ended(const pendres_pendulum *p)
   return !(pendres_model_of(p->force)->period > 0.0);
 }
 
-/* How far out a speed can lead at most, if all terms of the force added up. */
+/* The largest distance that a speed can lead to, if all terms of the force had the same sign. */
 static double reach_of(const pendres_pendulum *p, double speed)
 {
   const double energy = 0.5 * speed * speed;
@@ -138,8 +138,8 @@ static double pace_of(const pendres_pendulum *p, double speed, double reach)
 double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
 {
   if (!open_ended(p)) return fabs(v);
-  /* A drive may in time lead as fast as friction lets it at resonance; beyond some speed it rather
-     is the oscillation that gets out of step. */
+  /* At resonance a drive may lead to a speed that is limited by friction; beyond some speed the
+     oscillation gets out of phase instead. */
   const double most = 4.0, driven = fmin(most, fabs(p->drive_amplitude) / p->damping);
   return fmax(driven, sqrt(fma(v, v, 2.0 * pendres_model_climb(p, x - pendres_model_origin(p)))));
 }
@@ -152,7 +152,8 @@ double pendres_steps_turning_speed(const pendres_pendulum *p)
 
 /* ---- probes ---- */
 
-/* What is probed, computed once: how far out the speed leads takes many values of the force. */
+/* What is probed, computed once: the distance that the speed leads to takes many values of the
+   force. */
 typedef struct probed {
   pendres_pendulum pendulum;
   double speed, reach, pace;
@@ -169,8 +170,8 @@ static void load_probe(pendres_block *b, size_t lane, int i, const probed *of)
 
 /*
  * What is seen of the probes: their states at `dense` equally spaced points, and at the period's
- * end. The growth of an error of the start, the largest entry of the derivative of (y, v), is
- * looked at by the finer run alone.
+ * end. The growth of an error of the start, the largest entry of the derivative of (y, v), is taken
+ * from the finer run only.
  */
 typedef struct sight {
   int steps, stride, dense, points;
@@ -217,7 +218,7 @@ static void look(void *arg, int step, const pendres_rows *rows)
   }
 }
 
-/* All probes over one period, looked at on the way. */
+/* All probes over one period, with the points on the way. */
 static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *s)
 {
   pendres_block b;
@@ -226,7 +227,7 @@ static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(&b);
   const double before = pendres_flow_evaluations(b.flow), most = ctx->most_slopes;
-  ctx->most_slopes = INFINITY; /* probes are no part of what counts */
+  ctx->most_slopes = INFINITY; /* the limit does not apply to probes */
   for (s->first = 0; s->first < PROBES && status == PENDRES_OK; s->first += capacity) {
     s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
     pendres_block_resize(&b, s->lanes);
@@ -242,8 +243,8 @@ static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *
 
 /*
  * Error of probe i over the period: the largest difference up to the point at which errors have
- * grown `wild`, as if what follows added as much a unit of time. No steps help against what a wild
- * pendulum makes of its errors, so that is not asked of them.
+ * grown `wild`, as if the rest added as much per unit of time. A larger number of steps does not
+ * help against the growth of errors of such a pendulum, and is not required.
  */
 static double probe_error(const sight *coarse, const sight *fine, size_t i)
 {
@@ -256,7 +257,7 @@ static double probe_error(const sight *coarse, const sight *fine, size_t i)
     if (!(dy + dv < INFINITY)) return INFINITY;
     largest = fmax(largest, fmax(dy, dv));
   }
-  if (k == 0) return 0.0; /* on its way to infinity at once */
+  if (k == 0) return 0.0; /* on its way to infinity from the start */
   return k == coarse->points ? largest : largest * coarse->steps / ((double)k * coarse->stride);
 }
 
@@ -275,7 +276,7 @@ static double least_steps(const probed *of)
   return fmax(period * of->pendulum.damping / 4.0, period * of->pace / 1.5);
 }
 
-/* A drive that swings a pendulum so far in a period leaves it less than two steps a turn. */
+/* With a drive that moves a pendulum this far in a period there are less than two steps a turn. */
 static int shaken(const pendres_pendulum *p)
 {
   const double push = fabs(p->drive_amplitude) + fabs(p->torque);
@@ -283,7 +284,7 @@ static int shaken(const pendres_pendulum *p)
   return speed / p->drive_frequency > 0.5 * MOST_STEPS;
 }
 
-/* PENDRES_TOLERANCE_UNREACHABLE, without words: MOST_STEPS are too few. */
+/* PENDRES_TOLERANCE_UNREACHABLE, without a message: MOST_STEPS are too few. */
 static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
 {
   probed of;
@@ -311,7 +312,8 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
       return PENDRES_OK;
     }
     last_error = error;
-    /* Not yet in the asymptotic regime: climb; there: go where the order says, one rung short. */
+    /* Before the asymptotic regime take the next rung; within it the one that follows from the
+       order, less one. */
     const double growth =
       error < 1e-2 ? pow(error / tolerance, 1.0 / order) * 0.95 : 1.5;
     wanted = n * fmax(1.01, fmin(growth, 4.0));

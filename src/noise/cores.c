@@ -1,4 +1,4 @@
-/* cores.c -- what counts as having arrived at an attractor; see cores.h. */
+/* cores.c -- the cores of attractors; see cores.h. */
 #include "noise/cores.h"
 
 #include <math.h>
@@ -8,8 +8,8 @@
 
 enum { RING = 48 /* states on an ellipse's edge that are to settle inside */ };
 
-/* A core is half of the largest ellipse that is asked for, and up to two standard deviations of
-   that are: what comes to its edge will hardly leave at once. */
+/* A core has this share of the width of the ellipse that is tested, which is at most this many
+   standard deviations wide: a trajectory at its edge will hardly leave immediately. */
 static const double share = 0.5, widest = 2.0;
 
 /* The number of ellipses that are tried, each smaller than the one before by this factor: a basin

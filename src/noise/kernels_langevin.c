@@ -28,7 +28,7 @@
 
 #define FMA(a, b, c) __builtin_fma((a), (b), (c))
 
-/* A vector holds one word for each lane in its low 32 bits; the upper ones are not looked at. */
+/* A vector holds one word for each lane in its low 32 bits; the upper ones are not read. */
 #if defined(__AVX512F__)
 typedef uint64_t word __attribute__((vector_size(64), may_alias));
 #define PRODUCT(a, m) ((word)_mm512_mul_epu32((__m512i)(a), _mm512_set1_epi64((long long)(m))))

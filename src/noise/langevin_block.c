@@ -45,7 +45,7 @@ enum { ALIGN = 64, ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };
 /* Beyond this an angle in the shaken frame loses more than 1e-9 to rounding. */
 static const double largest_pivot = 1e7;
 
-/* How many steps all lanes take together between two calls of stop(): those of some hundredths of a
+/* Number of steps of all lanes together between two calls of stop(): those of some hundredths of a
  * second, as in flow.c. */
 static const double steps_between = 300000.0;
 

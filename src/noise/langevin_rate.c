@@ -83,7 +83,7 @@ pendres_status pendres_langevin_rate(double events, double exposure, double leve
         level > 0.0 && level < 1.0))
     return PENDRES_INVALID_ARGUMENT;
   pendres_status status = interval(events, level, &low, &high);
-  /* Where nothing was seen, a rate of 0 +- 0 would be a lie. */
+  /* Without any event, a rate of 0 +- 0 would be wrong. */
   if (status == PENDRES_OK && events == 0.0)
     status = interval(0.0, PENDRES_ONE_SIGMA, &lowest, &one_sigma);
   if (status != PENDRES_OK) return status;

@@ -45,7 +45,7 @@ const char *pendres_noise_refuses(const pendres_pendulum *p)
   if (pendres_pendulum_leaves(p)) return carried;
   if (p->force != PENDRES_FORCE_POLYNOMIAL || fabs(p->parametric_amplitude) < 1.0) return NULL;
   while (highest > 0 && p->force_coefficients[highest - 1] == 0.0) highest--;
-  /* A force of first order may be driven parametrically as strongly as its orbit stands. */
+  /* A linear force may be driven parametrically as strongly as its orbit remains stable. */
   return highest == 1 && p->force_coefficients[0] > 0.0 ? NULL : carried;
 }
 

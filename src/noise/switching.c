@@ -23,7 +23,7 @@ enum { GONE = -1 };
    attractor's by this multiple of the temperature: one of exp(30) would return. */
 static const double no_return = 30.0;
 
-/* With fewer events or fewer trajectories nothing is known of their scatter. */
+/* With fewer events or fewer trajectories their scatter is not known. */
 static const double FEWEST = 10.0;
 
 /* ---- Counting ------------------------------------------------------------------------------ */
@@ -317,12 +317,12 @@ static const double second_order = 0.125, most_missed = 0.5;
  *
  * Between two states with rates a and b the slowest decay of the shares, which is what a + b stands
  * for, is a root of F G = 1, F and G the Laplace transforms of the times until transitions there
- * and back. Such a time is a sum of absences u from the core, after each of which the same share
- * goes for good, and of a last one, the passage t. To first order a becomes a / (1 - (a + b) late)
- * with late = <t> - <u^2> / (2 <u>), the time from when a trajectory has gone.
+ * and back. Such a time is a sum of absences u from the core, in each of which the same share of
+ * trajectories leaves finally, and of a last one, the passage t. To first order a becomes
+ * a / (1 - (a + b) late) with late = <t> - <u^2> / (2 <u>), the time since the transition.
  *
- * Among equal wells half of those that cross again go on to the next instead of back, and from
- * infinity none comes back.
+ * Among equal wells half of the trajectories that cross again go to the next well and not back, and
+ * none returns from infinity.
  */
 static double missed(const pendres_switching_tally *y, size_t s, size_t t)
 {

@@ -18,7 +18,7 @@ static const double default_level = 0.95;
 enum {
   WAYS = PENDRES_SWITCHING_WAYS,
   WELL = -2,
-  PART = 96 /* trajectories, at most: counts of parts add up to the same however they are cut */
+  PART = 96 /* trajectories, at most: sums of counts do not depend on the division into parts */
 };
 
 /* Where ways begin and end: the first state, the second, or another well. */
