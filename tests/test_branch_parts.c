@@ -1,9 +1,10 @@
 /*
  * test_branch_parts.c -- the parts of branches that attract end where orbits lose their stability,
  * wherever a branch starts: at the bifurcations themselves, too, beside which rounding decides
- * whether a point of it is stable.
+ * whether a point of it is stable. And errors of their points are not those of larger orbits.
  */
 #include <pendres/pendres.h>
+#include <pendres/reference.h>
 
 #include "context_fixture.h"
 
@@ -68,8 +69,43 @@ static void starts_at_bifurcations(void **state)
   assert_true(parts > 12);
 }
 
+/*
+ * Of an oscillator that swings by a thousandth, a hundred thousand times before it is at rest,
+ * errors are those of numbers of that size. What is true is the reference's orbit.
+ */
+static void errors_of_small_orbits_are_small(void **state)
+{
+  pendres_context *ctx = context_with(NULL);
+  const double damping = 1e-5;
+  const pendres_pendulum p = {.damping = damping, .drive_amplitude = 1e-3 * damping,
+                              .drive_frequency = 1.0 - 3.0 * damping,
+                              .force = PENDRES_FORCE_POLYNOMIAL,
+                              .force_coefficients = {1.0, 0.0, 1.0}};
+  const pendres_orbit_guess guess = {.pendulum = p, .x = 2e-4, .period = 1};
+  const pendres_branch_options options = {.parameter = PENDRES_DRIVE_FREQUENCY,
+                                          .low = 1.0 - 5.0 * damping, .high = 1.0 + 5.0 * damping};
+  pendres_orbit start;
+  pendres_status outcome;
+  pendres_branch *b = NULL;
+  (void)state;
+  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
+  assert_int_equal(outcome, PENDRES_OK);
+  check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+  assert_true(pendres_branch_count(b) > 10);
+  for (size_t i = 0; i < pendres_branch_count(b); i++) {
+    const pendres_orbit *o = &pendres_branch_get(b, i)->orbit;
+    pendres_reference_cycle c;
+    check_ok(pendres_reference_orbit(&o->pendulum, o->x, o->v, 1, 0, &c));
+    check_near(o->amplitude, (double)c.amplitude, o->amplitude_error);
+    assert_true(o->amplitude_error < 1e-7 * o->amplitude);
+  }
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(starts_at_bifurcations)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(starts_at_bifurcations),
+                                     cmocka_unit_test(errors_of_small_orbits_are_small)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,6 +58,18 @@ static pendres_status begin(pendres_context *ctx, pendres_curve *c, const size_t
   return status;
 }
 
+/* The size that rounding sees: a radian or the unit of length, less on branches of what swings
+   less. What swings by a fifth of a radian counts as if it swung by a whole one; equations of a
+   bifurcation round entries of a matrix, which have a size of their own. */
+static double rounded_size(const pendres_correction *c)
+{
+  static const double least = 1e-9, angle = 0.2;
+  const pendres_continuation_system *s = &c->kind->system;
+  const double whole = pendres_model_of(s->map.force)->angle ? angle : 1.0;
+  const double far = hypot(c->u[PENDRES_U_Y], c->u[PENDRES_U_W]);
+  return s->condition == PENDRES_CONDITION_NONE ? fmax(least, fmin(1.0, far / whole)) : 1.0;
+}
+
 /* Correct all nodes that are left, with the coarser number of steps or with the finer one. */
 static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish *w, int fine)
 {
@@ -87,7 +99,8 @@ static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish
     pendres_continuation_pair *p = &curve->pair[w->index[i]];
     /* A node that cannot be corrected stays where the follower left it, with an error that says
        so. */
-    const double rounding = pendres_correction_rounding(&w->point[i]);
+    const pendres_correction *c = &w->point[i];
+    const double rounding = pendres_correction_rounding(c) * rounded_size(c);
     memcpy(fine ? p->fine : p->coarse, w->point[i].u, sizeof p->fine);
     p->rounding = isnan(rounding) ? curve->kind.tolerance : rounding;
   }
