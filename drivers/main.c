@@ -297,8 +297,9 @@ static int compute(job *j)
   farm_dismiss(j->farm, status == PENDRES_OK || status == PENDRES_INTERRUPTED ? NULL
                : j->run.message[0] != '\0' ? j->run.message
                : pendres_status_message(status));
-  if (status == PENDRES_OK) status = scene_write_identity(&j->run);
-  if (status == PENDRES_OK) status = scene_write_units(&j->run);
+  scene_write_identity(&j->run);
+  scene_write_units(&j->run);
+  status = j->run.status;
   if (status == PENDRES_OK || farm_left(j->farm)) return DONE;
   if (status == PENDRES_INTERRUPTED) {
     const char *signal = signals_name();

@@ -34,7 +34,8 @@ static void check_scaled(result a3, result drive, double F)
 /* The file as the driver writes it. */
 static pendres_status identified(scene_run *run)
 {
-  const pendres_status status = scene_write_identity(run);
+  scene_write_identity(run);
+  const pendres_status status = run->status;
   return status == PENDRES_OK ? scene_find(run->deck->kind)->run(run) : status;
 }
 

@@ -194,8 +194,9 @@ static void check_text(pendres_store *store, const char *name, const char *attri
 /* The scene, and what every file has beside it. */
 static pendres_status run_whole(scene_run *run)
 {
-  const pendres_status status = scene_find(run->deck->kind)->run(run);
-  return status == PENDRES_OK ? scene_write_identity(run) : status;
+  (void)scene_find(run->deck->kind)->run(run);
+  scene_write_identity(run);
+  return run->status;
 }
 
 /* An oscillator's coordinate is no angle: only phases are in rad, and no word tells of an angle or

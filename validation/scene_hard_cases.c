@@ -146,32 +146,27 @@ static const scene_cell cells[] = {
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
-static pendres_status report(scene_run *run, work *w)
+static void report(scene_run *run, work *w)
 {
   const scene_table table = {.dimensions = {"case"}, .n = w->rows, .stride = sizeof *w->row,
                              .rows = w->row};
-  pendres_status status = scene_numbering(run, "case", w->rows, "case, by number");
+  scene_numbering(run, "case", w->rows, "case, by number");
   for (size_t k = 0; k < w->rows; k++) run->failed_points += !w->row[k].holds;
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, columns);
-  if (status == PENDRES_OK && run->table != NULL)
-    SCENE_PRINT(run->table, &table, w->rows, cells, NULL);
-  return status;
+  SCENE_WRITE(run, &table, columns);
+  if (scene_prints(run)) SCENE_PRINT(run->table, &table, w->rows, cells, NULL);
 }
 
 static pendres_status run_scene(scene_run *run)
 {
   work w = { .farm = run->farm };
-  pendres_status status = choose(run->deck, &w);
-  if (status != PENDRES_OK)
-    (void)scene_fail(run, status, "%s", pendres_status_message(status));
-  else
-    status = scene_compute(run, &(farm_stage){ .what = "cases", .last = 1, .tasks = w.count,
-                                               .task = run_case, .check = check, .collect = collect,
-                                               .arg = &w });
-  if (status == PENDRES_OK) status = report(run, &w);
+  const pendres_status status = choose(run->deck, &w);
+  if (status != PENDRES_OK) scene_fail(run, status, "%s", pendres_status_message(status));
+  scene_compute(run, &(farm_stage){ .what = "cases", .last = 1, .tasks = w.count, .task = run_case,
+                                    .check = check, .collect = collect, .arg = &w });
+  report(run, &w);
   free(w.row);
   free(w.chosen);
-  return status;
+  return run->status;
 }
 
 static void describe(const deck *d, FILE *out)

@@ -173,7 +173,7 @@ static size_t left_out_of(const work *w, int mark)
   return some;
 }
 
-static pendres_status write_left_out(scene_run *run, const work *w)
+static void write_left_out(scene_run *run, const work *w)
 {
   static const scene_column column = {
     .name = "left_out", .type = SCENE_PLAIN,
@@ -183,16 +183,13 @@ static pendres_status write_left_out(scene_run *run, const work *w)
   const scene_table table = {.dimensions = {"mark"}, .n = WORK_UNIT_MARKS,
                              .stride = sizeof *left_out, .rows = left_out};
   for (int m = 0; m < WORK_UNIT_MARKS; m++) left_out[m] = (double)left_out_of(w, m);
-  const pendres_status status = pendres_store_dimension(
-    run->store,
-    &(pendres_store_spec){.name = "mark", .type = PENDRES_STORE_INT64,
-                          .long_name = "drive periods after which errors are measured"},
-    WORK_UNIT_MARKS, (const int64_t[]){10, 100});
-  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
-                              : scene_stored(run, status);
+  const pendres_store_spec marks = {.name = "mark", .type = PENDRES_STORE_INT64,
+                                    .long_name = "drive periods after which errors are measured"};
+  scene_put_dimension(run, &marks, (const int64_t[]){10, 100}, WORK_UNIT_MARKS);
+  scene_columns_write(run, &table, 1, &column);
 }
 
-static pendres_status write_settling(scene_run *run, const settling *settled)
+static void write_settling(scene_run *run, const settling *settled)
 {
   static const scene_column about[] = {
     SCENE_COLUMN(settling, cost_periods, "drive periods integrated for each pendulum that is asked "
@@ -202,56 +199,41 @@ static pendres_status write_settling(scene_run *run, const settling *settled)
   };
   const scene_table table = {.prefix = "settling", .n = 1, .stride = sizeof *settled,
                              .rows = settled};
-  return SCENE_WRITE(run, &table, about);
+  SCENE_WRITE(run, &table, about);
 }
 
 /* Speeds at equal errors, [method][error], in a group of their own. */
-static pendres_status write_speeds(scene_run *run, const char *group, size_t methods,
-                                   const char *const *names, const double *speed,
-                                   const char *comment)
+static void write_speeds(scene_run *run, const char *group, size_t methods,
+                         const char *const *names, const double *speed, const char *comment)
 {
   const scene_column column = {.name = "throughput", .units = "s-1", .type = SCENE_PLAIN,
                                .long_name = "pendulum-periods a second at an error",
                                .comment = comment};
   const scene_table table = {.group = group, .dimensions = {"method", "error"},
                              .n = methods * ERRORS, .stride = sizeof *speed, .rows = speed};
-  pendres_status status =
-    pendres_store_dimension(
-      run->store,
-      &(pendres_store_spec){.group = group, .name = "method", .type = PENDRES_STORE_STRING,
-                            .long_name = "method"}, methods, names);
-  if (status == PENDRES_OK)
-    status = pendres_store_dimension(
-      run->store,
-      &(pendres_store_spec){.group = group, .name = "error",
-                            .long_name = "largest error after 100 drive periods"}, ERRORS,
-      error_marks);
-  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
-                              : scene_stored(run, status);
+  const pendres_store_spec method = {.group = group, .name = "method", .long_name = "method",
+                                     .type = PENDRES_STORE_STRING};
+  const pendres_store_spec error = {.group = group, .name = "error",
+                                    .long_name = "largest error after 100 drive periods"};
+  scene_put_dimension(run, &method, names, methods);
+  scene_put_dimension(run, &error, error_marks, ERRORS);
+  scene_columns_write(run, &table, 1, &column);
 }
 
-static pendres_status write_ours(scene_run *run, const work *w)
+static void write_ours(scene_run *run, const work *w)
 {
-  double *speed = malloc(w->methods * ERRORS * sizeof *speed);
-  const char **names = malloc(w->methods * sizeof *names);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (speed == NULL || names == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu methods", w->methods);
-    goto done;
-  }
+  double *speed = scene_array(run, w->methods * ERRORS, sizeof *speed);
+  const char **names = scene_array(run, w->methods, sizeof *names);
+  if (names == NULL) return;
   for (size_t m = 0; m < w->methods; m++) {
     names[m] = w->d->methods.name[m];
     for (size_t e = 0; e < ERRORS; e++) speed[m * ERRORS + e] = speed_at(w, m, error_marks[e]);
   }
-  status = write_speeds(run, "at_error", w->methods, names, speed,
-                        "interpolated between the tightest tolerances whose errors enclose it");
-done:
-  free(speed);
-  free(names);
-  return status;
+  write_speeds(run, "at_error", w->methods, names, speed,
+               "interpolated between the tightest tolerances whose errors enclose it");
 }
 
-static pendres_status write_others(scene_run *run)
+static void write_others(scene_run *run)
 {
   const char *names[OTHERS];
   double speed[OTHERS * ERRORS];
@@ -259,12 +241,11 @@ static pendres_status write_others(scene_run *run)
     names[m] = others[m].name;
     for (size_t e = 0; e < ERRORS; e++) speed[m * ERRORS + e] = 1e6 * others[m].speed[e];
   }
-  return write_speeds(run, "others", OTHERS, names, speed,
-                      "unit 'ensemble' on one AVX-512 core; arkode_single: one ARKODE problem a "
-                      "pendulum");
+  write_speeds(run, "others", OTHERS, names, speed,
+               "unit 'ensemble' on one AVX-512 core; arkode_single: one ARKODE problem a pendulum");
 }
 
-static pendres_status write_results(scene_run *run, const work *w, const scene_table *benchmarks)
+static void write_results(scene_run *run, const work *w, const scene_table *benchmarks)
 {
   static const scene_column name = {.name = "method_name", .long_name = "method",
                                     .type = SCENE_TEXT};
@@ -273,16 +254,15 @@ static pendres_status write_results(scene_run *run, const work *w, const scene_t
   const char *words = w->d->unit;
   const scene_table methods = {.dimensions = {"method"}, .n = w->methods,
                                .stride = sizeof *w->d->methods.name, .rows = w->d->methods.name};
-  pendres_status status = scene_numbering(run, "method", w->methods, "method, by number");
-  if (status == PENDRES_OK) status = scene_columns_write(run, &methods, 1, &name);
-  if (status == PENDRES_OK) status = scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, benchmarks, columns);
-  if (status == PENDRES_OK) status = write_left_out(run, w);
-  if (status == PENDRES_OK)
-    status = scene_stored(run, pendres_store_put(run->store, &unit, &words, NULL, 1));
-  if (status == PENDRES_OK) status = write_settling(run, &w->settled);
-  if (status == PENDRES_OK) status = write_ours(run, w);
-  return status == PENDRES_OK ? write_others(run) : status;
+  scene_numbering(run, "method", w->methods, "method, by number");
+  scene_columns_write(run, &methods, 1, &name);
+  scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
+  SCENE_WRITE(run, benchmarks, columns);
+  write_left_out(run, w);
+  scene_put(run, &unit, &words, NULL, 1);
+  write_settling(run, &w->settled);
+  write_ours(run, w);
+  write_others(run);
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
@@ -324,20 +304,19 @@ static void print_table(FILE *out, const work *w, const scene_table *benchmarks)
           w->settled.cost_periods, w->settled.seconds, 100.0 * w->settled.resolved);
 }
 
-static pendres_status tell(scene_run *run, const work *w)
+static void tell(scene_run *run, const work *w)
 {
   const size_t n = w->methods * w->tolerances;
   row *rows = scene_array(run, n, sizeof *rows);
   const scene_table benchmarks = {.dimensions = {"method", "tolerance"}, .n = n,
                                    .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (rows == NULL) return;
   for (size_t i = 0; i < n; i++) {
     rows[i] = row_of(w, i);
     run->failed_points += rows[i].failure[0] != '\0';
   }
-  const pendres_status status = write_results(run, w, &benchmarks);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, w, &benchmarks);
-  return status;
+  write_results(run, w, &benchmarks);
+  if (scene_prints(run)) print_table(run->table, w, &benchmarks);
 }
 
 static void describe(const deck *d, FILE *out)
@@ -353,27 +332,17 @@ static pendres_status run_scene(scene_run *run)
              .methods = d->methods.count, .tolerances = d->axis[DECK_AXIS_TOLERANCE].count };
   const size_t n = w.methods * w.tolerances;
   pendres_status status = work_unit_make(d->unit, &w.unit);
-  if (status == PENDRES_OK) {
-    w.benchmark = calloc(n, sizeof *w.benchmark);
-    if (w.benchmark == NULL) status = PENDRES_OUT_OF_MEMORY;
+  if (status != PENDRES_OK) scene_fail(run, status, "out of memory for the unit '%s'", d->unit);
+  w.benchmark = scene_array(run, n, sizeof *w.benchmark);
+  if (scene_going(run)) {
+    status = work_unit_refer(&w.unit, run->farm);
+    if (status != PENDRES_OK) scene_fail(run, status, "%s", farm_message(run->farm));
   }
-  if (status != PENDRES_OK) {
-    (void)scene_fail(run, status, "out of memory for the unit '%s'", d->unit);
-    goto done;
-  }
-  status = work_unit_refer(&w.unit, run->farm);
-  if (status != PENDRES_OK) {
-    (void)scene_fail(run, status, "%s", farm_message(run->farm));
-    goto done;
-  }
-  status = scene_compute(run, &(farm_stage){ .what = "runs", .last = 1, .tasks = n + 1,
-                                             .task = measure,
-                                             .timed = 1, .collect = collect, .arg = &w });
-  if (status == PENDRES_OK) status = tell(run, &w);
-done:
-  free(w.benchmark);
+  scene_compute(run, &(farm_stage){ .what = "runs", .last = 1, .tasks = n + 1, .task = measure,
+                                    .timed = 1, .collect = collect, .arg = &w });
+  tell(run, &w);
   work_unit_free(&w.unit);
-  return status;
+  return run->status;
 }
 
 static double runs_of(const deck *d)

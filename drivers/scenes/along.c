@@ -217,11 +217,10 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   return PENDRES_OK;
 }
 
-pendres_status scene_along_compute(scene_run *run, const scene_along_way *way,
-                                   scene_along_path *path)
+void scene_along_compute(scene_run *run, const scene_along_way *way, scene_along_path *path)
 {
   sweep s = {run, way, path};
-  return scene_compute(run, &(farm_stage){.what = "sweeps", .tasks = 1, .record_size = 1,
+  scene_compute(run, &(farm_stage){.what = "sweeps", .tasks = 1, .record_size = 1,
                                           .task = follow, .check = check, .collect = collect,
                                           .arg = &s});
 }
@@ -270,9 +269,8 @@ static scene_along_jump jump_row(const pendres_jump *j)
     .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
 }
 
-pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *path,
-                                       const char *what, size_t count,
-                                       const scene_column *columns)
+void scene_along_write_jumps(scene_run *run, const scene_along_path *path, const char *what,
+                             size_t count, const scene_column *columns)
 {
   char words[60];
   scene_along_jump *rows = scene_array(run, path->jumps, sizeof *rows);
@@ -281,7 +279,7 @@ pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *p
                              .stride = sizeof *rows, .rows = rows};
   snprintf(words, sizeof words, "number of the %s", what);
   scene_numbering(run, what, table.n, words);
-  return scene_columns_write(run, &table, count, columns);
+  scene_columns_write(run, &table, count, columns);
 }
 
 static const scene_column verdicts[] = {
@@ -305,12 +303,11 @@ int scene_along_uncertain(const scene_along_path *path)
   return 0;
 }
 
-pendres_status scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
-                                          const scene_table *table)
+void scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
+                                const scene_table *table)
 {
   SCENE_WRITE(run, table, verdicts);
   if (scene_along_uncertain(path)) SCENE_WRITE(run, table, doubts);
-  return run->status;
 }
 
 /* Of values that a path has left out; NULL: what is said of all. */

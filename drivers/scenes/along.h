@@ -35,8 +35,7 @@ typedef struct scene_along_way {
 
 /* Follow the deck's pendulum from its start along a way, in a task; the path is the run's. The
    budget is of all values together: where it ends the path, the rest of it stays unresolved. */
-pendres_status scene_along_compute(scene_run *run, const scene_along_way *way,
-                                   scene_along_path *path);
+void scene_along_compute(scene_run *run, const scene_along_way *way, scene_along_path *path);
 
 /* Whether a point is on a closed orbit. */
 int scene_along_closed(const pendres_hysteresis_point *point);
@@ -65,9 +64,8 @@ scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path);
 
 /* Write the jumps of a path as a table of scene_along_jump over a dimension `what`, which is before
    all names, too. SCENE_ALONG_WRITE_JUMPS writes the columns of an array. */
-pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *path,
-                                       const char *what, size_t count,
-                                       const scene_column *columns);
+void scene_along_write_jumps(scene_run *run, const scene_along_path *path, const char *what,
+                             size_t count, const scene_column *columns);
 #define SCENE_ALONG_WRITE_JUMPS(run, path, what, columns) \
   scene_along_write_jumps(run, path, what, sizeof columns / sizeof *columns, columns)
 
@@ -75,8 +73,8 @@ pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *p
 int scene_along_uncertain(const scene_along_path *path);
 
 /* Write columns of a table of scene_along_row: `label`, `failed` and, if it is, `uncertain`. */
-pendres_status scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
-                                          const scene_table *table);
+void scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
+                                const scene_table *table);
 
 /* Count the points that failed, and tell the first of them. If there are two ways, points of the
    way back are in the order of the axis, too. */

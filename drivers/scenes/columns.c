@@ -257,10 +257,10 @@ static void reserve(scene_run *run, size_t n, buffers *b)
     scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
 }
 
-pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t count,
-                                   const scene_column *columns)
+void scene_columns_write(scene_run *run, const scene_table *t, size_t count,
+                         const scene_column *columns)
 {
-  if (!scene_going(run)) return run->status;
+  if (!scene_going(run)) return;
   const size_t each = t->first > 0 ? t->n / t->first : t->n, bytes = each * t->stride;
   const size_t most = bytes > 0 && bytes < PIECE ? PIECE / bytes : 1;
   const size_t room = most * each < t->n ? most * each : t->n;
@@ -273,10 +273,9 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t 
     write_column(run, t, most, &columns[k], rows, &b);
   free(rows);
   release(&b);
-  return run->status;
 }
 
-pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *t, size_t orbit)
+void scene_columns_write_orbits(scene_run *run, const scene_table *t, size_t orbit)
 {
   const pendres_orbit_quantity *q;
   for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
@@ -287,28 +286,24 @@ pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *t, 
                                  .error = exact ? 0 : orbit + q->error};
     if (q->principal) scene_columns_write(run, t, 1, &column);
   }
-  return run->status;
 }
 
-pendres_status scene_columns_define(scene_run *run, const scene_table *t,
-                                    const scene_variables *of)
+void scene_columns_define(scene_run *run, const scene_table *t, const scene_variables *of)
 {
   for (size_t k = 0; k < of->count; k++) define(run, t, &of->column[k], &of->variable[k]);
-  return run->status;
 }
 
-pendres_status scene_columns_write_rows(scene_run *run, const scene_table *t, size_t first,
-                                        size_t rows, const scene_variables *of)
+void scene_columns_write_rows(scene_run *run, const scene_table *t, size_t first, size_t rows,
+                              const scene_variables *of)
 {
   buffers b;
   piece p = {.first = first, .values = rows, .table = *t};
-  if (!scene_going(run)) return run->status;
+  if (!scene_going(run)) return;
   p.table.first = rows;
   reserve(run, t->n, &b);
   for (size_t k = 0; k < of->count && scene_going(run); k++)
     write_piece(run, &p, &of->column[k], &of->variable[k], &b);
   release(&b);
-  return run->status;
 }
 
 /* ---- the short table ----------------------------------------------------------------------- */

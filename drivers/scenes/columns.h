@@ -70,8 +70,8 @@ typedef struct scene_table {
 } scene_table;
 
 /* Write all columns; their dimensions exist. SCENE_WRITE writes those of an array. */
-pendres_status scene_columns_write(scene_run *run, const scene_table *table, size_t count,
-                                   const scene_column *columns);
+void scene_columns_write(scene_run *run, const scene_table *table, size_t count,
+                         const scene_column *columns);
 #define SCENE_WRITE(run, table, columns) \
   scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
 
@@ -85,7 +85,7 @@ void scene_columns_blank(size_t count, const scene_column *columns, void *row);
   scene_columns_blank(sizeof columns / sizeof *columns, columns, row)
 
 /* Write the principal measures of the orbits that stand at that offset in the rows. */
-pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);
+void scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);
 
 /* What the store calls a column: the numbers of its variable and, if it has one, its error's. */
 typedef struct scene_variable {
@@ -101,10 +101,9 @@ typedef struct scene_variables {
 
 /* Define the variables; then write pieces: table->rows are the n elements of `rows` values of the
    first dimension, from number `first` on. */
-pendres_status scene_columns_define(scene_run *run, const scene_table *table,
-                                    const scene_variables *of);
-pendres_status scene_columns_write_rows(scene_run *run, const scene_table *table, size_t first,
-                                        size_t rows, const scene_variables *of);
+void scene_columns_define(scene_run *run, const scene_table *table, const scene_variables *of);
+void scene_columns_write_rows(scene_run *run, const scene_table *table, size_t first, size_t rows,
+                              const scene_variables *of);
 
 /* Names of values of the library's enums, as columns take them. */
 const char *scene_label_names(int value); /* of attractors */

@@ -145,7 +145,7 @@ static pendres_status define(pendres_store *store, const char *name, const char 
            ? pendres_store_attribute(store, "", name, "comment", words) : PENDRES_OK;
 }
 
-pendres_status scene_define(scene_run *run)
+void scene_define(scene_run *run)
 {
   const int angle = pendres_model_of(deck_pendulum(run->deck).force)->angle;
   const pendres_orbit_quantity *q;
@@ -157,5 +157,5 @@ pendres_status scene_define(scene_run *run)
     status = define(run->store, definitions[i].name,
                     angle || definitions[i].no_angle == NULL ? definitions[i].definition
                                                              : definitions[i].no_angle);
-  return scene_stored(run, status);
+  scene_stored(run, status);
 }

@@ -65,11 +65,10 @@ int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double run
   return 1;
 }
 
-pendres_status scene_failures_create(scene_run *run, size_t n, scene_failures *out)
+void scene_failures_create(scene_run *run, size_t n, scene_failures *out)
 {
   *out = (scene_failures){.run = run, .n = n, .reason = scene_array(run, n, 1),
                           .words = scene_array(run, n, sizeof *out->words)};
-  return run->status;
 }
 
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words)
@@ -196,8 +195,8 @@ void scene_failure_flags(pendres_store_spec *spec)
   spec->flag_meanings = meanings;
 }
 
-pendres_status scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
-                                    const char *what, int axes, const deck_axis_id *axis)
+void scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
+                          const char *what, int axes, const deck_axis_id *axis)
 {
   char words[80], where[200];
   pendres_store_spec spec = { .name = name, .long_name = words };
@@ -211,5 +210,4 @@ pendres_status scene_failures_write(scene_run *run, const scene_failures *f, con
     scene_point_name(run->deck, i, axes, axis, where, sizeof where);
     scene_failure_tell(run, (scene_failure)f->reason[i], f->words[i], "%s at %s", what, where);
   }
-  return run->status;
 }

@@ -98,7 +98,7 @@ typedef struct scene_failures {
   char **words;   /* [n] the library's own; NULL: those of the list */
 } scene_failures;
 
-pendres_status scene_failures_create(scene_run *run, size_t n, scene_failures *out);
+void scene_failures_create(scene_run *run, size_t n, scene_failures *out);
 
 /* Mark a point; the last mark counts. words are copied; NULL: those of the list. */
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);
@@ -111,8 +111,8 @@ void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v
  * what: the points, in the singular. The failed ones are counted in run->failed_points, and the
  * first of them told with their coordinates.
  */
-pendres_status scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
-                                    const char *what, int axes, const deck_axis_id *axis);
+void scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
+                          const char *what, int axes, const deck_axis_id *axis);
 
 /* The names of the codes, as columns take them; NULL beyond the last. */
 const char *scene_failure_names(int value);

@@ -212,8 +212,8 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   return PENDRES_OK;
 }
 
-pendres_status scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
-                                    scene_points *const *points)
+void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
+                          scene_points *const *points)
 {
   stage_points s = {run, points};
   farm_stage whole = *stage;
@@ -231,7 +231,7 @@ pendres_status scene_points_compute(scene_run *run, const farm_stage *stage, siz
   whole.check = check;
   whole.collect = collect;
   whole.arg = &s;
-  return scene_compute(run, &whole);
+  scene_compute(run, &whole);
 }
 
 /* ---- what has come of it ------------------------------------------------------------------- */
@@ -260,15 +260,14 @@ void scene_points_tell(scene_run *run, const scene_points *p)
   }
 }
 
-pendres_status scene_points_write_failed(scene_run *run, const scene_points *p, const char *name,
-                                         const char *long_name)
+void scene_points_write_failed(scene_run *run, const scene_points *p, const char *name,
+                               const char *long_name)
 {
   pendres_store_spec spec = {.name = name, .long_name = long_name};
   scene_failure_flags(&spec);
   for (int i = 0; i < p->axes; i++) spec.dimensions[i] = deck_axis_name(p->axis[i]);
   scene_put(run, &spec, p->failed.reason, NULL, p->n);
   scene_points_tell(run, p);
-  return run->status;
 }
 
 scene_table scene_points_table(const scene_points *p, const deck *d)
@@ -279,8 +278,8 @@ scene_table scene_points_table(const scene_points *p, const deck *d)
   return table;
 }
 
-pendres_status scene_points_write(scene_run *run, const scene_points *p)
+void scene_points_write(scene_run *run, const scene_points *p)
 {
   const scene_table table = scene_points_table(p, run->deck);
-  return scene_columns_write(run, &table, p->column_count, p->columns);
+  scene_columns_write(run, &table, p->column_count, p->columns);
 }

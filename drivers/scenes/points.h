@@ -89,8 +89,8 @@ pendres_status scene_mark_status(const scene_some *some, size_t i, pendres_statu
 
 /* Compute the points of several kinds in one stage, one kind after another. stage: its name, and
    whether it is cheap or the last; the rest is set here. */
-pendres_status scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
-                                    scene_points *const *points);
+void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
+                          scene_points *const *points);
 
 /* The same for points of one kind, with fields of the stage. */
 #define SCENE_COMPUTE(run, points, name, ...)                                      \
@@ -101,11 +101,11 @@ pendres_status scene_points_compute(scene_run *run, const farm_stage *stage, siz
 void scene_points_tell(scene_run *run, const scene_points *p);
 
 /* The same, and write the variable `name` over the axes, whose dimensions exist. */
-pendres_status scene_points_write_failed(scene_run *run, const scene_points *p, const char *name,
-                                         const char *long_name);
+void scene_points_write_failed(scene_run *run, const scene_points *p, const char *name,
+                               const char *long_name);
 
 /* The rows as a table over the axes, and writing that with all columns. */
 scene_table scene_points_table(const scene_points *p, const deck *d);
-pendres_status scene_points_write(scene_run *run, const scene_points *p);
+void scene_points_write(scene_run *run, const scene_points *p);
 
 #endif

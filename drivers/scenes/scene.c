@@ -99,26 +99,25 @@ pendres_status scene_asked(scene_run *run, pendres_status status)
   return run->status;
 }
 
-pendres_status scene_compute(scene_run *run, const farm_stage *stage)
+void scene_compute(scene_run *run, const farm_stage *stage)
 {
-  if (!scene_going(run)) return run->status;
+  if (!scene_going(run)) return;
   const pendres_status status = farm_run(run->farm, stage);
-  return status == PENDRES_OK ? run->status : scene_fail(run, status, "%s",
-                                                         farm_message(run->farm));
+  if (status != PENDRES_OK) scene_fail(run, status, "%s", farm_message(run->farm));
 }
 
-pendres_status scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
-                         const double *errors, size_t n)
+void scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
+               const double *errors, size_t n)
 {
-  if (!scene_going(run)) return run->status;
-  return scene_stored(run, pendres_store_put(run->store, spec, values, errors, n));
+  if (!scene_going(run)) return;
+  scene_stored(run, pendres_store_put(run->store, spec, values, errors, n));
 }
 
-pendres_status scene_put_dimension(scene_run *run, const pendres_store_spec *spec,
-                                   const void *values, size_t n)
+void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const void *values,
+                         size_t n)
 {
-  if (!scene_going(run)) return run->status;
-  return scene_stored(run, pendres_store_dimension(run->store, spec, n, values));
+  if (!scene_going(run)) return;
+  scene_stored(run, pendres_store_dimension(run->store, spec, n, values));
 }
 
 /* ---- arrays -------------------------------------------------------------------------------- */
@@ -193,33 +192,33 @@ static const char *words_of(deck_axis_id axis)
   return axis == DECK_AXIS_AMPLITUDE ? "amplitude of the angle" : "tolerance asked for";
 }
 
-static pendres_status write_dimension(scene_run *run, const char *group, deck_axis_id axis,
+static void write_dimension(scene_run *run, const char *group, deck_axis_id axis,
                                       const char *words)
 {
   const deck_axis *a = &run->deck->axis[axis];
-  return scene_put_dimension(
+  scene_put_dimension(
     run, &(pendres_store_spec){.group = group, .name = deck_axis_name(axis), .long_name = words,
                                .units = units_of(axis)}, a->value, a->count);
 }
 
-pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
+void scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
 {
-  return write_dimension(run, group, axis, words_of(axis));
+  write_dimension(run, group, axis, words_of(axis));
 }
 
-pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis)
+void scene_dimension_short(scene_run *run, deck_axis_id axis)
 {
   /* Short ones would say too little of what a plain pendulum has not. */
   const pendres_parameter parameter = deck_axis_parameter(axis);
   char text[DECK_NAME];
-  return write_dimension(run, "", axis, pendres_parameter_of(parameter)->plain
+  write_dimension(run, "", axis, pendres_parameter_of(parameter)->plain
                                           ? scene_spaced(parameter, text)
                                           : words_of(axis));
 }
 
-pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words)
+void scene_numbering(scene_run *run, const char *name, size_t n, const char *words)
 {
-  return scene_put_dimension(run, &(pendres_store_spec){.name = name, .long_name = words}, NULL, n);
+  scene_put_dimension(run, &(pendres_store_spec){.name = name, .long_name = words}, NULL, n);
 }
 
 double scene_fixed(const deck *d, deck_axis_id axis)
@@ -264,17 +263,17 @@ static void put_attribute(scene_run *run, const char *name, const char *text)
     scene_stored(run, pendres_store_attribute(run->store, "", NULL, name, text));
 }
 
-pendres_status scene_write_identity(scene_run *run)
+void scene_write_identity(scene_run *run)
 {
   const deck *d = run->deck;
   char coordinates[DECK_AXIS_COUNT * DECK_NAME] = "";
   const char *slash = strrchr(d->name, '/');
+  if (!scene_going(run)) return;
   put_attribute(run, "scene", deck_kind_name(d->kind));
   put_attribute(run, "deck", slash != NULL ? slash + 1 : d->name);
   for (int i = 0; i <= DECK_AXIS_TEMPERATURE; i++) write_fixed(run, (deck_axis_id)i, coordinates);
   if (coordinates[0] != '\0') put_attribute(run, "coordinates", coordinates);
   if (scene_going(run)) scene_define(run);
-  return run->status;
 }
 
 pendres_ensemble scene_ensemble(const deck *d)

@@ -87,15 +87,14 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
 /*
  * A scene goes on until something fails. What fails is on record in the run, and the functions of
  * this folder that take one do nothing from then on: so their callers need not ask after each.
- * All of them return the status of the run.
  */
 int scene_going(const scene_run *run);
 
 /* Whether the short table is to be printed: it is wanted, and nothing has failed. */
 int scene_prints(const scene_run *run);
 
-/* Record a failure, unless an earlier one is on record. Not for tasks on threads: what they report
-   comes from their context. */
+/* Record a failure, unless an earlier one is on record; the status of the run, here and below. Not
+   for tasks on threads: what they report comes from their context. */
 pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
@@ -115,33 +114,33 @@ void *scene_array(scene_run *run, size_t n, size_t size);
 void scene_end(scene_run *run);
 
 /* Run a stage on the run's farm; on failure the run has the farm's words. */
-pendres_status scene_compute(scene_run *run, const farm_stage *stage);
+void scene_compute(scene_run *run, const farm_stage *stage);
 
 /* Write a variable, with its errors unless they are NULL, or a dimension of n values (NULL: numbers
    from 0 on); see pendres/store.h. */
-pendres_status scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
-                         const double *errors, size_t n);
-pendres_status scene_put_dimension(scene_run *run, const pendres_store_spec *spec,
-                                   const void *values, size_t n);
+void scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
+               const double *errors, size_t n);
+void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const void *values,
+                         size_t n);
 
 /* An axis of the deck as a dimension of a group, with its usual name, words and units. */
-pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
+void scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
 
 /* A dimension of the root that numbers things from 0 on. */
-pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words);
+void scene_numbering(scene_run *run, const char *name, size_t n, const char *words);
 
 /*
  * Which run this is: attributes `scene` and `deck` of the file, and the pendulum's parameters that
  * the deck holds fixed as scalar coordinates, so that files of several runs can be put together.
  */
-pendres_status scene_write_identity(scene_run *run);
+void scene_write_identity(scene_run *run);
 
 /* Where the deck gives the natural frequency, write results in Hz and s beside the dimensionless
    ones, and print the short ones behind the table. */
-pendres_status scene_write_units(scene_run *run);
+void scene_write_units(scene_run *run);
 
 /* Define the measures in the file, in their attributes `comment`; called by the above. */
-pendres_status scene_define(scene_run *run);
+void scene_define(scene_run *run);
 
 /* A parameter's name in words, "drive amplitude", in `text`, which is returned; and in columns of
    tables, where the frequency is the drive's. */
@@ -155,7 +154,7 @@ typedef struct scene_heading {
 scene_heading scene_heading_of(deck_axis_id axis);
 
 /* The dimension of a parameter in scenes that call it by its short name. */
-pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis);
+void scene_dimension_short(scene_run *run, deck_axis_id axis);
 
 /* The value of a parameter that the scene holds fixed; NaN if it is an axis, or unknown. */
 double scene_fixed(const deck *d, deck_axis_id axis);

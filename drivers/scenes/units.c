@@ -92,9 +92,7 @@ static pendres_status copy(scene_run *run, const char *name, const conversion *c
   }
   for (size_t i = 0; i < (error != NULL ? 2 * n : n) && status == PENDRES_OK; i++)
     value[i] *= c->factor;
-  if (status == PENDRES_OK)
-    status = error != NULL ? pendres_store_put(run->store, &spec, value, error, n)
-                           : pendres_store_put(run->store, &spec, value, NULL, n);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, value, error, n);
   /* Axes stand in front of every other result already. */
   if (status == PENDRES_OK && rank <= 1 && (rank == 0 || strcmp(dimension[0], name) != 0))
     status = tell(run, &(result){converted, rank == 1 ? dimension[0] : NULL, n, value, error});
@@ -140,13 +138,13 @@ static pendres_status extend_coordinates(scene_run *run)
 }
 
 /* The copies join the members while these are gone through. */
-pendres_status scene_write_units(scene_run *run)
+void scene_write_units(scene_run *run)
 {
   pendres_status status = PENDRES_OK;
   const double natural = run->deck->units.natural_frequency;
   const pendres_store_spec spec = {.name = "natural_frequency_hz", .units = "Hz",
                                    .long_name = "frequency of small free oscillations"};
-  if (!(natural > 0.0)) return PENDRES_OK;
+  if (!(natural > 0.0) || !scene_going(run)) return;
   if (run->table != NULL) fprintf(run->table, "with a natural frequency of %g Hz:\n", natural);
   for (uint64_t i = 0; status == PENDRES_OK; i++) {
     char *name = NULL;
@@ -159,5 +157,5 @@ pendres_status scene_write_units(scene_run *run)
   if (status == PENDRES_OK || status == PENDRES_NOT_FOUND)
     status = pendres_store_put(run->store, &spec, &natural, NULL, 1);
   if (status == PENDRES_OK) status = extend_coordinates(run);
-  return scene_stored(run, status);
+  scene_stored(run, status);
 }
