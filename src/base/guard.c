@@ -1,11 +1,11 @@
-/* guard.c -- who uses a handle, and how its last use went; see guard.h. */
+/* guard.c -- the use of a handle, and the message of its last use; see guard.h. */
 #include "base/guard.h"
 
 #include <errno.h>
 #include <stddef.h>
 #include <stdio.h>
 
-/* errno is each thread's own, so that its address tells threads apart; it is never 0. */
+/* Each thread has its own errno, whose address identifies the thread; it is never 0. */
 static uintptr_t this_thread(void)
 {
   return (uintptr_t)&errno;

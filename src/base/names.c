@@ -1,4 +1,4 @@
-/* names.c -- what values are called, and what status codes say; see pendres/names.h. */
+/* names.c -- names of values, and messages of status codes; see pendres/names.h. */
 #include <stddef.h>
 #include <string.h>
 

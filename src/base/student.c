@@ -1,4 +1,4 @@
-/* student.c -- errors from the scatter of few; see student.h. */
+/* student.c -- errors from the scatter of a few values; see student.h. */
 #include "base/student.h"
 
 #include <math.h>

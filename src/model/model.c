@@ -8,8 +8,7 @@
 #include "model/forces.h"
 #include "model/parameter.h"
 
-/* Of the bottoms and the tops, which all are centres: y is an angle, and the bottom stands for
-   all of them. */
+/* All bottoms and tops are centres: y is an angle, and the bottom represents all of them. */
 static double pendulum_centre(const double *a, double torque, double near)
 {
   (void)a;
@@ -195,8 +194,8 @@ double pendres_model_origin(const pendres_pendulum *p)
 /* Points of Simpson's rule on each side, for a force that is not a sum of powers. */
 enum { SAMPLES = 64 };
 
-/* For a polynomial as if all its terms added up; for other forces the larger of both sides, by
-   Simpson's rule. */
+/* For a polynomial as if all its terms had the same sign; for other forces the larger of both
+   sides, by Simpson's rule. */
 double pendres_model_climb(const pendres_pendulum *p, double reach)
 {
   double sum = 0.0, side[2] = {0.0, 0.0};
@@ -244,7 +243,7 @@ double pendres_model_scale(const pendres_pendulum *p)
   return scale > 0.0 ? scale : 1.0;
 }
 
-/* Whether drive and torque get a pendulum as far as `reach`: on average a drive makes up for the
+/* Whether drive and torque can move a pendulum as far as `reach`: on average a drive balances the
    damping at speeds below F0/damping, and at rest both together hold it. */
 static int reached(const pendres_pendulum *p, double reach)
 {
@@ -283,8 +282,7 @@ double pendres_model_distance(const pendres_pendulum *p, double x, double v)
 
 /*
  * A length beyond which, on one side, force and drives together push outwards for ever, whatever
- * the phase: the force by more than what drive and torque may make up for. Infinite if there is
- * none.
+ * the phase: the force exceeds what drive and torque can balance. Infinite if there is none.
  */
 static double far_out(const pendres_pendulum *p, double side)
 {
@@ -309,7 +307,7 @@ int pendres_model_escapes(const pendres_pendulum *p, double y, double w)
   double force, slope;
   if (models[p->force]->outward == NULL || !(side * w >= 0.0)) return 0;
   pendres_model_force(p, y, &force, &slope);
-  /* Most states are told by this alone. */
+  /* This decides for most states. */
   if (!(-side * force > 0.0)) return 0;
   return side * y > far_out(p, side);
 }

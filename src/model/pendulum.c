@@ -69,7 +69,7 @@ pendres_status pendres_harmonic_find(const pendres_pendulum *p, pendres_harmonic
   const double stiffness = (1.0 - w) * (1.0 + w);
   const double friction = p->damping * w;
   const double response = hypot(stiffness, friction);
-  /* Undamped at resonance the response is infinite: say so with inf, not a trap. */
+  /* Undamped at resonance the response is infinite: the result is inf, without a trap. */
   out->amplitude = fabs(p->drive_amplitude) / response;
   out->phase_lag = atan2(friction, stiffness);
   out->loop_area =

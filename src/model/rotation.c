@@ -19,14 +19,14 @@
 #include "model/rotation_stiff.h"
 
 static const double least_damping = 1e-9, most_damping = 100.0;
-/* Series of a velocity below this reach so little that they do not serve to begin with. */
+/* Series of a velocity below this converge in too short an interval to start with. */
 static const double slow = 0.1;
 /* From about the damping `strong` on, rotations at a torque close to 1 may be arbitrarily slow, and
    series take ever shorter steps. They need more of them than collocation does when
    1/sqrt(torque^2 - 1), which is the time of the slow passage up to a factor of the damping, is
    longer than `much`/damping. */
 static const double strong = 1.0, much = 100.0;
-/* A motion that is to come to rest before the next place makes ever shorter steps. */
+/* A motion that comes to rest before the end makes ever shorter steps. */
 static const double least_step = 1e-14;
 /* What rounding adds to the velocity in a turn, and to its time, in units of the last place: a
    third more than the most that was seen in 1300 turns beside long doubles, the change of the time
@@ -176,9 +176,9 @@ static double unstable_at(const motion *m, double to)
 }
 
 /*
- * By how much the unstable manifold passes above the stable one: at the lower equilibrium, up to
- * which the force pushes on, so that neither has come to rest on the way; or before, where the
- * equilibria are so near that the series of the stable one reaches farther.
+ * The gap by which the unstable manifold passes above the stable one: at the lower equilibrium, up
+ * to which the force accelerates, so that neither has come to rest on the way; or before it, where
+ * the equilibria are so close that the series of the stable one reaches farther.
  */
 static double gap(const motion *m)
 {
@@ -239,7 +239,7 @@ static double least_angle(double damping, finesse how, double *rounding)
   const double high = asin(fmin(1.0, 1.01 * 4.0 * damping / pi));
   const double angle = zero_of(gap_at_angle, &m, 0.0, high), h = 1e-4 * angle;
   const double slope = (gap_at_angle(angle, &m) - gap_at_angle(angle - h, &m)) / h;
-  /* Beside a computation in extended precision, 420 random dampings felt up to 7. */
+  /* Compared with a computation in extended precision, it was up to 7 at 420 random dampings. */
   *rounding = 12.0 * DBL_EPSILON / fabs(slope);
   return angle;
 }
@@ -249,8 +249,8 @@ static int sound_damping(double damping)
   return damping >= least_damping && damping <= most_damping;
 }
 
-/* Whether nothing rotates at a torque of 1, and then at no smaller one. There manifolds come to
-   rest on their way, and no gap can be told. */
+/* Whether there is no rotation at a torque of 1, and then at no smaller one. There manifolds come
+   to rest on their way, and the gap is not defined. */
 static int none_at_one(double damping, finesse how)
 {
   const motion at_one = at_torque(damping, 1.0, how);
@@ -275,7 +275,7 @@ pendres_status pendres_rotation_onset_find(double damping, pendres_rotation_onse
 /* ---- rotations ---- */
 
 /* Where a turn begins, at y = 0. The upper equilibrium that it passes is at s = 0, so that no
-   rounding of s tells next to it. */
+   rounding of s matters close to it. */
 static double start_of(const motion *m)
 {
   return m->torque > 1.0 ? 0.0 : m->angle - pi;
@@ -331,8 +331,8 @@ static double turn_from(const motion *m, double v)
   return isnan(velocity_at(m, from, v, from + two_pi, &time)) ? NAN : time;
 }
 
-/* What the period of a turn changes by with the velocity at its start: much where it comes close to
-   rest, and a little less velocity may be half of what is left, or all. */
+/* The change of the period of a turn with the velocity at its start: it is large where the motion
+   comes close to rest, since a slightly smaller velocity may then halve what is left of it. */
 static double longer_by(const motion *m, double v, double change, double period)
 {
   const double more = turn_from(m, v + change), less = turn_from(m, v - change);

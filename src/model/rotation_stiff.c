@@ -2,9 +2,9 @@
  * rotation_stiff.c -- rotations where friction is strong; see rotation_stiff.h.
  *
  * A turn is cut into panels. In each the slope of the velocity is a polynomial which fulfils
- * v dv/dy = I - sin y - gamma v at some nodes, the end of the panel among them. So what is off the
- * rotation is forgotten even where the panel is far longer than friction needs (Hairer and Wanner,
- * Solving Ordinary Differential Equations II, chapter IV.3).
+ * v dv/dy = I - sin y - gamma v at some nodes, the end of the panel among them. Deviations
+ * from the rotation are therefore damped even where the panel is far longer than the range of
+ * friction (Hairer and Wanner, Solving Ordinary Differential Equations II, chapter IV.3).
  */
 #include "model/rotation_stiff.h"
 
@@ -15,12 +15,12 @@
 
 enum {
   NODES = 16,
-  LAST = 3, /* coefficients that tell what is missing */
+  LAST = 3, /* coefficients from which the error of the polynomial is estimated */
   ITERATIONS = 12,
   TURNS = 20
 };
 
-/* What a polynomial misses, relative to the velocity, its slope being known less well. */
+/* The error of a polynomial, relative to the velocity; its slope is less exact. */
 static const double finest = 1e-15;
 static const double narrowest = 1e-12;
 
@@ -43,8 +43,8 @@ static void swap(double *a, double *b)
   *b = kept;
 }
 
-/* Solve a x = b for some right-hand sides, the rows of b, by elimination; a is lost. NaN where it
-   is singular. GSL's would end the program there, and where memory is short. */
+/* Solve a x = b for some right-hand sides, the rows of b, by elimination; a is overwritten. NaN
+   where it is singular. GSL's function would end the program there, and without memory. */
 static void solve(double a[NODES][NODES], int n, double (*b)[NODES])
 {
   for (int k = 0; k < NODES; k++) {
@@ -134,7 +134,7 @@ static double velocities(const rule *r, double v, double h, const double slope[N
   return least;
 }
 
-/* Slopes at the nodes to begin with: friction alone would have the velocity decay to where it
+/* Initial slopes at the nodes: with friction alone the velocity would decay to that at which it
    balances the force. */
 static void guess(const stiff *m, double v, double h, const double force[NODES],
                   double slope[NODES])

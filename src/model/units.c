@@ -4,7 +4,7 @@
 #include <math.h>
 
 enum {
-  FARTHEST = 120,  /* exponents of units beyond this are cut: products of a few of them stay far
+  FARTHEST = 120,  /* exponents of units are limited to this: products of a few of them stay far
                       from overflow */
   NEGLIGIBLE = 40  /* a power that is smaller than another by this number of bits does not matter at
                       the tolerances that are requested: it may be what rounding leaves of a

@@ -1,12 +1,13 @@
 /*
  * dataset.c -- the arrays of a store on disk: their types, chunks, filters, and writing.
  *
- * Owns: how an array is cut, compressed and protected. A chunk is a row (one index of the first
- * dimension), or as many short rows as make 64 KiB, or a piece of a row longer than 1 MiB: a run
- * that writes row by row then compresses each chunk once. Every chunk has a checksum, Fletcher32
- * of the bytes on disk; what is not cut into chunks, scalars and short arrays, stands in the header
- * of its dataset, which has a checksum of HDF5's own. Texts have none: HDF5 keeps those of variable
- * length in a heap without one. Sizes are in elements unless a comment says otherwise.
+ * Owns: how an array is divided into chunks, compressed and protected. A chunk is a row (one index
+ * of the first dimension), or as many short rows as make 64 KiB, or a piece of a row longer than 1
+ * MiB: a run that writes row by row then compresses each chunk once. Every chunk has a checksum,
+ * Fletcher32 of the bytes on disk; what is not divided into chunks, scalars and short arrays, is
+ * in the header of its dataset, which has a checksum of HDF5's own. Texts have none: HDF5 keeps
+ * those of variable length in a heap without one. Sizes are in elements unless a comment says
+ * otherwise.
  */
 #include "store/internal.h"
 
@@ -14,15 +15,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes. Smaller arrays stand in the header of their dataset, and are not compressed. */
+/* Bytes. Smaller arrays are in the header of their dataset, and are not compressed. */
 #define SMALLEST_CHUNKED ((hsize_t)4096)
-/* Bytes. Rows are gathered up to the first, and cut above the second. */
+/* Bytes. Rows are gathered up to the first, and divided above the second. */
 #define CHUNK_GOAL ((hsize_t)64 * 1024)
 #define CHUNK_LIMIT ((hsize_t)1024 * 1024)
 /* Bytes of chunks not yet full that an open variable may keep. */
 #define CHUNK_CACHE ((size_t)4 * 1024 * 1024)
 #define DEFLATE_DEFAULT 4
-/* Bytes handed to HDF5 at a time. After a refused write not much more than this is kept in
+/* Bytes passed to HDF5 at a time. After a refused write not much more than this is kept in
  * memory (file.h). */
 #define PIECE ((size_t)4 * 1024 * 1024)
 

@@ -28,7 +28,7 @@
 
 /* One pread or pwrite moves at most this much: Linux itself stops at 2 GiB. */
 #define LARGEST_PIECE ((size_t)1 << 30)
-/* How often a part file may go away between two looks at it. */
+/* How often a part file may vanish between two checks. */
 #define OPEN_ATTEMPTS 100
 
 static pendres_status file_fail(pendres_store_file *file, const char *format, ...)
@@ -62,8 +62,8 @@ static char *joined(const char *head, size_t length, const char *tail)
   return text;
 }
 
-/* Whether locks tell who writes a file. HDF5's own environment variable may switch them off; then a
-   file without a lock may still be another run's. */
+/* Whether locks show that a file is being written. HDF5's own environment variable may switch them
+   off; then a file without a lock may still be another run's. */
 static int locks_count(void)
 {
   const char *use = getenv("HDF5_USE_FILE_LOCKING");
@@ -92,7 +92,8 @@ static pendres_status close_again(pendres_store_file *file, pendres_status statu
   return status;
 }
 
-/* Can it be what a run has left: nothing, a beginning without its head, or an HDF5 file? */
+/* Whether it can be the remainder of a run: empty, a beginning without its head, or an HDF5 file.
+   */
 static int is_leftover(int fd)
 {
   static const char signature[8] = { '\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n' };
@@ -155,7 +156,8 @@ static pendres_status open_own(pendres_store_file *file, int alone)
 
     file->fd = open(file->part, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file->fd >= 0) {
-      /* Another run may have taken it for a leftover before it was locked: then it is theirs. */
+      /* Another run may have taken it for a remainder before it was locked: it then belongs to that
+         run. */
       if (flock(file->fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
         return close_again(file, busy(file));
       return PENDRES_OK;
@@ -180,7 +182,8 @@ pendres_status pendres_store_file_create(pendres_store_file *file, const char *p
   file->part = joined(file->path, strlen(file->path), ".part");
   if (!file->part) return PENDRES_OUT_OF_MEMORY;
   status = open_own(file, alone);
-  /* Results that were kept from others stay so; a disk without permissions has none to keep. */
+  /* Keep the permissions of the file that is replaced; file systems without permissions have
+     none. */
   if (!status && !stat(file->path, &before)) (void)fchmod(file->fd, before.st_mode & 0777);
   return status;
 }

@@ -1,14 +1,14 @@
 /*
  * octave.c -- lets GNU Octave's `load` read the numbers of a store.
  *
- * Owns: the sign by which Octave passes over a group. Octave reads no text but ASCII of fixed
- * length, and gives up at the first that is not. No other form serves everybody: netCDF-C 4.9
+ * Owns: the mark by which Octave skips a group. Octave reads only text in ASCII of fixed length,
+ * and stops at the first that is not. No single form works for all readers: netCDF-C 4.9
  * overruns its memory at arrays of text of fixed length, h5netcdf gives bytes instead of str, and
- * decks may hold letters beyond ASCII. So text stays of variable length and groups with text are
- * passed over: Octave takes a group with the attribute OCTAVE_NEW_FORMAT for one of its own values,
- * whose kind is told by the text `type` within it, and skips, in silence, those whose `type` is no
- * text. Source: Octave's libinterp/corefcn/ls-hdf5.cc, hdf5_read_next_data_internal(), alike in
- * versions 3 to 9. Text beside the numbers of the root cannot be passed over so.
+ * decks may hold letters beyond ASCII. Text therefore has variable length, and groups with text are
+ * skipped: Octave takes a group with the attribute OCTAVE_NEW_FORMAT for one of its own values,
+ * whose kind is given by the text `type` in it, and silently skips those whose `type` is not a
+ * text. Source: Octave's libinterp/corefcn/ls-hdf5.cc, hdf5_read_next_data_internal(), the same in
+ * versions 3 to 9. Text beside the numbers of the root cannot be skipped in this way.
  */
 #include "store/internal.h"
 
@@ -39,7 +39,7 @@ static pendres_status mark(pendres_store *store, const char *group, hid_t id)
   char *path = pendres_store_path(group, "type");
   pendres_status status = path ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
 
-  /* A variable of that name is the caller's own. If it is a number it serves as well. */
+  /* A variable of that name belongs to the caller. If it is a number it has the same effect. */
   if (!status && !pendres_store_find(store, path)) {
     for (int k = 0; k < PENDRES_STORE_RANK; k++) sign.sizes[k] = 1;
     status = pendres_store_measure(store, &sign, path);

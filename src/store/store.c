@@ -310,7 +310,7 @@ pendres_status pendres_store_abandon(pendres_store *store, int keep_part)
   if (!keep_part) pendres_store_drop_part(store);
   if (store->h5 >= 0) status = close_h5(store);
   pendres_store_file_abandon(&store->file, keep_part || store->whole);
-  /* Where the file is thrown away its failures do not matter. */
+  /* Failures do not matter if the file is discarded. */
   return pendres_store_leave(store, &quiet, keep_part ? status : PENDRES_OK);
 }
 

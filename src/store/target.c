@@ -3,7 +3,7 @@
  *
  * Owns: following links, and what is refused by name. A link stands for what it points to, be it
  * there or not; a device or a stream cannot be replaced by a file; a file without write permission
- * is not replaced by way of its folder, which alone the system asks about renaming. Opens nothing.
+ * is not replaced, although the system checks only its folder in renaming. Opens nothing.
  */
 #ifndef _XOPEN_SOURCE
 #define _XOPEN_SOURCE 700 /* lstat, readlink, realpath */
@@ -91,7 +91,7 @@ static pendres_status check_old(const char *path, const char *target, char *why,
   if (stat(target, &info)) return PENDRES_OK; /* what else is wrong is found on creating it */
   if (!S_ISREG(info.st_mode))
     return refuse(why, size, "'%s' exists and is not a regular file", path);
-  /* Root may write what is read-only, and did not mean to. */
+  /* Root may write read-only files, but this is hardly intended. */
   if (!(info.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) || access(target, W_OK))
     return refuse(why, size, "'%s' exists and is read-only", path);
   return PENDRES_OK;

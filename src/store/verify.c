@@ -168,8 +168,7 @@ static pendres_status read_group(reading *w, hid_t group)
   return result < 0 ? unreadable(w->store, group) : PENDRES_OK;
 }
 
-/* What HDF5 keeps beside an object, its own indices and lists of free space: their size is asked
-   for, which reads them. */
+/* HDF5's own indices and lists of free space of an object: asking for their size reads them. */
 static herr_t read_indices(hid_t object)
 {
 #if H5_VERSION_GE(1, 12, 0)
