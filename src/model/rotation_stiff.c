@@ -3,8 +3,9 @@
  *
  * A turn is cut into panels. In each the slope of the velocity is a polynomial which fulfils
  * v dv/dy = I - sin y - gamma v at some nodes, the end of the panel among them. Deviations
- * from the rotation are therefore damped even where the panel is far longer than the range of
- * friction (Hairer and Wanner, Solving Ordinary Differential Equations II, chapter IV.3).
+ * from the rotation are therefore damped even where the panel is far longer than the angle within
+ * which friction damps them (Hairer and Wanner, Solving Ordinary Differential Equations II, chapter
+ * IV.3).
  */
 #include "model/rotation_stiff.h"
 
