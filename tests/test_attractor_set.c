@@ -190,9 +190,9 @@ static void multiple_of_period(void **state)
   check_ok(outcome);
   assert_true(orbit.stable);
   const pendres_coordinates at = pendres_coordinates_in(&c.pendulum, orbit.x, orbit.v);
-  const pendres_initial_guess scout = {.y = at.y, .w = at.w, .period = 50};
+  const pendres_initial_guess far_guess = {.y = at.y, .w = at.w, .period = 50};
   pendres_context_cost_reset(ctx);
-  check_ok(pendres_attractor_set_add(ctx, &c, 1, &scout));
+  check_ok(pendres_attractor_set_add(ctx, &c, 1, &far_guess));
   pendres_context_cost(ctx, &cost);
   assert_int_equal(c.count, 0);
   /* 1.2e5 as it is, 4e6 with all points refined: in the middle, by ratio. */

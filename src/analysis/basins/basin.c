@@ -14,8 +14,8 @@
 
 enum {
   GUESS_SIDE = 24,     /* initial guesses over the grid: at most this many by this many */
-  EXTEND_SCOUTS = 256, /* states that are looked at when some are unresolved */
-  WORTH_WAITING = 384, /* states together that fill blocks well enough to be finished at once */
+  EXTEND_GUESSES = 256, /* states that are used as guesses when some are unresolved */
+  WORTH_WAITING = 384, /* number of states that fill blocks well enough to be finished together */
   MOST_EXTENSIONS = 4
 };
 
@@ -240,8 +240,8 @@ static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set
   *grown = 0;
   pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK || n == 0) return status;
-  double x[EXTEND_SCOUTS], v[EXTEND_SCOUTS];
-  const size_t guesses = n < EXTEND_SCOUTS ? n : EXTEND_SCOUTS, before = set->count;
+  double x[EXTEND_GUESSES], v[EXTEND_GUESSES];
+  const size_t guesses = n < EXTEND_GUESSES ? n : EXTEND_GUESSES, before = set->count;
   for (size_t k = 0; k < guesses; k++) {
     const size_t one = index[k * n / guesses];
     if (one / grid->nv >= grid->nx)

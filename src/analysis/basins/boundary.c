@@ -22,7 +22,7 @@
    back in time. */
 static const double rounding = 1e-12;
 
-/* A boundary that grows; what others see of it comes first. */
+/* A boundary that grows; the public part comes first. */
 typedef struct growing {
   pendres_boundary seen;
   size_t capacity;
@@ -76,7 +76,7 @@ static int by_generation(const void *a, const void *b)
   return *p < *q ? -1 : *p > *q;
 }
 
-/* What is asked of all nodes. */
+/* What is computed for all nodes. */
 typedef struct measuring {
   const pendres_boundary_seed *seed;
   pendres_pendulum forward;
@@ -239,9 +239,9 @@ static pendres_status show(pendres_context *ctx, const traced *t, const pendres_
 }
 
 /*
- * Trace the curve, and tell the errors of its nodes. Nodes are mapped forward with another number
- * of steps, and their distance from the local manifold, mapped back, tells how far they are from
- * the curve. What the curve bends by between two nodes is added.
+ * Trace the curve, and estimate the errors of its nodes. Nodes are mapped forward with another
+ * number of steps, and their distance from the local manifold, mapped back, is their distance from
+ * the curve. The departure of the curve from the chord between two nodes is added.
  */
 static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
                             const pendres_boundary_options *o, int steps,

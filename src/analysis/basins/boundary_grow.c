@@ -225,7 +225,7 @@ static double sagitta(const front *f, size_t i)
   return turn * length / 8.0;
 }
 
-/* Whether a chord is longer or more bent than wanted; not asked of one that is out for good. */
+/* Whether a chord is longer or more bent than wanted; not tested for one that has left for good. */
 static int too_coarse(const front *f, size_t i)
 {
   double dx, dv;

@@ -79,8 +79,8 @@ static pendres_status point_between(pendres_context *ctx, const pendres_ensemble
   return PENDRES_OK;
 }
 
-/* Halve the gap between two different points until it is narrower than `width`, or nothing settles
-   within. */
+/* Halve the gap between two different points until it is narrower than `width`, or no member
+   settles within. */
 static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensemble, double width,
                              pendres_scan_point *a, pendres_scan_point *b)
 {
@@ -155,9 +155,10 @@ done:
 
 /*
  * Whether the fold makes the ensemble's mean jump, that is, whether the state that is born there
- * has members at once. Members that are on it a thousandth from the fold are asked again at a
- * millionth: one that is still on it was inside its basin when that was born. Mostly a few members
- * tell. If they have all left, since the basin is torn to shreds, the others are asked.
+ * has members from the beginning. Members that are on it a thousandth from the fold are settled
+ * again at a millionth: one that is still on it was inside its basin when that was born. Usually a
+ * few members decide. If all of these have left, since the basin is fragmented, the others are
+ * tried.
  */
 static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *e,
                                    const pendres_fold *fold, double side, int *decides)
@@ -185,10 +186,10 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
   return status;
 }
 
-/* A state that one of two points has, and the other has not. */
+/* A state that one of two points has, and the other does not. */
 typedef struct ending {
   const pendres_attractor *state;
-  const pendres_scan_point *without; /* the point that has it not */
+  const pendres_scan_point *without; /* the point that does not have it */
   double side;                       /* -1, 1: where the state exists */
 } ending;
 
@@ -219,8 +220,8 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
   const double range[2] = {a->response.pendulum.drive_frequency,
                            b->response.pendulum.drive_frequency};
   const double rate = pendres_model_units_of(&a->response.pendulum).rate;
-  /* Where all members change at once, either's state may be the one that ends; in a wide gap states
-     that go on may have moved so far that they are not known again. */
+  /* Where all members change together, the state of either point may be the one that ends; in a
+     wide gap states that continue may have moved so far that they are not recognised. */
   const double close = 1e-4;
   const ending ends[2] = {{ending_state(&a->response, &b->response), b, -1.0},
                           {ending_state(&b->response, &a->response), a, 1.0}};

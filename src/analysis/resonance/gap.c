@@ -24,10 +24,10 @@ typedef struct families {
 } families;
 
 /*
- * Whether an orbit goes on from one frequency to the next: its Poincaré point has moved as the
- * slopes at both ends say. On a branch that bends sharply it has not, and the gap is looked into.
- * At a bifurcation there is no slope: states that branch off there go as the root of the distance,
- * twice as far as the slope at the other end says.
+ * Whether an orbit continues from one frequency to the next: its Poincaré point has moved according
+ * to the slopes at both ends. On a branch that bends sharply it has not, and the gap is divided. At
+ * a bifurcation there is no slope: states that branch off there move as the root of the distance,
+ * twice as far as follows from the slope at the other end.
  */
 static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
 {
@@ -69,8 +69,8 @@ static family both_ends(const pendres_attractor *a, const pendres_attractor *b, 
 }
 
 /*
- * A state that is known at one end only. It is taken to grow as its slope says, and never to
- * shrink; but by no more than a quarter, as the slope may be steep next to a fold.
+ * A state that is known at one end only. Its area is taken to grow with its slope, and never to
+ * shrink; but by no more than a quarter, as the slope may be steep close to a fold.
  */
 static family one_end(const pendres_orbit *o, int end, double width)
 {
@@ -96,7 +96,7 @@ static int image_of(const pendres_response *r, size_t i)
   return -1;
 }
 
-/* Have mirror images count as one state. */
+/* Let mirror images count as one state. */
 static void merge_images(const pendres_response *const of[2], families *all)
 {
   for (int e = 0; e < 2; e++)
@@ -193,7 +193,7 @@ typedef struct census {
  * Each member is on one of the two states that it is on at the ends. In a wide gap it may also be
  * on a state of the members beside it, since a basin's boundary may have come by and gone back; in
  * one that is not so wide, only where the boundary has moved. The members at a fold's own point,
- * which lies on the far side of the jump, say nothing about the gap.
+ * which lies on the far side of the jump, are not used for the gap.
  */
 static void count_members(const families *all, const pendres_scan_point *const end[2], reach far,
                           const int asked[2], size_t members, census *c)
@@ -233,7 +233,7 @@ static double bound_of(const families *all, const census *c, size_t members, dou
     if (all->of[i].middle > all->of[top].middle) top = (int)i;
   for (size_t i = 0; i < all->count; i++) {
     const family *f = &all->of[i];
-    /* Members of which nothing is known may be on the largest state. */
+    /* Members whose state is not known may be on the largest one. */
     const size_t on = c->on[i] + ((int)i == top ? c->unknown : 0);
     const double share = (double)on / (double)members;
     if (on == 0) continue;

@@ -2,8 +2,9 @@
  * kink.c -- frequencies at which a state loses its mirror symmetry; see
  * refine.h.
  *
- * The mean area goes on there, but its slope jumps, and settling slows down without bound: halving
- * would be slowest, and least exact, next to what it looks for. So the bifurcation is located.
+ * The mean area is continuous there, but its slope jumps, and settling slows down without bound:
+ * halving would be slowest, and least exact, close to the kink. The bifurcation itself is therefore
+ * located.
  */
 #include "analysis/resonance/refine.h"
 
@@ -43,7 +44,7 @@ static pendres_status locate(pendres_context *ctx, const pendres_orbit *o, const
     *found = 1;
   }
   pendres_branch_free(branch);
-  /* A branch that cannot be followed says nothing. */
+  /* A branch that cannot be followed gives no information. */
   return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
 }
 

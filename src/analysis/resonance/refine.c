@@ -213,7 +213,7 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
  * The error of the phase lag at a peak where all members are on one orbit; near: a point beside it;
  * full: the lag's own error and what the error of the peak's place makes of it. Finite steps that
  * shift a peak shift the whole resonance, and the lag at the peak hardly changes: two computations,
- * each at its own peak, tell by how much. The error is made of shares of their difference, as for
+ * each at its own peak, show by how much. The error is made of shares of their difference, as for
  * an orbit's measures (orbit_error.c); of a tenth of the full error, since the two may agree by
  * chance; of all of the rounding errors; and of one and a half times what the slope's own distance
  * from zero causes, since the curvature is a difference quotient. NaN if it cannot be told.

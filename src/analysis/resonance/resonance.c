@@ -21,7 +21,7 @@
  */
 static const double most_work = 30.0;
 
-/* A resonance of which nothing is known: its numbers are NaN. */
+/* A resonance that is not known: its numbers are NaN. */
 static void clear(pendres_resonance *out)
 {
   memset(out, 0, sizeof *out);
@@ -65,7 +65,7 @@ static const char *refuses(const pendres_pendulum *p, double lowest, double high
   return why;
 }
 
-/* Without a drive there is nothing to scan, and a pendulum on its head would stay there. */
+/* Without a drive there is nothing to scan, and a pendulum at the upright position stays there. */
 static int is_at_rest(const pendres_pendulum *p)
 {
   return p->drive_amplitude == 0.0 && p->damping > 0.0;
@@ -90,7 +90,7 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
   s->highest = range[1];
   while (status == PENDRES_OK) {
     status = pendres_resonance_work_next(&w, out);
-    if (status != PENDRES_OK || s->wishes == 0) break;
+    if (status != PENDRES_OK || s->requests == 0) break;
     status = pendres_search_add(1, &s);
   }
   if (status == PENDRES_OK) status = add_sampling(ctx, ensemble, out);
@@ -131,8 +131,7 @@ typedef struct party {
   } seeker[TOGETHER];
 } party;
 
-/* Note what a search has ended with. A failure that does not concern this search alone is
-   returned. */
+/* Note how a search has ended. A failure that does not concern this search alone is returned. */
 static pendres_status end(pendres_context *ctx, pendres_status status, struct seeker *k)
 {
   pendres_resonance_search *of = k->of;
@@ -145,35 +144,35 @@ static pendres_status end(pendres_context *ctx, pendres_status status, struct se
   return status == PENDRES_INTERRUPTED || status == PENDRES_OUT_OF_MEMORY ? status : PENDRES_OK;
 }
 
-/* Make a search's next step: it then either wishes frequencies or has ended. */
+/* Make a search's next step: it then either requests frequencies or has ended. */
 static pendres_status step(pendres_context *ctx, const party *p, struct seeker *k)
 {
   pendres_resonance *out = &k->of->resonance;
   pendres_status status =
     PENDRES_CONTEXT_CALL(ctx, pendres_resonance_work_next(&k->work, out));
-  /* With a budget of its own it might have gone on. */
+  /* With a budget of its own it might have continued. */
   if (p->budget.exhausted && status != PENDRES_INTERRUPTED) return PENDRES_OK;
-  if (status == PENDRES_OK && k->work.s.wishes > 0) return status;
+  if (status == PENDRES_OK && k->work.s.requests > 0) return status;
   if (status == PENDRES_OK)
     status = PENDRES_CONTEXT_CALL(ctx, add_sampling(ctx, p->ensemble, out));
   return end(ctx, status, k);
 }
 
 /* Go on until all searches have ended, or the budget is spent, or an evaluation fails. That is due
-   to one of them, which will be told when it is started again alone. */
+   to one of them, which shows when it is started again alone. */
 static pendres_status go_together(pendres_context *ctx, party *p)
 {
   for (;;) {
-    pendres_search *wishing[TOGETHER];
+    pendres_search *requesting[TOGETHER];
     size_t count = 0;
     for (size_t i = 0; i < p->n; i++) {
       if (p->seeker[i].state != SEEKER_TOGETHER) continue;
       const pendres_status status = step(ctx, p, &p->seeker[i]);
       if (status != PENDRES_OK || p->budget.exhausted) return status;
-      if (p->seeker[i].state == SEEKER_TOGETHER) wishing[count++] = &p->seeker[i].work.s;
+      if (p->seeker[i].state == SEEKER_TOGETHER) requesting[count++] = &p->seeker[i].work.s;
     }
     if (count == 0) return PENDRES_OK;
-    const pendres_status status = PENDRES_CONTEXT_CALL(ctx, pendres_search_add(count, wishing));
+    const pendres_status status = PENDRES_CONTEXT_CALL(ctx, pendres_search_add(count, requesting));
     if (status == PENDRES_INTERRUPTED) return status;
     if (status != PENDRES_OK || p->budget.exhausted) return PENDRES_OK;
   }

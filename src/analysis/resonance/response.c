@@ -24,7 +24,7 @@ typedef struct parted {
   size_t attractors;
   const pendres_attractor *attractor;
   const size_t *members; /* of each attractor */
-  size_t lost;           /* members of which nothing is known */
+  size_t lost;           /* members whose state is not known */
 } parted;
 
 /* Sums over attractors, weighted by their share of the members that are on one. */
@@ -343,7 +343,7 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
   return status;
 }
 
-/* The members of a line are taken as they are; other starts are a sample, whose error is told from
+/* The members of a line are taken as they are; other starts are a sample, whose error follows from
    each member's state. */
 static pendres_status compute(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
                               const pendres_ensemble *ensemble, pendres_response *out)

@@ -1,5 +1,5 @@
 /*
- * response_sampling.c -- what an ensemble that is a sample leaves open; see response_sampling.h.
+ * response_sampling.c -- the sampling error of an ensemble; see response_sampling.h.
  *
  * Shares of states are off by their sampling errors; half of the sum of these is the share of
  * members that would have to change their state. What such members do to a mean is bounded by the

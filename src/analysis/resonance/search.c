@@ -1,4 +1,4 @@
-/* search.c -- the frequencies that a search has looked at; see search.h. */
+/* search.c -- the frequencies that a search has evaluated; see search.h. */
 #include "analysis/resonance/search.h"
 
 #include <math.h>
@@ -86,7 +86,7 @@ int pendres_search_ended(const pendres_search *s)
   return s->budget->work > 1.5 * s->budget->most;
 }
 
-/* What is to be evaluated, and for whom. */
+/* What is to be evaluated, and for which search. */
 typedef struct wanted {
   size_t n;
   pendres_pendulum *pendulum;
@@ -94,15 +94,15 @@ typedef struct wanted {
 } wanted;
 
 /*
- * Gather one wish of each search, then the next of each, as far as they have room. Neighbours in
+ * Gather one request of each search, then the next of each, as far as they have room. Neighbours in
  * this order are similar, take the same number of steps a period, and so share blocks.
  */
 static pendres_status gather(size_t n, pendres_search *const *s, wanted *out)
 {
   size_t all = 0, most = 0;
   for (size_t i = 0; i < n; i++) {
-    all += s[i]->wishes;
-    most = s[i]->wishes > most ? s[i]->wishes : most;
+    all += s[i]->requests;
+    most = s[i]->requests > most ? s[i]->requests : most;
   }
   *out = (wanted){.pendulum = malloc((all + 1) * sizeof *out->pendulum),
                   .by = malloc((all + 1) * sizeof *out->by)};
@@ -111,13 +111,13 @@ static pendres_status gather(size_t n, pendres_search *const *s, wanted *out)
                                 "out of memory for %zu frequencies", all);
   for (size_t k = 0; k < most; k++)
     for (size_t i = 0; i < n; i++) {
-      if (k >= s[i]->wishes || s[i]->crowded) continue;
+      if (k >= s[i]->requests || s[i]->crowded) continue;
       if (s[i]->count + k >= PENDRES_SEARCH_POINTS) {
         s[i]->crowded = 1;
         continue;
       }
       out->pendulum[out->n] = s[i]->pendulum;
-      out->pendulum[out->n].drive_frequency = s[i]->wish[k];
+      out->pendulum[out->n].drive_frequency = s[i]->request[k];
       out->by[out->n++] = s[i];
     }
   return PENDRES_OK;
@@ -185,7 +185,7 @@ pendres_status pendres_search_add(size_t n, pendres_search *const *s)
   }
   for (size_t i = 0; i < n; i++) {
     qsort(s[i]->points, s[i]->count, sizeof *s[i]->points, by_frequency);
-    s[i]->wishes = 0;
+    s[i]->requests = 0;
   }
   free(w.pendulum);
   free(w.by);
@@ -261,7 +261,7 @@ static void find_cuts(pendres_search *s)
   enum { MOST = PENDRES_SEARCH_POINTS / 2 };
   double widths[PARTS + 1], share = 0.7, all = 0.0;
   for (int i = 0; i + 1 < PENDRES_SEARCH_COARSE; i++) {
-    count_widths(&s->pendulum, s->wish[i], s->wish[i + 1], widths);
+    count_widths(&s->pendulum, s->request[i], s->request[i + 1], widths);
     all += widths[PARTS];
   }
   /* Below a damping of some thousandths not all widths can be looked at; of a range beyond all
@@ -269,7 +269,7 @@ static void find_cuts(pendres_search *s)
   s->coarse = !(all / share <= MOST);
   if (s->coarse) share = all / MOST;
   for (int i = 0; i + 1 < PENDRES_SEARCH_COARSE; i++)
-    s->cuts += cut(&s->pendulum, s->wish[i], s->wish[i + 1], share, s->cut + s->cuts);
+    s->cuts += cut(&s->pendulum, s->request[i], s->request[i + 1], share, s->cut + s->cuts);
   s->stride = s->cuts > 0;
   while (s->stride < s->cuts) s->stride *= 2;
 }
@@ -278,17 +278,17 @@ static void find_cuts(pendres_search *s)
    early leaves no part of it out. */
 static void next_level(pendres_search *s)
 {
-  for (; s->stride > 0 && s->wishes == 0; s->stride /= 2)
+  for (; s->stride > 0 && s->requests == 0; s->stride /= 2)
     for (size_t i = s->stride - 1; i < s->cuts; i += s->stride)
-      if ((i + 1) / s->stride % 2 == 1) s->wish[s->wishes++] = s->cut[i];
+      if ((i + 1) / s->stride % 2 == 1) s->request[s->requests++] = s->cut[i];
 }
 
 pendres_status pendres_search_scan(pendres_search *s)
 {
   if (s->stage == PENDRES_SCAN_COARSE) {
-    s->wishes = PENDRES_SEARCH_COARSE;
+    s->requests = PENDRES_SEARCH_COARSE;
     for (int i = 0; i < PENDRES_SEARCH_COARSE; i++)
-      s->wish[i] = s->lowest + (s->highest - s->lowest) * i / (PENDRES_SEARCH_COARSE - 1);
+      s->request[i] = s->lowest + (s->highest - s->lowest) * i / (PENDRES_SEARCH_COARSE - 1);
     find_cuts(s);
     s->stage = PENDRES_SCAN_LEVELS;
     return PENDRES_OK;
@@ -300,7 +300,7 @@ pendres_status pendres_search_scan(pendres_search *s)
                                 "search is spent after %zu frequencies", s->pendulum.damping,
                                 s->pendulum.drive_amplitude, s->count);
   if (!pendres_search_over(s)) next_level(s);
-  if (s->wishes > 0) return PENDRES_OK;
+  if (s->requests > 0) return PENDRES_OK;
   if (pendres_search_over(s)) s->coarse = 1;
   s->stage = PENDRES_SCAN_DONE;
   return PENDRES_OK;

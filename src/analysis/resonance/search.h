@@ -39,8 +39,8 @@ typedef struct pendres_search {
   enum { PENDRES_SCAN_COARSE, PENDRES_SCAN_LEVELS, PENDRES_SCAN_DONE } stage;
   size_t cuts, stride;           /* of the first scan's finer part: every stride-th at a time */
   double cut[PENDRES_SEARCH_CUTS];
-  size_t wishes;                 /* frequencies to be evaluated next */
-  double wish[PENDRES_SEARCH_POINTS];
+  size_t requests;               /* frequencies to be evaluated next */
+  double request[PENDRES_SEARCH_POINTS];
 } pendres_search;
 
 /* A budget of which nothing is spent. */

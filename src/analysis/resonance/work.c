@@ -35,8 +35,8 @@ void pendres_resonance_work_free(pendres_resonance_work *w)
 }
 
 /*
- * Look at all gaps. Those that were there before are known, and most are: points have only been
- * added. From the last gap on, so that what is known stays until it has been moved to its place.
+ * Examine all gaps. Most of them are known from before, since points have only been added. The loop
+ * runs from the last gap down, so that known gaps are not overwritten before they are moved.
  */
 static void look_at_gaps(pendres_resonance_work *w)
 {
@@ -80,7 +80,7 @@ static double threshold_of(const pendres_search *s)
   return r->mean_loop_area + r->mean_loop_area_error;
 }
 
-/* Whether a gap has to be looked into further. */
+/* Whether a gap has to be examined further. */
 static int open_gap(const pendres_resonance_work *w, size_t i, double threshold)
 {
   const pendres_gap *g = &w->known[i].gap;
@@ -143,7 +143,7 @@ static pendres_status add_kink(pendres_resonance_work *w, size_t gap, int *found
 /*
  * Look for a fold in the most promising gap that was not searched for one yet, however narrow. The
  * fold saves many frequencies close to it, where its ghost slows everything down. *sought: there
- * was such a gap; *found: a fold was added, and a frequency beside it is wished for.
+ * was such a gap; *found: a fold was added, and a frequency beside it is requested.
  */
 static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *found)
 {
@@ -174,14 +174,14 @@ static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *foun
     s->crowded = 1;
     return PENDRES_OK;
   }
-  s->wishes = 1;
-  s->wish[0] = fold.beside;
+  s->requests = 1;
+  s->request[0] = fold.beside;
   return pendres_search_insert(s, &fold.at, fold.at.at_fold < 0 ? b : a);
 }
 
 /*
- * Wish to cut the gaps that may hold more than the best value known, the most promising first. If
- * there are no wishes, none but narrow ones are left, or room or budget are spent.
+ * Request cuts of the gaps that may hold more than the best value known, the most promising first.
+ * If there are no requests, none but narrow ones are left, or room or budget are spent.
  */
 static pendres_status resolve_gaps(pendres_resonance_work *w)
 {
@@ -191,18 +191,18 @@ static pendres_status resolve_gaps(pendres_resonance_work *w)
     look_at_gaps(w);
     if (pendres_search_over(s)) return PENDRES_OK;
     pendres_status status = add_fold(w, &sought, &found);
-    if (status != PENDRES_OK || s->wishes > 0) return status;
+    if (status != PENDRES_OK || s->requests > 0) return status;
     if (found) continue;
     const double threshold = threshold_of(s), largest = largest_bound(w, threshold);
     if (largest == -INFINITY && sought) continue;
     if (largest == -INFINITY) return PENDRES_OK;
     for (size_t i = 0; i + 1 < s->count; i++) {
       const double first = pendres_scan_frequency(&s->points[i]), width = w->known[i].gap.width;
-      /* Those that promise little may be ruled out by what the others turn up. */
+      /* Less promising gaps may be ruled out by what is found in the others. */
       if (!open_gap(w, i, threshold) || w->known[i].gap.bound < 0.5 * (threshold + largest))
         continue;
-      for (int k = 1; k < SECTIONS && s->wishes < PENDRES_SEARCH_POINTS; k++)
-        s->wish[s->wishes++] = first + width * k / SECTIONS;
+      for (int k = 1; k < SECTIONS && s->requests < PENDRES_SEARCH_POINTS; k++)
+        s->request[s->requests++] = first + width * k / SECTIONS;
     }
     return PENDRES_OK;
   }
@@ -375,13 +375,13 @@ pendres_status pendres_resonance_work_next(pendres_resonance_work *w, pendres_re
   pendres_search *s = &w->s;
   if (s->stage != PENDRES_SCAN_DONE) {
     const pendres_status status = pendres_search_scan(s);
-    if (status != PENDRES_OK || s->wishes > 0) return status;
+    if (status != PENDRES_OK || s->requests > 0) return status;
     if (!(best_point(s)->response.mean_loop_area > 0.0))
       return pendres_resonance_no_area(s->ctx, &s->pendulum);
   }
   for (int again = 1; again;) {
     pendres_status status = resolve_gaps(w);
-    if (status != PENDRES_OK || s->wishes > 0) return status;
+    if (status != PENDRES_OK || s->requests > 0) return status;
     status = choose(w, out, &again);
     if (status != PENDRES_OK) return status;
   }
