@@ -54,6 +54,16 @@ static void test_settings(void **state)
   check_code(RUN("--dump-namelist", "wide.nml", "pendulum.drive_amplitude=.25"), DONE);
   check_says(out, "drive_amplitude = 0.25\n");
   assert_null(strstr(out, "drive_amplitude_range"));
+  /* So are a coefficient that is an axis and its place in the list of all. */
+  write_text("force.nml", "&scene kind = 'branches' /\n&pendulum damping = 0.2,\n"
+                          "drive_frequency = 1, drive_amplitude = 0.1, force = 'polynomial',\n"
+                          "force_coefficients = 1, 0, 1 /\n");
+  check_code(RUN("--dump-namelist", "force.nml", "sweep.a3=1, 2"), DONE);
+  check_says(out, "a3 = 1.0, 2.0\n");
+  check_says(out, "force_coefficients = 1.0, 0.0, 0.0, 0.0, 0.0\n");
+  write_text("force.nml", out);
+  check_code(RUN("--dump-namelist", "force.nml", "pendulum.force_coefficients=1, 0, 3"), 2);
+  check_says(err, "'a3' is given in 'force_coefficients' too");
   /* Strings come without the quotes that a shell has taken away, or with them. */
   check_code(RUN("--dump-namelist", "orbit.nml", "orbit.start=sa", "scene.title=it's 1, or 2",
                  "scene.output='a b.h5'", "pendulum.drive_frequency=0.8"), DONE);

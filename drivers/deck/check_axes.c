@@ -167,7 +167,7 @@ static void check_coefficient(deck_builder *b, deck_axis_id axis)
   double *fixed = &b->d->pendulum.force_coefficients[k - 1];
   if (k > model->coefficients)
     deck_complain(b, at, name, "force '%s' has no coefficient '%s'", model->name, name);
-  else if (*fixed != 0.0 && at->nl == deck_given_of(b, "pendulum", "force_coefficients")->nl)
+  else if (*fixed != 0.0 && at->nl == b->nl)
     deck_complain(b, at, name, "'%s' is given in 'force_coefficients' too: give 0 there", name);
   *fixed = 0.0;
 }

@@ -34,7 +34,7 @@ extern "C" {
  * Where several of them are dimensions of results they are so in the order of these rows.
  */
 
-/* Those that a plain pendulum has. */
+/** Those that a plain pendulum has. */
 #define PENDRES_PARAMETERS_PLAIN(ITEM)                                                            \
   ITEM(DRIVE_AMPLITUDE, 2, "drive_amplitude", pendulum.drive_amplitude, 0, 0, 1, -2, "m g l",     \
        "drive amplitude F0", "drive amplitude")                                                   \
@@ -45,7 +45,7 @@ extern "C" {
   ITEM(DRIVE_PERIOD, 10, "drive_period", pendulum.drive_frequency, 2.0 * PENDRES_PI, 1, 0, 1,     \
        "1/omega0", "period of the drive", "drive period")
 
-/* Those of other models, which are zero in a plain pendulum. */
+/** Those of other models, which are zero in a plain pendulum. */
 #define PENDRES_PARAMETERS_OTHER(ITEM)                                                            \
   ITEM(TORQUE, 3, "torque", pendulum.torque, 0, 0, 1, -2, "m g l", "constant torque I", "torque") \
   ITEM(PARAMETRIC_AMPLITUDE, 4, "parametric_amplitude", pendulum.parametric_amplitude, 0, 0, 0,   \
@@ -61,13 +61,14 @@ extern "C" {
   ITEM(A5, 9, "a5", pendulum.force_coefficients[4], 0, 0, -4, -2, "1",                            \
        "coefficient a5 of the force", "coefficient a5 of the force")
 
-/* Noise, and the state at drive phase 0 that a pendulum starts from. */
+/** Noise, and the state at drive phase 0 that a pendulum starts from. */
 #define PENDRES_PARAMETERS_REST(ITEM)                                                             \
   ITEM(TEMPERATURE, 11, "temperature", pendulum.temperature, 0, 0, 2, -2, "m g l / k",            \
        "temperature k T / (m g l)", "temperature")                                                \
   ITEM(X, 12, "x", state.x, 0, 0, 1, 0, "rad", "initial position", "initial position")            \
   ITEM(V, 13, "v", state.v, 0, 0, 1, -1, "omega0", "initial velocity", "initial velocity")
 
+/** All of them. */
 #define PENDRES_PARAMETER_LIST(ITEM) \
   PENDRES_PARAMETERS_PLAIN(ITEM) PENDRES_PARAMETERS_OTHER(ITEM) PENDRES_PARAMETERS_REST(ITEM)
 
@@ -94,7 +95,9 @@ typedef enum pendres_parameter {
 } pendres_parameter;
 
 /** How many of them have derivatives. */
-enum { PENDRES_PARAMETER_FOLLOWED = 10 };
+enum {
+  PENDRES_PARAMETER_FOLLOWED = 10 /**< the numbers below have derivatives */
+};
 
 /** What there is to say of a parameter. Constant data, owned by the library. */
 typedef struct pendres_parameter_info {
