@@ -22,7 +22,7 @@ enum {
   BUDGET = 300,     /* periods that a pendulum gets before it is unresolved */
   NAIVE_PERIODS = 200,
   STARTS = 4,
-  SCOUTS = 3
+  GUESSES = 3
 };
 
 static const double tightest = 1e-13, standard = 1e-8;
@@ -285,8 +285,8 @@ static long budget_at(double off)
 static pendres_status label_starts(hard_sheet *sheet, const place *l, const truth *t,
                                    double tolerance, int *wrong, double *reach)
 {
-  const double scout_x[SCOUTS] = { (double)t->node.y + half_pi, half_pi, 0.0 };
-  const double scout_v[SCOUTS] = { (double)t->node.v, 0.0, 0.0 };
+  const double guess_x[GUESSES] = { (double)t->node.y + half_pi, half_pi, 0.0 };
+  const double guess_v[GUESSES] = { (double)t->node.v, 0.0, 0.0 };
   double x[STARTS], v[STARTS], here = NAN;
   pendres_outcome outcome[STARTS];
   pendres_attractors *found = NULL;
@@ -295,7 +295,7 @@ static pendres_status label_starts(hard_sheet *sheet, const place *l, const trut
   pendres_status status = hard_context(
     sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = budget_at(t->off) }, &ctx);
   if (status != PENDRES_OK) return status;
-  status = pendres_attractors_find(ctx, &t->p, SCOUTS, scout_x, scout_v, &found);
+  status = pendres_attractors_find(ctx, &t->p, GUESSES, guess_x, guess_v, &found);
   if (status == PENDRES_OK)
     status = pendres_attractors_settle(ctx, found, STARTS, x, v, outcome);
   if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);

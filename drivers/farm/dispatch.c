@@ -1,4 +1,4 @@
-/* dispatch.c -- tasks dealt to the ranks of a run; see dispatch.h. */
+/* dispatch.c -- the distribution of tasks among the ranks of a run; see dispatch.h. */
 #include "farm/dispatch.h"
 
 #include <stdint.h>
@@ -12,8 +12,8 @@
    of a rank, and to thread number t of a rank. */
 enum { QUESTION, TO_ROOT, TO_ALL, TO_THREAD };
 
-/* Microseconds between two looks at what has come, at most: where those that it is for are at work
-   meanwhile, and where they wait for it. */
+/* Microseconds between two attempts to receive, at most: while the receiving threads work, and
+   while they wait. */
 enum { SELDOM = 10000, OFTEN = 1000 };
 
 /* Number of sleeps, some seconds together, in which memory for a message may become free. */
@@ -49,8 +49,8 @@ static int is_of(const pool *c, const note *n)
   return n->run == c->farm->run && n->stage == c->number;
 }
 
-/* A note and what follows it, in one parcel. Others wait for a note: it is tried again where there
-   is no memory for it. */
+/* Send a note and what follows it, in one parcel. Others wait for a note: without memory it is
+   tried again. */
 static int send_note(int to, int tag, const note *n, const void *data)
 {
   const size_t size = data != NULL ? (size_t)n->size : 0;
@@ -85,7 +85,7 @@ static void take_result(pool *c, const note *n, const char *data)
   free(record.data);
 }
 
-/* Answer one parcel; the tasks that it adds to those under way elsewhere. */
+/* Answer one parcel; returns the number of tasks that it adds to those computed elsewhere. */
 static int answer(pool *c, const ranks_parcel *p)
 {
   const note *n = p->data;
@@ -155,7 +155,7 @@ static void collect_shared(pool *c, const note *n, char *data)
   if (status == PENDRES_OK) c->collected++;
 }
 
-/* Hear what rank 0 has to say to all, until it is the end. */
+/* Receive what rank 0 sends to all, until the end. */
 static void *listen(void *arg)
 {
   pool *c = arg;
@@ -185,8 +185,8 @@ static void *listen(void *arg)
   return NULL;
 }
 
-/* Rank 0 answers every question until it ends the stage, and waits for what it has dealt: an answer
-   is waited for even where no more is wanted. Tasks that go one at a time are rank 0's own. */
+/* Rank 0 answers every request until it ends the stage, and waits for the tasks that it has sent
+   out: an answer is awaited even after a halt. Tasks that are run one at a time stay on rank 0. */
 static int ask(pool *c, int thread, size_t *task)
 {
   note n = note_of(c, ASK);
@@ -202,7 +202,7 @@ static int ask(pool *c, int thread, size_t *task)
     }
     memcpy(&n, p.data, sizeof n);
     free(p.data);
-    if (!is_of(c, &n)) continue; /* to a question of an earlier stage */
+    if (!is_of(c, &n)) continue; /* to a request of an earlier stage */
     *task = (size_t)n.task;
     return n.kind == TASK;
   }
@@ -279,7 +279,7 @@ void dispatch_end(pool *c)
   ranks_flush();
 }
 
-/* Rank 0 hears that another does no more, if it is at a stage. */
+/* Rank 0 is informed that another rank has ended, if it is in a stage. */
 static void tell_of_failure(const farm *f, const char *words)
 {
   note n = { .kind = TELL, .run = f->run };

@@ -22,10 +22,10 @@
 /* At most the records of this number of seconds are lost when the machine fails. */
 static const double sync_after = 10.0;
 
-/* How often the journal may be removed or replaced between two looks at it. */
+/* How often the journal may be removed or replaced between two checks. */
 enum { ATTEMPTS = 100 };
 
-/* Where a record stands. */
+/* The position of a record. */
 typedef struct slot {
   uint64_t stage, task;
   size_t file; /* number of the file that holds the record */
@@ -44,7 +44,7 @@ struct journal {
   size_t count;
   size_t own;       /* records in the first file */
   int locked;       /* the first, by this process */
-  int broken;       /* it takes no more */
+  int broken;       /* nothing more is written to it */
   int stays;        /* even if it holds nothing */
   int dirty;        /* some of it may not be on disk yet */
   double synced;
@@ -197,7 +197,7 @@ static pendres_status open_own(journal *j, char *words)
       close(fd);
       return complain(words, PENDRES_IO, "cannot write the journal", j->path, "not a regular file");
     }
-    /* Where a file system knows no locks the output's own lock has to do. */
+    /* On a file system without locks the output's own lock has to suffice. */
     j->locked = flock(fd, LOCK_EX | LOCK_NB) == 0;
     if (!j->locked && errno == EWOULDBLOCK) {
       close(fd);

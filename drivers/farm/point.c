@@ -8,8 +8,8 @@
 #include "system/clock.h"
 
 /* A point is costly, and reported, when it has taken this multiple of the mean of those before, of
-   which there have to be some, and longer than one waits for gladly: a part of the time between two
-   lines on the run, five seconds as a rule. */
+   which there must be some, and longer than a fraction of the time between two lines on the run,
+   usually five seconds. */
 static const double many_times = 20.0, long_wait = 1.0 / 60.0;
 enum { POINTS_BEFORE = 8, LOOK_EVERY = 20 /* milliseconds */, WORDS = 400 };
 

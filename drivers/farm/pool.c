@@ -17,12 +17,12 @@ enum { MOST_WAITING = 64 << 20 };
 
 enum { FOREIGN = 500 /* room for what is said of a record that is refused */ };
 
-/* A thread at a task, for the question whether to go on with it. */
+/* A thread with its task, for the check whether to continue it. */
 typedef struct worker {
   pool *pool;
   size_t task;
   pendres_context *ctx; /* that its task computes with */
-  farm_watch watch; /* of the point that it is at */
+  farm_watch watch; /* of the point that it computes */
 } worker;
 
 long long pool_milliseconds(void)
@@ -41,7 +41,7 @@ static void tick(progress *p, size_t finished, at_work *w, double seconds)
   progress_tick(p, finished, name, seconds);
 }
 
-/* Where nothing has been told for long, say what is being worked on. */
+/* If nothing has been reported for a long time, report what is being computed. */
 static void look_at_clock(pool *c, long long t)
 {
   progress *p = c->farm->options.progress;
@@ -129,8 +129,8 @@ static int may_collect(const pool *c)
   return c->collected < atomic_load(&c->limit) && done != NOT_DONE && done != OTHERS;
 }
 
-/* The one place at which records are looked at before they are used. What was never on disk is this
-   program's own. */
+/* The only place where records are checked before they are used. A record that was never on disk is
+   this program's own. */
 static int fits(const pool *c, size_t task, const farm_record *record)
 {
   const farm_stage *s = c->stage;
@@ -147,7 +147,7 @@ static void tell_foreign(const pool *c, size_t task, char words[FOREIGN])
            "is computed again", c->stage->what, task, file != NULL ? file : "memory");
 }
 
-/* Hand the next record over, without the lock: others go on with their tasks meanwhile. */
+/* Pass the next record to collect(), without the lock: other threads continue their tasks. */
 static pendres_status collect_next(pool *c, char words[FOREIGN])
 {
   kept *k = &c->record[c->collected];
@@ -290,7 +290,7 @@ static void *hand_work(void *arg)
 
 /*
  * Work with `threads` threads, or with fewer if not all can be started: the results are the
- * same. As a rule it is memory that there is no more of: half of them leave theirs to the rest.
+ * same. Usually memory is exhausted: half of the threads then end, and leave theirs to the others.
  */
 static void work_together(pool *c, int threads, hand *hands)
 {
@@ -327,8 +327,8 @@ static void look_up(pool *c)
   }
 }
 
-/* Where shards are put together, they have to have done the first stage that they share; what some
-   of them may have done of later ones is all to the good. */
+/* Where shards are put together, they must have completed the first stage that was divided; records
+   of later stages are used if they exist. */
 static pendres_status check_complete(pool *c)
 {
   const size_t tasks = c->stage->tasks;

@@ -1,9 +1,9 @@
 /*
  * ranks_mpi.c -- processes that MPI knows of; see ranks.h.
  *
- * One thread at a time calls MPI, which is all that is asked of the library, and none waits inside:
- * a library that waits does so at full speed, on a processor that pendulums could have. MPI is
- * started only where a launcher has started several processes; a single one does without.
+ * One thread at a time calls MPI (no higher level of thread support is required), and none waits
+ * inside: MPI libraries wait by polling, on a processor that could compute. MPI is started only
+ * where a launcher has started several processes.
  */
 #define _POSIX_C_SOURCE 200809L /* nanosleep */
 #include "farm/ranks.h"
@@ -30,12 +30,12 @@ static letter *oldest = NULL, *newest = NULL;
 static size_t unsent = 0;
 
 enum {
-  MOST_UNSENT = 64 << 20, /* bytes of letters in memory; who sends more waits */
+  MOST_UNSENT = 64 << 20, /* bytes of unsent messages in memory; beyond this, senders wait */
   LONGEST_WAIT = 1000     /* microseconds between two looks of a waiting thread */
 };
 
-/* Naps grow by 50 us each, so that after a silence of t they are sqrt(100 us * t) long: what looks
-   cost and what is lost by looking late are then alike, whatever the time from parcel to parcel. */
+/* Sleeps grow by 50 us each, so that after a silence of t they are sqrt(100 us * t) long: the cost
+   of polling and the delay are then balanced, whatever the time between messages. */
 void ranks_nap(int *idle, long most)
 {
   const long wanted = *idle < 1000 ? 50L * (*idle + 1) : most;

@@ -1,4 +1,4 @@
-/* record.c -- what a task hands over; see record.h. */
+/* record.c -- the result of a task; see record.h. */
 #include "farm/record.h"
 
 #include <stdlib.h>

@@ -101,8 +101,8 @@ static pendres_status try_task(stage_trial *s, size_t task)
   return PENDRES_OK;
 }
 
-/* The first task of a chain finds what the others go on from, and takes longer. A task that was cut
-   short takes at least what it took so far. */
+/* The first task of a chain finds what the others start from, and takes longer. A task that was cut
+   short takes at least the time that it has taken so far. */
 static double seconds_of_all(const stage_trial *s)
 {
   const double tasks = (double)s->stage->tasks, count = (double)(s->count + s->cut);
@@ -110,7 +110,7 @@ static double seconds_of_all(const stage_trial *s)
   return s->first + (tasks - 1.0) / (count - 1.0) * (s->seconds - s->first);
 }
 
-/* What was tried stands for all of the stage. */
+/* Extrapolate from the tasks that were tried to all of the stage. */
 static void conclude(const stage_trial *s)
 {
   farm_trial *t = s->farm->trial;

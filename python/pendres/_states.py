@@ -31,8 +31,8 @@ class Attractors(Handle):
 
 
 def attractors(p, x=None, v=None, *, context=None):
-    """The attractors of one pendulum's parameters that scouts x (rad), v at drive phase 0 lead to;
-    without scouts, those that a built-in set of them finds."""
+    """The attractors of one pendulum's parameters that initial guesses x (rad), v at drive phase 0
+    lead to; without these, those that a built-in set of guesses finds."""
     xs, vs = (None, None) if x is None else (np.ascontiguousarray(a) for a in np.broadcast_arrays(
         as_numbers(x), as_numbers(0.0 if v is None else v)))
     return make(Attractors, c.attractors_find, default_context(context), one_pendulum(p),

@@ -172,7 +172,7 @@ static pendres_status fill_line(pendres_context *ctx, const pendres_phase_grid *
   return status;
 }
 
-/* Complete a line by what the curves tell of it; where that fails its points stay as they were. */
+/* Complete a line by the curves; where that fails its points stay as they were. */
 static pendres_status complete(pendres_context *ctx, const pendres_phase_diagram *d,
                                const pendres_phase_done *before, pendres_phase_done *l)
 {
@@ -211,7 +211,7 @@ static pendres_status take_line(pendres_phase_diagram *d, size_t line, size_t si
 
 /* ---- rounds ---- */
 
-/* Lines, then curves and what they tell of lines in turns. */
+/* Lines, then alternately curves and the completion of lines by them. */
 pendres_status pendres_phase_diagram_next(pendres_phase_diagram *d, pendres_phase_round *round)
 {
   const pendres_phase_round none = {PENDRES_PHASE_DONE, 0};

@@ -1,4 +1,4 @@
-/* small.c -- the fold that tells SA from LA along a line; see line.h. */
+/* small.c -- the fold that distinguishes SA from LA along a line; see line.h. */
 #include "analysis/phase_diagram/line.h"
 
 #include "model/model.h"
