@@ -35,9 +35,9 @@ static void branches(void **state)
   REFUSED(pendres_fold_find(f->ctx, &f->orbit, PENDRES_DAMPING, NULL));
   REFUSED(pendres_fold_find(f->ctx, &f->orbit, PENDRES_PARAMETER_COUNT, &fold));
   REFUSED(pendres_fold_find(f->ctx, &f->orbit, (pendres_parameter)-1, &fold));
-  REFUSED(pendres_branch_follow(f->ctx, 1, NULL, &options, &branch));
-  REFUSED(pendres_branch_follow(f->ctx, 1, &f->orbit, NULL, &branch));
-  REFUSED(pendres_branch_follow(f->ctx, 1, &f->orbit, &options, NULL));
+  REFUSED(pendres_branch_follow(f->ctx, NULL, &options, &branch));
+  REFUSED(pendres_branch_follow(f->ctx, &f->orbit, NULL, &branch));
+  REFUSED(pendres_branch_follow(f->ctx, &f->orbit, &options, NULL));
   REFUSED(pendres_branches_find(f->ctx, 1, NULL, &options, &all));
   REFUSED(pendres_branches_find(f->ctx, 1, &f->orbit, NULL, &all));
   REFUSED(pendres_branches_find(f->ctx, 1, &f->orbit, &options, NULL));
@@ -45,12 +45,12 @@ static void branches(void **state)
   REFUSED(pendres_branches_extend(f->ctx, 1, &f->fold, NULL, f->branches));
   REFUSED(pendres_branches_extend(f->ctx, 1, &f->fold, &options, NULL));
   for (size_t i = 0; i < COUNT(bad); i++) {
-    REFUSED(pendres_branch_follow(f->ctx, 1, &f->orbit, &bad[i], &branch));
+    REFUSED(pendres_branch_follow(f->ctx, &f->orbit, &bad[i], &branch));
     REFUSED(pendres_branches_find(f->ctx, 1, &f->orbit, &bad[i], &all));
   }
   for (size_t i = 0; i < f->bad; i++) {
     REFUSED(pendres_fold_find(f->ctx, &f->bad_orbits[i], PENDRES_DRIVE_FREQUENCY, &fold));
-    REFUSED(pendres_branch_follow(f->ctx, 1, &f->bad_orbits[i], &options, &branch));
+    REFUSED(pendres_branch_follow(f->ctx, &f->bad_orbits[i], &options, &branch));
     REFUSED(pendres_branches_find(f->ctx, 1, &f->bad_orbits[i], &options, &all));
   }
   REFUSED(pendres_branch_cross(f->ctx, NULL, 0.785, 1, &out, &found));
@@ -170,23 +170,23 @@ static void curves(void **state)
   starts[2].parameter = PENDRES_PARAMETER_COUNT;
   starts[3].parameter = (pendres_parameter)-1;
   for (size_t i = 0; i < COUNT(bad); i++)
-    REFUSED(pendres_curve_follow(f->ctx, 1, &f->fold, &bad[i], &curve));
+    REFUSED(pendres_curve_follow(f->ctx, &f->fold, &bad[i], &curve));
   for (size_t i = 0; i < COUNT(starts); i++) {
-    REFUSED(pendres_curve_follow(f->ctx, 1, &starts[i], &options, &curve));
+    REFUSED(pendres_curve_follow(f->ctx, &starts[i], &options, &curve));
     REFUSED(pendres_cusp_find(f->ctx, &starts[i], PENDRES_DAMPING, &cusp));
     REFUSED(pendres_branch_switch(f->ctx, &starts[i], &f->orbit));
   }
   for (size_t i = 0; i < f->bad; i++) {
     pendres_bifurcation b = f->fold;
     b.orbit = f->bad_orbits[i];
-    REFUSED(pendres_curve_follow(f->ctx, 1, &b, &options, &curve));
+    REFUSED(pendres_curve_follow(f->ctx, &b, &options, &curve));
     REFUSED(pendres_cusp_find(f->ctx, &b, PENDRES_DAMPING, &cusp));
     b.kind = PENDRES_PERIOD_DOUBLING;
     REFUSED(pendres_branch_switch(f->ctx, &b, &f->orbit));
   }
-  REFUSED(pendres_curve_follow(f->ctx, 1, NULL, &options, &curve));
-  REFUSED(pendres_curve_follow(f->ctx, 1, &f->fold, NULL, &curve));
-  REFUSED(pendres_curve_follow(f->ctx, 1, &f->fold, &options, NULL));
+  REFUSED(pendres_curve_follow(f->ctx, NULL, &options, &curve));
+  REFUSED(pendres_curve_follow(f->ctx, &f->fold, NULL, &curve));
+  REFUSED(pendres_curve_follow(f->ctx, &f->fold, &options, NULL));
   REFUSED(pendres_curve_cross(f->ctx, NULL, 0.1, 1, &out, &found));
   REFUSED(pendres_curves_find(f->ctx, 1, NULL, &options, &all));
   REFUSED(pendres_curves_find(f->ctx, 1, &f->fold, NULL, &all));

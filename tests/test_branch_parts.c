@@ -50,13 +50,13 @@ static void starts_at_bifurcations(void **state)
         const pendres_attractor *a = pendres_attractors_get(set, i);
         pendres_branch *b = NULL;
         if (a->orbit.period < 1) continue;
-        check_ok(pendres_branch_follow(ctx, 1, &a->orbit, &options, &b));
+        check_ok(pendres_branch_follow(ctx, &a->orbit, &options, &b));
         check_parts(b);
         for (size_t m = 0; m < pendres_branch_bifurcation_count(b); m++) {
           pendres_branch *from = NULL;
           const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, m);
           if (f->kind == PENDRES_PERIOD_DOUBLING) continue;
-          check_ok(pendres_branch_follow(ctx, 1, &f->orbit, &options, &from));
+          check_ok(pendres_branch_follow(ctx, &f->orbit, &options, &from));
           check_parts(from);
           parts += pendres_branch_parts(from, 0, NULL);
           pendres_branch_free(from);
@@ -90,7 +90,7 @@ static void errors_of_small_orbits_are_small(void **state)
   (void)state;
   check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
   assert_int_equal(outcome, PENDRES_OK);
-  check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+  check_ok(pendres_branch_follow(ctx, &start, &options, &b));
   assert_true(pendres_branch_count(b) > 10);
   for (size_t i = 0; i < pendres_branch_count(b); i++) {
     const pendres_orbit *o = &pendres_branch_get(b, i)->orbit;

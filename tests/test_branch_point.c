@@ -44,7 +44,7 @@ static pendres_branch *followed(pendres_context *ctx, const pendres_orbit *start
 {
   const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high};
   pendres_branch *b = NULL;
-  check_ok(pendres_branch_follow(ctx, 1, start, &options, &b));
+  check_ok(pendres_branch_follow(ctx, start, &options, &b));
   for (size_t i = 0; i < pendres_branch_count(b); i++)
     assert_int_equal(pendres_branch_get(b, i)->doubt, 0);
   return b;
@@ -283,7 +283,7 @@ static void the_other_branch(void **state)
   pendres_curve *curve = NULL;
   pendres_curve_options options = {
     .second = PENDRES_DAMPING, .low = {0.5, 0.05}, .high = {1.0, 0.2}};
-  check_ok(pendres_curve_follow(ctx, 1, at, &options, &curve));
+  check_ok(pendres_curve_follow(ctx, at, &options, &curve));
   assert_int_equal(pendres_curve_kind_get(curve), PENDRES_BRANCH_POINT);
   assert_true(pendres_curve_count(curve) > 5);
   for (size_t i = 0; i < pendres_curve_count(curve); i++) {
@@ -296,7 +296,7 @@ static void the_other_branch(void **state)
   pendres_curve_free(curve);
   options = (pendres_curve_options){
     .second = PENDRES_TORQUE, .low = {0.5, -0.1}, .high = {1.0, 0.1}};
-  check_ok(pendres_curve_follow(ctx, 1, at, &options, &curve));
+  check_ok(pendres_curve_follow(ctx, at, &options, &curve));
   assert_int_equal(pendres_curve_count(curve), 1);
   pendres_curve_free(curve);
   pendres_branch_free(b);

@@ -157,7 +157,7 @@ static pendres_branch *branch_of(pendres_context *ctx, const pendres_orbit *o, d
   const pendres_branch_options options = {
     .parameter = PENDRES_DRIVE_AMPLITUDE, .low = low, .high = high};
   pendres_branch *b = NULL;
-  check_ok(pendres_branch_follow(ctx, 1, o, &options, &b));
+  check_ok(pendres_branch_follow(ctx, o, &options, &b));
   return b;
 }
 

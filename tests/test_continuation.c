@@ -46,7 +46,7 @@ static void branch_is_an_s(void **state)
   const pendres_branch_options options = {
     .parameter = PENDRES_DRIVE_FREQUENCY, .low = 0.5, .high = 1.1};
   pendres_branch *b = NULL;
-  check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+  check_ok(pendres_branch_follow(ctx, &start, &options, &b));
   assert_int_equal(pendres_branch_bifurcation_count(b), 2);
   assert_int_equal(pendres_branch_end_get(b, 0), PENDRES_END_RANGE);
   assert_int_equal(pendres_branch_end_get(b, 1), PENDRES_END_RANGE);
@@ -91,7 +91,7 @@ static void branch_crosses_at_three_orbits(void **state)
   pendres_branch *b = NULL;
   pendres_orbit there[4];
   size_t found = 0;
-  check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+  check_ok(pendres_branch_follow(ctx, &start, &options, &b));
   check_ok(pendres_branch_cross(ctx, b, 0.8, 4, there, &found));
   assert_int_equal(found, 3);
   for (size_t i = 0; i < 3; i++) {
@@ -133,7 +133,7 @@ static void rounding_grows_within_a_period(void **state)
   pendres_status outcome;
   pendres_branch *b = NULL;
   check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
-  check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+  check_ok(pendres_branch_follow(ctx, &start, &options, &b));
   const size_t n = pendres_branch_count(b);
   assert_true(n >= 5);
   for (size_t i = 0; i < n; i++) {
@@ -172,7 +172,7 @@ static void few_steps_that_agree_by_chance(void **state)
     pendres_branch *b = NULL;
     check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
     check_ok(outcome);
-    check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+    check_ok(pendres_branch_follow(ctx, &start, &options, &b));
     assert_int_equal(pendres_branch_bifurcation_count(b), 2);
     for (size_t i = 0; i < 2; i++) {
       const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, i);
@@ -198,7 +198,7 @@ static void symmetry_breaks_and_period_doubles(void **state)
   const pendres_branch_options options = {
     .parameter = PENDRES_DRIVE_FREQUENCY, .low = 0.4, .high = 0.9};
   pendres_branch *b = NULL, *pair = NULL;
-  check_ok(pendres_branch_follow(ctx, 1, &la, &options, &b));
+  check_ok(pendres_branch_follow(ctx, &la, &options, &b));
   assert_int_equal(pendres_branch_bifurcation_count(b), 1);
   const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, 0);
   assert_int_equal(at->kind, PENDRES_SYMMETRY_BREAKING);
@@ -213,7 +213,7 @@ static void symmetry_breaks_and_period_doubles(void **state)
   check_ok(pendres_branch_switch(ctx, at, &lopsided));
   assert_false(lopsided.symmetric);
   assert_int_equal(lopsided.period, 1);
-  check_ok(pendres_branch_follow(ctx, 1, &lopsided, &options, &pair));
+  check_ok(pendres_branch_follow(ctx, &lopsided, &options, &pair));
   /* Down to the doubling on one side, through the birth, and the mirror image on the other. */
   assert_int_equal(pendres_branch_bifurcation_count(pair), 3);
   const pendres_bifurcation *first = pendres_branch_bifurcation_get(pair, 0);
@@ -376,10 +376,10 @@ static void branches_start_at_folds(void **state)
   pendres_reference_cycle want;
   size_t found = 0;
   check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
-  check_ok(pendres_curve_follow(ctx, 1, &fold, &wide, &c));
+  check_ok(pendres_curve_follow(ctx, &fold, &wide, &c));
   check_ok(pendres_curve_cross(ctx, c, 0.13, 4, at, &found));
   assert_int_equal(found, 3);
-  check_ok(pendres_branch_follow(ctx, 1, &at[0].orbit, &options, &b));
+  check_ok(pendres_branch_follow(ctx, &at[0].orbit, &options, &b));
   assert_int_equal(pendres_branch_bifurcation_count(b), 2);
   const pendres_bifurcation *end = pendres_branch_bifurcation_get(b, 0);
   const pendres_bifurcation *again = pendres_branch_bifurcation_get(b, 1);
@@ -397,7 +397,7 @@ static void branches_start_at_folds(void **state)
 }
 
 /* What is found does not depend on who is followed beside it, nor on the size of blocks. */
-static void branches_do_not_depend_on_neighbours(void **state)
+static void branches_do_not_depend_on_blocks(void **state)
 {
   (void)state;
   const pendres_branch_options options = {
@@ -406,22 +406,20 @@ static void branches_do_not_depend_on_neighbours(void **state)
   check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &wide));
   check_ok(
     pendres_context_create(&(pendres_options){.tolerance = 1e-8, .block_lanes = 8}, &narrow));
-  const pendres_orbit starts[2] = {orbit_of(wide, 0.13, 0.2, 0.8, 0),
-                                   orbit_of(wide, 0.14, 0.2, 0.83, 1)};
-  pendres_branch *alone = NULL, *together[2] = {NULL, NULL};
-  check_ok(pendres_branch_follow(narrow, 1, &starts[1], &options, &alone));
-  check_ok(pendres_branch_follow(wide, 2, starts, &options, together));
-  assert_int_equal(pendres_branch_count(alone), pendres_branch_count(together[1]));
-  for (size_t i = 0; i < pendres_branch_count(alone); i++) {
-    const pendres_orbit *a = &pendres_branch_get(alone, i)->orbit;
-    const pendres_orbit *b = &pendres_branch_get(together[1], i)->orbit;
+  const pendres_orbit start = orbit_of(wide, 0.14, 0.2, 0.83, 1);
+  pendres_branch *few = NULL, *many = NULL;
+  check_ok(pendres_branch_follow(narrow, &start, &options, &few));
+  check_ok(pendres_branch_follow(wide, &start, &options, &many));
+  assert_int_equal(pendres_branch_count(few), pendres_branch_count(many));
+  for (size_t i = 0; i < pendres_branch_count(few); i++) {
+    const pendres_orbit *a = &pendres_branch_get(few, i)->orbit;
+    const pendres_orbit *b = &pendres_branch_get(many, i)->orbit;
     assert_memory_equal(&a->x, &b->x, sizeof a->x);
     assert_memory_equal(&a->pendulum, &b->pendulum, sizeof a->pendulum);
     assert_memory_equal(&a->loop_area_error, &b->loop_area_error, sizeof a->loop_area_error);
   }
-  pendres_branch_free(alone);
-  pendres_branch_free(together[0]);
-  pendres_branch_free(together[1]);
+  pendres_branch_free(few);
+  pendres_branch_free(many);
   pendres_context_free(wide);
   pendres_context_free(narrow);
 }
@@ -443,18 +441,18 @@ static void mistakes_are_told(void **state)
   assert_int_equal(pendres_fold_find(NULL, &single, PENDRES_DRIVE_FREQUENCY, &fold),
                    PENDRES_INVALID_ARGUMENT);
   const pendres_branch_options empty = {.low = 0.9, .high = 0.8};
-  assert_int_equal(pendres_branch_follow(ctx, 1, &single, &empty, &b), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_branch_follow(ctx, &single, &empty, &b), PENDRES_INVALID_ARGUMENT);
   assert_null(b);
   pendres_orbit nowhere = single;
   nowhere.x += 1.0;
   nowhere.v += 40.0;
   const pendres_branch_options range = {.low = 0.5, .high = 1.0};
-  assert_int_equal(pendres_branch_follow(ctx, 1, &nowhere, &range, &b), PENDRES_NOT_CONVERGED);
+  assert_int_equal(pendres_branch_follow(ctx, &nowhere, &range, &b), PENDRES_NOT_CONVERGED);
   assert_null(b);
   fold = (pendres_fold){.kind = PENDRES_REGULAR, .orbit = single};
   const pendres_curve_options second = {
     .second = PENDRES_DAMPING, .low = {0.5, 0.1}, .high = {1.0, 0.5}};
-  assert_int_equal(pendres_curve_follow(ctx, 1, &fold, &second, &c), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_curve_follow(ctx, &fold, &second, &c), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_cusp_find(ctx, &fold, PENDRES_DAMPING, &cusp),
                    PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_branch_switch(ctx, &fold, &o), PENDRES_INVALID_ARGUMENT);
@@ -473,7 +471,7 @@ int main(void)
     cmocka_unit_test(running_orbits_make_an_isola),
     cmocka_unit_test(ensemble_finds_the_branch_born_away),
     cmocka_unit_test(branches_start_at_folds),
-    cmocka_unit_test(branches_do_not_depend_on_neighbours),
+    cmocka_unit_test(branches_do_not_depend_on_blocks),
     cmocka_unit_test(mistakes_are_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -167,7 +167,7 @@ static void fold_curve_passes_the_cusp(void **state)
   pendres_fold fold;
   pendres_curve *c = NULL;
   check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
-  check_ok(pendres_curve_follow(ctx, 1, &fold, &options, &c));
+  check_ok(pendres_curve_follow(ctx, &fold, &options, &c));
   assert_int_equal(pendres_curve_kind_get(c), PENDRES_FOLD);
   assert_int_equal(pendres_curve_cusp_count(c), 1);
   check_near(pendres_curve_cusp_get(c, 0)->value[1], 0.163656902031172567, 1e-9);
@@ -217,7 +217,7 @@ static void a_turn_of_a_curve_has_both_sides(void **state)
   pendres_bifurcation at[4];
   size_t found = 0;
   check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
-  check_ok(pendres_curve_follow(ctx, 1, &fold, &options, &c));
+  check_ok(pendres_curve_follow(ctx, &fold, &options, &c));
   for (size_t i = 0; i < sizeof above / sizeof *above; i++) {
     check_ok(pendres_curve_cross(ctx, c, above[i], 4, at, &found));
     assert_int_equal(found, 2);
@@ -252,9 +252,9 @@ static void symmetry_breakings_follow_parameters(void **state)
     .second = PENDRES_DRIVE_AMPLITUDE, .low = {0.4, 0.18}, .high = {0.7, 0.22}};
   pendres_branch *b = NULL;
   pendres_curve *c = NULL;
-  check_ok(pendres_branch_follow(ctx, 1, &la, &options, &b));
+  check_ok(pendres_branch_follow(ctx, &la, &options, &b));
   assert_int_equal(pendres_branch_bifurcation_count(b), 1);
-  check_ok(pendres_curve_follow(ctx, 1, pendres_branch_bifurcation_get(b, 0), &both, &c));
+  check_ok(pendres_curve_follow(ctx, pendres_branch_bifurcation_get(b, 0), &both, &c));
   assert_int_equal(pendres_curve_kind_get(c), PENDRES_SYMMETRY_BREAKING);
   const size_t n = pendres_curve_count(c);
   assert_true(n >= 3);
@@ -286,12 +286,12 @@ static void other_parameters_lead_to_the_same_orbits(void **state)
   pendres_branch *b = NULL;
   pendres_orbit there[4];
   size_t found = 0;
-  check_ok(pendres_branch_follow(ctx, 1, &from, &damping, &b));
+  check_ok(pendres_branch_follow(ctx, &from, &damping, &b));
   check_ok(pendres_branch_cross(ctx, b, 0.11, 4, there, &found));
   assert_true(found >= 1);
   check_near(there[0].amplitude, to.amplitude, there[0].amplitude_error + to.amplitude_error);
   pendres_branch_free(b);
-  check_ok(pendres_branch_follow(ctx, 1, &from, &drive, &b));
+  check_ok(pendres_branch_follow(ctx, &from, &drive, &b));
   check_ok(pendres_branch_cross(ctx, b, 0.15, 4, there, &found));
   assert_true(found >= 1);
   check_near(there[0].amplitude, weak.amplitude, there[0].amplitude_error + weak.amplitude_error);

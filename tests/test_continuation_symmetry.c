@@ -33,7 +33,7 @@ static pendres_branch *followed(pendres_context *ctx, const pendres_orbit *start
   const pendres_branch_options options = {
     .parameter = PENDRES_DRIVE_FREQUENCY, .low = low, .high = high};
   pendres_branch *b = NULL;
-  check_ok(pendres_branch_follow(ctx, 1, start, &options, &b));
+  check_ok(pendres_branch_follow(ctx, start, &options, &b));
   return b;
 }
 
@@ -302,7 +302,7 @@ static void outlines(void **state)
     check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
     const pendres_orbit *start = &pendres_attractors_get(set, 0)->orbit;
     assert_int_equal(start->symmetric, k == 0);
-    check_ok(pendres_branch_follow(ctx, 1, start, &options, &whole));
+    check_ok(pendres_branch_follow(ctx, start, &options, &whole));
     const pendres_curve_bounds few = {{options.low}, {options.high}, 1e3, 4}, all = {
       {options.low}, {options.high}, 1e3, 2000};
     check_ok(pendres_branch_begin(ctx, start, options.parameter, 0.05, &outline));

@@ -65,7 +65,7 @@ static pendres_branch *branch_of(pendres_context *ctx, const pendres_orbit *o,
 {
   const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high};
   pendres_branch *b = NULL;
-  check_ok(pendres_branch_follow(ctx, 1, o, &options, &b));
+  check_ok(pendres_branch_follow(ctx, o, &options, &b));
   for (size_t i = 0; i < pendres_branch_count(b); i++)
     assert_int_equal(pendres_branch_get(b, i)->doubt, 0);
   return b;
@@ -371,7 +371,7 @@ static void refusals(void **state)
   pendres_branch *b = NULL;
   pendres_fold fold;
   (void)state;
-  assert_int_equal(pendres_branch_follow(ctx, 1, &o, &options, &b), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_branch_follow(ctx, &o, &options, &b), PENDRES_INVALID_ARGUMENT);
   assert_non_null(strstr(pendres_context_message(ctx), "no such coefficient"));
   o.pendulum.drive_amplitude = 0.0;
   o.winding = 1;

@@ -244,7 +244,7 @@ static void upright(void **state)
   const pendres_orbit start = orbit_at(*state, &p, up);
   pendres_branch *b = NULL;
   pendres_reference_image image;
-  check_ok(pendres_branch_follow(*state, 1, &start, &range, &b));
+  check_ok(pendres_branch_follow(*state, &start, &range, &b));
   assert_int_equal(pendres_branch_bifurcation_count(b), 1);
   const pendres_bifurcation *held = pendres_branch_bifurcation_get(b, 0);
   p.parametric_amplitude = held->value;

@@ -98,7 +98,7 @@ static void ask_curve(const problem *q, const pendres_bifurcation *fold)
   const pendres_curve_options options = {.second = PENDRES_DRIVE_AMPLITUDE,
                                          .low = {0.5 * rate, 0.05 * force},
                                          .high = {3.0 * rate, 0.5 * force}};
-  check_ok(pendres_curve_follow(q->ctx, 1, fold, &options, &curve));
+  check_ok(pendres_curve_follow(q->ctx, fold, &options, &curve));
   for (size_t i = 0; i < pendres_curve_count(curve); i++) {
     const pendres_curve_point *p = pendres_curve_get(curve, i);
     NOTE(p->arclength, 0, 0);
@@ -132,7 +132,7 @@ static void ask_branch(const problem *q, const pendres_orbit *o)
   notes *to = q->to;
   const pendres_branch_options options = {.parameter = PENDRES_DRIVE_FREQUENCY,
                                           .low = 0.5 * rate, .high = 3.0 * rate};
-  check_ok(pendres_branch_follow(q->ctx, 1, o, &options, &branch));
+  check_ok(pendres_branch_follow(q->ctx, o, &options, &branch));
   for (size_t i = 0; i < pendres_branch_count(branch); i++) {
     const pendres_branch_point *p = pendres_branch_get(branch, i);
     NOTE(p->arclength, 0, 0);

@@ -137,59 +137,47 @@ static pendres_status finish(pendres_context *ctx, pendres_curve *c)
 
 /* ---- following ---- */
 
-static const char *check(size_t n, const pendres_bifurcation *starts,
-                         const pendres_curve_options *o)
+static const char *check(const pendres_bifurcation *start, const pendres_curve_options *o)
 {
   for (int i = 0; i < 2; i++)
     if (!(o->low[i] < o->high[i] && isfinite(o->low[i]) && isfinite(o->high[i])))
       return "a parameter's range is empty";
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
-  for (size_t i = 0; i < n; i++) {
-    if (starts[i].kind == PENDRES_REGULAR ||
-        (unsigned)starts[i].kind >= PENDRES_SPECIAL_COUNT)
-      return "a start is no bifurcation";
-    const char *why = pendres_continuation_refuses(&starts[i].orbit, starts[i].parameter);
-    if (why == NULL) why = pendres_continuation_refuses(&starts[i].orbit, o->second);
-    if (why != NULL) return why;
-    if (starts[i].parameter == o->second) return "the second parameter is the first once more";
-  }
-  return NULL;
+  if (start->kind == PENDRES_REGULAR || (unsigned)start->kind >= PENDRES_SPECIAL_COUNT)
+    return "the start is no bifurcation";
+  const char *why = pendres_continuation_refuses(&start->orbit, start->parameter);
+  if (why == NULL) why = pendres_continuation_refuses(&start->orbit, o->second);
+  if (why == NULL && start->parameter == o->second)
+    why = "the second parameter is the first once more";
+  return why;
 }
 
-static pendres_status curve_follow(pendres_context *ctx, size_t n,
-                                   const pendres_bifurcation *starts,
-                                   const pendres_curve_options *options, pendres_curve **out)
+static pendres_status curve_follow(pendres_context *ctx, const pendres_bifurcation *b,
+                                   const pendres_curve_options *o, pendres_curve **out)
 {
-  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
-    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
-  for (size_t i = 0; i < n; i++) out[i] = NULL;
-  const pendres_curve_options *o = options;
-  const char *why = n > 0 ? check(n, starts, o) : NULL;
+  if (o == NULL || b == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "start, options and out");
+  *out = NULL;
+  const char *why = check(b, o);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "curve: %s", why);
   const pendres_curve_bounds bounds = {.low = {o->low[0], o->low[1]},
                                        .high = {o->high[0], o->high[1]},
                                        .wildest = o->wildest > 0.0 ? o->wildest : wildest,
                                        .most_points = o->most_points > 0 ? o->most_points : 2000};
-  pendres_curve_start *start = calloc(n + 1, sizeof *start);
-  if (start == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu curves", n);
-  for (size_t i = 0; i < n; i++)
-    start[i].kind = pendres_followed_at(&starts[i], o->second,
-                                        o->spacing > 0.0 ? o->spacing : 0.05, start[i].u);
-  const pendres_status status = pendres_curves_make(ctx, n, start, &bounds, finish, out);
-  free(start);
-  return status;
+  pendres_curve_start start;
+  start.kind =
+    pendres_followed_at(b, o->second, o->spacing > 0.0 ? o->spacing : 0.05, start.u);
+  return pendres_curve_make(ctx, &start, &bounds, finish, out);
 }
 
-pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
-                                    const pendres_bifurcation *starts,
+pendres_status pendres_curve_follow(pendres_context *ctx, const pendres_bifurcation *start,
                                     const pendres_curve_options *options, pendres_curve **out)
 {
   pendres_door d;
-  pendres_door_open(&d, ctx, n > 0 && starts != NULL ? &starts[0].orbit.pendulum : NULL);
-  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, starts);
-  const pendres_curve_options *o = pendres_curve_options_inside(&d, n, starts, options);
-  PENDRES_DOOR_CALL(&d, curve_follow(ctx, n, from, o, out));
-  for (size_t i = 0; d.status == PENDRES_OK && i < n; i++) pendres_curve_leave(&d, out[i]);
+  pendres_door_open(&d, ctx, start != NULL ? &start->orbit.pendulum : NULL);
+  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, 1, start);
+  const pendres_curve_options *o = pendres_curve_options_inside(&d, 1, start, options);
+  PENDRES_DOOR_CALL(&d, curve_follow(ctx, from, o, out));
+  if (d.status == PENDRES_OK) pendres_curve_leave(&d, *out);
   return pendres_door_close(&d);
 }

@@ -268,32 +268,24 @@ const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
   return NULL;
 }
 
-static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+static pendres_status branch_follow(pendres_context *ctx, const pendres_orbit *orbit,
                                     const pendres_branch_options *o, pendres_branch **out)
 {
-  if (o == NULL || (n > 0 && (starts == NULL || out == NULL)))
-    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
-  for (size_t i = 0; i < n; i++) out[i] = NULL;
-  const char *why = n > 0 ? pendres_branch_refuses(o, n, starts) : NULL;
+  if (o == NULL || orbit == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "start, options and out");
+  *out = NULL;
+  const char *why = pendres_branch_refuses(o, 1, orbit);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   const pendres_curve_bounds bounds = {.low = {o->low},
                                        .high = {o->high},
                                        .wildest = o->wildest > 0.0 ? o->wildest : 1e3,
                                        .most_points = o->most_points > 0 ? o->most_points : 2000};
-  pendres_curve_start *start = calloc(n + 1, sizeof *start);
-  pendres_curve **curve = calloc(n + 1, sizeof *curve);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (start == NULL || curve == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu branches", n);
-  } else {
-    for (size_t i = 0; i < n; i++)
-      start[i].kind = pendres_followed_of(&starts[i], PENDRES_CONDITION_NONE, &o->parameter,
-                                          o->spacing > 0.0 ? o->spacing : 0.05, start[i].u);
-    status = pendres_curves_make(ctx, n, start, &bounds, finish, curve);
-    for (size_t i = 0; i < n; i++) out[i] = pendres_branch_of(curve[i]);
-  }
-  free(start);
-  free(curve);
+  pendres_curve_start start;
+  pendres_curve *curve = NULL;
+  start.kind = pendres_followed_of(orbit, PENDRES_CONDITION_NONE, &o->parameter,
+                                   o->spacing > 0.0 ? o->spacing : 0.05, start.u);
+  const pendres_status status = pendres_curve_make(ctx, &start, &bounds, finish, &curve);
+  *out = pendres_branch_of(curve);
   return status;
 }
 
@@ -319,34 +311,20 @@ pendres_status pendres_branch_extend(pendres_context *ctx, pendres_branch *branc
                                      const pendres_curve_bounds *bounds)
 {
   pendres_curve *c = &branch->curve;
-  pendres_status status = pendres_curve_extend(ctx, 1, &c, bounds);
+  pendres_status status = pendres_curve_extend(ctx, c, bounds);
   if (status == PENDRES_OK) status = find_bifurcations(ctx, c);
   if (status == PENDRES_OK) status = pendres_curve_outline(ctx, c);
   return status == PENDRES_OK ? fill(ctx, c) : status;
 }
 
-pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+pendres_status pendres_branch_follow(pendres_context *ctx, const pendres_orbit *start,
                                      const pendres_branch_options *options, pendres_branch **out)
 {
   pendres_door d;
-  pendres_door_open_many(&d, ctx, n, starts, sizeof *starts);
-  if (options != NULL)
-    pendres_door_range(&d, options->parameter, options->low, options->high);
-  for (size_t i = 0; d.status == PENDRES_OK && out != NULL && i < n; i++) out[i] = NULL;
-  while (pendres_door_next(&d)) {
-    const size_t i = d.first, m = d.count;
-    pendres_branch **mine = PENDRES_DOOR_AT(out, i);
-    const pendres_orbit *from =
-      pendres_door_in(&d, &pendres_dim_orbit, m, PENDRES_DOOR_AT(starts, i));
-    if (options != NULL) pendres_door_move(&d, options->parameter, options->parameter);
-    const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
-    PENDRES_DOOR_CALL(&d, branch_follow(ctx, m, from, o, mine));
-    for (size_t k = 0; d.status == PENDRES_OK && k < m; k++)
-      pendres_curve_leave(&d, &mine[k]->curve);
-  }
-  for (size_t i = 0; d.begun && d.status != PENDRES_OK && out != NULL && i < n; i++) {
-    pendres_branch_free(out[i]);
-    out[i] = NULL;
-  }
+  pendres_branch_open(&d, ctx, start != NULL ? &start->pendulum : NULL, options);
+  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, start);
+  const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
+  PENDRES_DOOR_CALL(&d, branch_follow(ctx, from, o, out));
+  if (d.status == PENDRES_OK) pendres_curve_leave(&d, &(*out)->curve);
   return pendres_door_close(&d);
 }

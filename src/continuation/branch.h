@@ -29,6 +29,11 @@ pendres_status pendres_branch_extend(pendres_context *ctx, pendres_branch *branc
 /* The parameter of point i. */
 double pendres_branch_value(const pendres_curve *branch, size_t i);
 
+/* Where to look for the orbit at a value of the parameter between two orbits of a branch: this part
+   of the way from one to the other, between which x may differ by whole turns. */
+pendres_orbit_guess pendres_branch_between(const pendres_orbit *from, const pendres_orbit *to,
+                                           double part, pendres_parameter parameter, double value);
+
 /* Set the doubt of all points: whether the points and the bifurcations agree. */
 void pendres_branch_check(pendres_curve *branch);
 

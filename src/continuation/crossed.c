@@ -25,14 +25,12 @@ double pendres_branch_value(const pendres_curve *b, size_t i)
   return pendres_parameter_get(pendres_curve_parameter(b, 0), &b->branch_point[i].orbit.pendulum);
 }
 
-/* The Poincaré point on a chord, between whose ends x may differ by whole turns. */
-static pendres_orbit_guess between(const pendres_curve *b, size_t i, size_t k, double part,
-                                   double value)
+pendres_orbit_guess pendres_branch_between(const pendres_orbit *p, const pendres_orbit *q,
+                                           double part, pendres_parameter parameter, double value)
 {
-  const pendres_orbit *p = &b->branch_point[i].orbit, *q = &b->branch_point[k].orbit;
   const double dx = pendres_less_turns(q->x - p->x, pendres_model_turn(&p->pendulum));
   return (pendres_orbit_guess){
-    .pendulum = pendres_parameter_with(&p->pendulum, pendres_curve_parameter(b, 0), value),
+    .pendulum = pendres_parameter_with(&p->pendulum, parameter, value),
     .x = p->x + part * dx,
     .v = p->v + part * (q->v - p->v),
     .period = p->period,
@@ -61,11 +59,12 @@ static pendres_status branch_cross(pendres_context *ctx, const pendres_curve *b,
   for (size_t i = 0; i < chords; i++) {
     const size_t k = (i + 1) % b->count;
     const double from = pendres_branch_value(b, i) - value, to = pendres_branch_value(b, k) - value;
+    const int last = to == 0.0 && k == b->count - 1 && !closed;
     /* A value that a point has exactly belongs to the chord that begins there. */
-    if (from == 0.0 || from * to < 0.0)
-      guess[n++] = between(b, i, k, from == 0.0 ? 0.0 : from / (from - to), value);
-    else if (to == 0.0 && k == b->count - 1 && !closed)
-      guess[n++] = between(b, i, k, 1.0, value);
+    if (from != 0.0 && !(from * to < 0.0) && !last) continue;
+    const double part = from == 0.0 ? 0.0 : last ? 1.0 : from / (from - to);
+    guess[n++] = pendres_branch_between(&b->branch_point[i].orbit, &b->branch_point[k].orbit, part,
+                                        pendres_curve_parameter(b, 0), value);
   }
   status = pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {

@@ -28,7 +28,8 @@ static void forget_nodes(pendres_curve *c)
   c->nodes = c->capacity = c->room = 0;
 }
 
-void pendres_curve_forget(pendres_curve *c)
+/* Free what callers do not see. */
+static void forget(pendres_curve *c)
 {
   forget_nodes(c);
   for (int k = 0; k < 2 && c->way != NULL; k++) free(c->way[k].node);
@@ -39,7 +40,7 @@ void pendres_curve_forget(pendres_curve *c)
 void pendres_curve_free(pendres_curve *c)
 {
   if (c == NULL) return;
-  pendres_curve_forget(c);
+  forget(c);
   free(c->branch_point);
   free(c->bifurcation);
   free(c->point);
@@ -236,75 +237,51 @@ pendres_status pendres_curve_begin(pendres_context *ctx, const pendres_curve_sta
     w->end = PENDRES_END_POINTS; /* none so far */
   }
   c->kind = c->way[0].at.kind;
+  if (status == PENDRES_NOT_CONVERGED)
+    (void)pendres_context_fail(ctx, status, "the start lies on no curve");
   return status;
 }
 
-/* The ways of n curves that are still going, and their followers; returns their number. */
-static size_t going_ways(size_t n, pendres_curve *const *curves, pendres_curve_way **ways,
-                         pendres_follower **followers)
-{
-  size_t count = 0;
-  for (size_t i = 0; i < 2 * n; i++) {
-    pendres_curve_way *way = curves[i / 2]->way;
-    /* The other way of a closed curve is the same curve. */
-    if (way[0].end == PENDRES_END_CLOSED) way[1].going = 0;
-    if (!way[i % 2].going) continue;
-    ways[count] = &way[i % 2];
-    followers[count] = &way[i % 2].at;
-    count++;
-  }
-  return count;
-}
-
-pendres_status pendres_curve_extend(pendres_context *ctx, size_t n, pendres_curve *const *curves,
+pendres_status pendres_curve_extend(pendres_context *ctx, pendres_curve *c,
                                     const pendres_curve_bounds *bounds)
 {
   pendres_status status = PENDRES_OK;
-  pendres_curve_way **ways = malloc((2 * n + 1) * sizeof *ways);
-  pendres_follower **followers = malloc((2 * n + 1) * sizeof *followers);
-  if (ways == NULL || followers == NULL) status = no_memory(ctx);
-  for (size_t i = 0; i < 2 * n && status == PENDRES_OK; i++) {
-    pendres_curve_way *w = &curves[i / 2]->way[i % 2];
+  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+    pendres_curve_way *w = &c->way[k];
     w->going |= w->end == PENDRES_END_POINTS && w->count < bounds->most_points;
     status = take(ctx, bounds, w);
   }
   while (status == PENDRES_OK) {
-    const size_t count = going_ways(n, curves, ways, followers);
-    if (count == 0) break;
-    status = pendres_follow_advance(ctx, count, followers);
-    for (size_t i = 0; i < count && status == PENDRES_OK; i++) {
-      ways[i]->taken = 0;
-      status = take(ctx, bounds, ways[i]);
+    pendres_follower *followers[2];
+    size_t n = 0;
+    /* The other way of a closed curve is the same curve. */
+    if (c->way[0].end == PENDRES_END_CLOSED) c->way[1].going = 0;
+    for (int k = 0; k < 2; k++)
+      if (c->way[k].going) followers[n++] = &c->way[k].at;
+    if (n == 0) return join(ctx, c);
+    status = pendres_follow_advance(ctx, n, followers);
+    for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+      if (!c->way[k].going) continue;
+      c->way[k].taken = 0;
+      status = take(ctx, bounds, &c->way[k]);
     }
   }
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) status = join(ctx, curves[i]);
-  free(ways);
-  free(followers);
   return status;
 }
 
-pendres_status pendres_curves_make(pendres_context *ctx, size_t n,
-                                   const pendres_curve_start *starts,
-                                   const pendres_curve_bounds *bounds,
-                                   pendres_curve_finisher *finish, pendres_curve **out)
+pendres_status pendres_curve_make(pendres_context *ctx, const pendres_curve_start *start,
+                                  const pendres_curve_bounds *bounds,
+                                  pendres_curve_finisher *finish, pendres_curve **out)
 {
-  pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < n; i++) out[i] = NULL;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    out[i] = calloc(1, sizeof(pendres_branch));
-    status = out[i] != NULL ? pendres_curve_begin(ctx, &starts[i], out[i]) : no_memory(ctx);
-    if (status == PENDRES_NOT_CONVERGED)
-      (void)pendres_context_fail(ctx, status, "start %zu lies on no curve", i);
-  }
-  if (status == PENDRES_OK) status = pendres_curve_extend(ctx, n, out, bounds);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    status = finish(ctx, out[i]);
-    pendres_curve_forget(out[i]);
-  }
-  for (size_t i = 0; i < n && status != PENDRES_OK; i++) {
-    pendres_curve_free(out[i]);
-    out[i] = NULL;
-  }
+  *out = calloc(1, sizeof(pendres_branch));
+  if (*out == NULL) return no_memory(ctx);
+  pendres_status status = pendres_curve_begin(ctx, start, *out);
+  if (status == PENDRES_OK) status = pendres_curve_extend(ctx, *out, bounds);
+  if (status == PENDRES_OK) status = finish(ctx, *out);
+  forget(*out);
+  if (status == PENDRES_OK) return status;
+  pendres_curve_free(*out);
+  *out = NULL;
   return status;
 }
 

@@ -55,7 +55,7 @@ struct pendres_curve {
   pendres_curve_point *point;
   pendres_cusp *cusp;
   double (*u)[PENDRES_U_COUNT];
-  /* What has been found on the way there, until pendres_curve_forget(). */
+  /* What has been found on the way there, until there is what callers see. */
   pendres_curve_way *way; /* [2] */
   size_t nodes, capacity, room;
   pendres_curve_node *node; /* in order, arclength ascending from 0 */
@@ -128,21 +128,17 @@ typedef struct pendres_curve_bounds {
 /* What is made of a curve whose nodes have been found: its special points, and what callers see. */
 typedef pendres_status pendres_curve_finisher(pendres_context *ctx, pendres_curve *curve);
 
-/* Begin n curves, follow them, finish each, and forget its nodes. On failure all of out[n] are
-   NULL. */
-pendres_status pendres_curves_make(pendres_context *ctx, size_t n,
-                                   const pendres_curve_start *starts,
-                                   const pendres_curve_bounds *bounds,
-                                   pendres_curve_finisher *finish, pendres_curve **out);
+/* Begin a curve, follow it, finish it, and forget its nodes. On failure *out is NULL. */
+pendres_status pendres_curve_make(pendres_context *ctx, const pendres_curve_start *start,
+                                  const pendres_curve_bounds *bounds,
+                                  pendres_curve_finisher *finish, pendres_curve **out);
 
 /* The same step by step. An empty curve, to be freed whether this succeeds or not; */
 pendres_status pendres_curve_begin(pendres_context *ctx, const pendres_curve_start *start,
                                    pendres_curve *curve);
-/* go on with n curves that have ended by the number of points alone, or not begun to; */
-pendres_status pendres_curve_extend(pendres_context *ctx, size_t n, pendres_curve *const *curves,
+/* and go on with ways that have ended by the number of points alone, or not begun to. */
+pendres_status pendres_curve_extend(pendres_context *ctx, pendres_curve *curve,
                                     const pendres_curve_bounds *bounds);
-/* and free what callers do not see of it. */
-void pendres_curve_forget(pendres_curve *curve);
 
 /* The curve of bifurcations in two parameters that one lies on, and its place there. */
 pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_parameter second,
@@ -225,27 +221,22 @@ pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *curve)
 pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *curve);
 
 /*
- * Follow the branches of n orbits, both ways, stable and unstable parts, side by side; with
- * their folds, period doublings and symmetry breakings located to the tolerance.
+ * Follow the branch of an orbit, both ways, stable and unstable parts; with its folds, period
+ * doublings and symmetry breakings located to the tolerance.
  *
- * starts[n] are read; out[n] is written, each to be freed by pendres_branch_free, all NULL on
- * failure. A branch depends on its own start alone. Two starts on one branch give it twice.
- * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_NOT_CONVERGED (a start is no orbit), those of the
- * integration. PENDRES_OK also where some point's error exceeds the tolerance: the errors say so.
+ * *out is to be freed by pendres_branch_free; NULL on failure. Errors: PENDRES_INVALID_ARGUMENT,
+ * PENDRES_NOT_CONVERGED (the start is no orbit), those of the integration. PENDRES_OK also where
+ * some point's error exceeds the tolerance: the errors say so.
  */
-pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+pendres_status pendres_branch_follow(pendres_context *ctx, const pendres_orbit *start,
                                      const pendres_branch_options *options, pendres_branch **out);
 
 /* NULL is allowed. */
 void pendres_branch_free(pendres_branch *branch);
 
-/*
- * Follow n curves, both ways from where they start, side by side. out[n] is written, each to be
- * freed by pendres_curve_free, all NULL on failure. A curve depends on its own start alone.
- * Errors as for pendres_branch_follow.
- */
-pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
-                                    const pendres_bifurcation *starts,
+/* Follow the curve of a bifurcation, both ways from it. *out is to be freed by pendres_curve_free;
+   NULL on failure. Errors as for pendres_branch_follow. */
+pendres_status pendres_curve_follow(pendres_context *ctx, const pendres_bifurcation *start,
                                     const pendres_curve_options *options, pendres_curve **out);
 
 /* NULL is allowed. */

@@ -21,8 +21,8 @@ pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
   return p;
 }
 
-void pendres_continuation_map_point(const pendres_pendulum *p, double y, double w,
-                                    double u[PENDRES_U_COUNT])
+/* The point of a pendulum in a state (y, w). */
+static void point_of(const pendres_pendulum *p, double y, double w, double u[PENDRES_U_COUNT])
 {
   u[PENDRES_U_Y] = y;
   u[PENDRES_U_W] = w;
@@ -85,7 +85,7 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int
   const double centre =
     pendres_model_centre(&still, isfinite(o->mean_angle) ? o->mean_angle : s.y);
   int kept = isfinite(centre);
-  pendres_continuation_map_point(&o->pendulum, s.y, s.w, u);
+  point_of(&o->pendulum, s.y, s.w, u);
   for (int k = 0; k < unknowns && kept; k++) kept = !breaks_symmetry(unknown[k], centre);
   if (!kept) return map;
   map.reflects = is_reflected(&o->pendulum, unknowns, unknown);

@@ -94,10 +94,6 @@ typedef struct pendres_continuation_system {
 pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
                                                    const double u[PENDRES_U_COUNT]);
 
-/* The point of a pendulum in a state (y, w). */
-void pendres_continuation_map_point(const pendres_pendulum *p, double y, double w,
-                                    double u[PENDRES_U_COUNT]);
-
 /* The map that an orbit is a fixed point of, and the point. The first two of `unknown[unknowns]`
    are y and w, the others change along the way: where one of them breaks the mirror symmetry, the
    map of the whole period is meant. */

@@ -159,7 +159,7 @@ static pendres_status add_branch(pendres_context *ctx, pendres_curves *set,
                                  const pendres_orbit *o, const pendres_branch_options *options)
 {
   pendres_branch *b = NULL;
-  const pendres_status status = pendres_branch_follow(ctx, 1, o, options, &b);
+  const pendres_status status = pendres_branch_follow(ctx, o, options, &b);
   set->skipped += status == PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
   return append(set, &b->curve) ? PENDRES_OK : no_memory(ctx);
@@ -188,23 +188,11 @@ static pendres_status branches_find(pendres_context *ctx, size_t n, const pendre
   return status;
 }
 
-/* The door for branches of a pendulum. */
-static void open_door(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
-                      const pendres_branch_options *options)
-{
-  if (options == NULL || p == NULL) {
-    pendres_door_open(d, ctx, p);
-    return;
-  }
-  const double ends[2] = {options->low, options->high};
-  pendres_door_open_along(d, ctx, p, options->parameter, 2, ends);
-}
-
 pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                      const pendres_branch_options *options, pendres_branches **out)
 {
   pendres_door d;
-  open_door(&d, ctx, n > 0 && orbits != NULL ? &orbits[0].pendulum : NULL, options);
+  pendres_branch_open(&d, ctx, n > 0 && orbits != NULL ? &orbits[0].pendulum : NULL, options);
   const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, n, orbits);
   const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
   PENDRES_DOOR_CALL(&d, branches_find(ctx, n, from, o, out));
@@ -254,8 +242,8 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        pendres_branches *branches)
 {
   pendres_door d;
-  open_door(&d, ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL,
-            options);
+  pendres_branch_open(
+    &d, ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL, options);
   const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
   const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
   pendres_curves_enter(&d, pendres_branches_set(branches));
@@ -293,7 +281,7 @@ static pendres_status add_curve(pendres_context *ctx, const pendres_bifurcation 
                                 const pendres_curve_options *options, pendres_curves *set)
 {
   pendres_curve *c = NULL;
-  const pendres_status status = pendres_curve_follow(ctx, 1, &all[number], options, &c);
+  const pendres_status status = pendres_curve_follow(ctx, &all[number], options, &c);
   if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
   /* Nothing can be followed from a bifurcation among wild orbits: it stays a single point. */
   if (pendres_curve_count(c) < 3) {

@@ -60,6 +60,17 @@ static void convert_curve(const pendres_door *d, convert *way, pendres_curve *c)
 
 /* ---- copies ---- */
 
+void pendres_branch_open(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
+                         const pendres_branch_options *options)
+{
+  if (options == NULL || p == NULL) {
+    pendres_door_open(d, ctx, p);
+    return;
+  }
+  const double ends[2] = {options->low, options->high};
+  pendres_door_open_along(d, ctx, p, options->parameter, 2, ends);
+}
+
 const pendres_bifurcation *pendres_bifurcations_inside(pendres_door *d, size_t n,
                                                        const pendres_bifurcation *b)
 {

@@ -341,7 +341,7 @@ static void compute_one(accuracy_random *r, int (*draw)(accuracy_random *r, item
       pendres_orbit_find(ctx, 1, &t->guess, PENDRES_ORBIT_PLAIN, &start, &outcome) ==
         PENDRES_OK &&
       outcome != PENDRES_NOT_CONVERGED &&
-      pendres_branch_follow(ctx, 1, &start, &options, &b) == PENDRES_OK)
+      pendres_branch_follow(ctx, &start, &options, &b) == PENDRES_OK)
     look(r, b, t);
   t->answered = b != NULL;
   pendres_branch_free(b);

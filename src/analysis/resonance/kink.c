@@ -33,7 +33,7 @@ static pendres_status locate(pendres_context *ctx, const pendres_orbit *o, const
     .parameter = PENDRES_DRIVE_FREQUENCY, .low = range[0], .high = range[1]};
   pendres_branch *branch = NULL;
   *found = 0;
-  const pendres_status status = pendres_branch_follow(ctx, 1, o, &along, &branch);
+  const pendres_status status = pendres_branch_follow(ctx, o, &along, &branch);
   for (size_t i = 0; i < pendres_branch_bifurcation_count(branch); i++) {
     const pendres_bifurcation *b = pendres_branch_bifurcation_get(branch, i);
     const double from = o->pendulum.drive_frequency;

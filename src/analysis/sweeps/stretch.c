@@ -335,12 +335,7 @@ static pendres_orbit_guess between(const pendres_branch_point *p, const pendres_
   /* Not far beyond the first point, where a value may lie next to the place of a jump. */
   part = fmin(fmax(part, -1.0), 1.0);
   if (q->kind == PENDRES_FOLD) part = 1.0 - sqrt(1.0 - part);
-  return (pendres_orbit_guess){
-    .pendulum = pendres_parameter_with(&p->orbit.pendulum, parameter, value),
-    .x = p->orbit.x + part * angle_between(&q->orbit, &p->orbit),
-    .v = p->orbit.v + part * (q->orbit.v - p->orbit.v),
-    .period = p->orbit.period,
-    .winding = p->orbit.winding};
+  return pendres_branch_between(&p->orbit, &q->orbit, part, parameter, value);
 }
 
 pendres_status pendres_stretch_orbits(pendres_context *ctx, const pendres_stretch *s, size_t n,
