@@ -141,6 +141,25 @@ static void costs_are_counted(void **state)
   pendres_context_free(ctx);
 }
 
+/* What a computation costs does not depend on what the context has done before, though the steps of
+   a pendulum are chosen once. */
+static void costs_do_not_depend_on_the_past(void **state)
+{
+  pendres_context *ctx = NULL;
+  pendres_cost first, again;
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  for (int k = 0; k < 2; k++) {
+    double x = 0.1, v = 0.0;
+    pendres_context_cost_reset(ctx);
+    check_ok(pendres_strobe_advance(ctx, 1, &fig7, &x, &v, 4, NULL));
+    pendres_context_cost(ctx, k == 0 ? &first : &again);
+  }
+  assert_true(first.pendulum_periods == 4.0);
+  assert_memory_equal(&first, &again, sizeof first);
+  pendres_context_free(ctx);
+}
+
 static int after_some(void *arg)
 {
   int *left = arg;
@@ -173,7 +192,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(defaults),    cmocka_unit_test(options_are_copied),
     cmocka_unit_test(bad_options), cmocka_unit_test(names),
-    cmocka_unit_test(costs_are_counted), cmocka_unit_test(interrupted),
+    cmocka_unit_test(costs_are_counted),
+    cmocka_unit_test(costs_do_not_depend_on_the_past), cmocka_unit_test(interrupted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,11 +23,18 @@ int farm_stopped(void *f)
 /* The processors that this process may use. */
 static int processors(void)
 {
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
-  const long online = sysconf(_SC_NPROCESSORS_ONLN); /* there are more processors than the set has
-                                                        room for */
-  return online > 0 && online <= FARM_MOST_THREADS ? (int)online : 1;
+  enum { MOST_PROCESSORS = 1 << 20 };
+  /* A set of the usual size has room for 1024. The system tells that a set is too small for it. */
+  for (size_t room = CPU_SETSIZE; room <= MOST_PROCESSORS; room *= 2) {
+    cpu_set_t *set = CPU_ALLOC(room);
+    if (set == NULL) break;
+    const size_t size = CPU_ALLOC_SIZE(room);
+    const int told = sched_getaffinity(0, size, set) == 0;
+    const int count = told ? CPU_COUNT_S(size, set) : 0;
+    CPU_FREE(set);
+    if (told) return count < FARM_MOST_THREADS ? count : FARM_MOST_THREADS;
+  }
+  return 1;
 }
 
 pendres_status farm_create(const farm_options *options, farm **out)

@@ -12,9 +12,6 @@
    earlier one; or another shard's to compute. */
 enum { NOT_DONE, DONE, KEPT, JOURNALED, OTHERS };
 
-/* Bytes of records that wait in memory for their turn, where the journal holds them as well. */
-enum { MOST_WAITING = 64 << 20 };
-
 enum { FOREIGN = 500 /* room for what is said of a record that is refused */ };
 
 /* A thread with its task, for the check whether to continue it. */
@@ -194,7 +191,7 @@ static int keep(pool *c, size_t task, farm_record *record, pendres_status *statu
 /* Note a finished task's record: in memory, unless it would wait there for long. Under the lock. */
 static void note_record(pool *c, size_t task, farm_record *record, int on_disk)
 {
-  const int long_way = c->others > 0 || c->waiting + record->size > MOST_WAITING;
+  const int long_way = c->others > 0 || c->waiting + record->size > FARM_MOST_WAITING;
   c->farm->lost += record->lost;
   c->done[task] = on_disk && long_way && task != c->collected ? KEPT : DONE;
   if (c->done[task] == DONE) {

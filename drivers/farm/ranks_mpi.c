@@ -7,6 +7,7 @@
  */
 #define _POSIX_C_SOURCE 200809L /* nanosleep */
 #include "farm/ranks.h"
+#include "farm/record.h"
 
 #include <limits.h>
 #include <mpi.h>
@@ -29,10 +30,7 @@ typedef struct letter {
 static letter *oldest = NULL, *newest = NULL;
 static size_t unsent = 0;
 
-enum {
-  MOST_UNSENT = 64 << 20, /* bytes of unsent messages in memory; beyond this, senders wait */
-  LONGEST_WAIT = 1000     /* microseconds between two looks of a waiting thread */
-};
+enum { LONGEST_WAIT = 1000 }; /* microseconds between two looks of a waiting thread */
 
 /* Sleeps grow by 50 us each, so that after a silence of t they are sqrt(100 us * t) long: the cost
    of polling and the delay are then balanced, whatever the time between messages. */
@@ -160,7 +158,8 @@ int ranks_send(int to, int tag, void *data, size_t size)
   *l = (letter){ .data = data, .size = size };
   for (int idle = 0;; ranks_nap(&idle, LONGEST_WAIT)) {
     pthread_mutex_lock(&lock);
-    const int now = drop_sent() || unsent + size <= MOST_UNSENT, sent = now && post(l, to, tag);
+    const int now = drop_sent() || unsent + size <= FARM_MOST_WAITING;
+    const int sent = now && post(l, to, tag);
     pthread_mutex_unlock(&lock);
     if (now) return sent;
   }

@@ -79,7 +79,11 @@ typedef struct pendres_options {
                              zero is a seed like any other */
 } pendres_options;
 
-/** What a context has spent since its creation or the last reset. */
+/**
+ * What a context has spent since its creation or the last reset. How many steps a period needs is
+ * found out once for pendulums that are alike, and not counted: what a computation costs does not
+ * depend on those before it.
+ */
 typedef struct pendres_cost {
   double pendulum_periods;  /**< drive periods, summed over lanes in use */
   double rhs_evaluations;   /**< right-hand sides, one a lane, stage and step */

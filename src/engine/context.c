@@ -1,4 +1,5 @@
 /* context.c -- options, workspace and last message; see context.h. */
+#include "base/limits.h"
 #include "engine/context_internal.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 #include "engine/steps.h"
 #include "engine/tables.h"
 
-enum { DEFAULT_LANES = 512, MOST_LANES = 4096, MOST_STEPS = 1000000 };
+enum { DEFAULT_LANES = 512, MOST_LANES = 4096 };
 
 /* NULL if the options are valid, otherwise what is wrong. */
 static const char *resolve(pendres_options *o)
@@ -23,7 +24,7 @@ static const char *resolve(pendres_options *o)
   if ((unsigned)o->method >= PENDRES_METHOD_COUNT) return "unknown method";
   if ((unsigned)o->table >= PENDRES_TABLE_COUNT) return "unknown table";
   if (o->table == PENDRES_TABLE_DEFAULT) o->table = PENDRES_TABLE_TP8;
-  if (o->steps_per_period < 0 || o->steps_per_period > MOST_STEPS)
+  if (o->steps_per_period < 0 || o->steps_per_period > PENDRES_MOST_STEPS)
     return "the steps a period must be 1 to 1000000";
   if (o->block_lanes == 0) o->block_lanes = DEFAULT_LANES;
   if (o->block_lanes < 8 || o->block_lanes > MOST_LANES || o->block_lanes % 8 != 0)
@@ -104,7 +105,7 @@ void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost)
 
 double pendres_context_slopes(const pendres_context *ctx)
 {
-  double slopes = ctx->cost.rhs_evaluations - ctx->probed_slopes;
+  double slopes = ctx->cost.rhs_evaluations;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
     if (ctx->flows[i] != NULL) slopes += pendres_flow_evaluations(ctx->flows[i]);
   return slopes;

@@ -34,10 +34,6 @@ struct pendres_context {
   pendres_flow *flows[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;
   pendres_cost cost;
-  double probed_periods; /* the periods of the cost that went into choosing steps. That is done once
-                            for a cell of the lattice, so they depend on what the context did before
-                            */
-  double probed_slopes;  /* likewise the evaluations of the slope */
   double most_slopes;    /* pendres_context_slopes at which a computation ends; INFINITY: never */
   int (*stop)(void *arg);
   void *stop_arg;

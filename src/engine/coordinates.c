@@ -4,12 +4,12 @@
 #include <math.h>
 
 #include "engine/flow.h"
+#include "base/angles.h"
+#include "base/limits.h"
 #include "model/model.h"
 
-/* 2 pi in two parts, so that taking out many turns costs no digits. */
-static const double two_pi_high = 2.0 * PENDRES_PI, two_pi_low = 2.4492935982947064e-16;
-/* A position beyond this is not known to a tenth of a radian. */
-static const double farthest = 1e15;
+/* What two_pi lacks, so that taking out many turns costs no digits. */
+static const double two_pi_low = 2.4492935982947064e-16;
 
 /* ---- states ---- */
 
@@ -17,15 +17,15 @@ const char *pendres_coordinates_refuses(const pendres_pendulum *p, double x, dou
 {
   const double w = p->drive_frequency, slowest = fmax(w, p->damping);
   if (!(isfinite(x) && isfinite(v))) return "position and velocity must be finite";
-  if (!(fabs(x) <= farthest))
+  if (!(fabs(x) <= pendres_farthest))
     return "beyond 1e15 double precision knows a position to a tenth of a radian at best";
-  if (!(fabs(v) / slowest <= farthest && isfinite(v / w)))
+  if (!(fabs(v) / slowest <= pendres_farthest && isfinite(v / w)))
     return "so fast a pendulum is beyond 1e15 within a period, where its angle is not known";
-  if (!(fabs(p->drive_amplitude) / w / slowest <= farthest))
+  if (!(fabs(p->drive_amplitude) / w / slowest <= pendres_farthest))
     return "so strong a drive shakes the pendulum farther than 1e15, where its angle is not known";
-  if (!(fabs(p->torque) / w / slowest <= farthest))
+  if (!(fabs(p->torque) / w / slowest <= pendres_farthest))
     return "so strong a torque turns the pendulum farther than 1e15, where its angle is not known";
-  if (!(p->damping / w <= farthest))
+  if (!(p->damping / w <= pendres_farthest))
     return "so strong a damping acts within less of a period than double precision can tell";
   if (!(isfinite(1.0 / (w * w)) && isfinite(p->drive_amplitude / (w * w)) &&
         isfinite(p->torque / (w * w))))
@@ -36,24 +36,24 @@ const char *pendres_coordinates_refuses(const pendres_pendulum *p, double x, dou
 void pendres_coordinates_wrap(const pendres_pendulum *p, double *y, long *turns)
 {
   if (fabs(*y) <= PENDRES_PI || pendres_model_of(p->force)->period == 0.0) return;
-  const double k = rint(*y / two_pi_high);
-  if (!(fabs(k + (double)*turns) * two_pi_high <= farthest)) {
+  const double k = rint(*y / two_pi);
+  if (!(fabs(k + (double)*turns) * two_pi <= pendres_farthest)) {
     *y = NAN;
     return;
   }
-  *y = fma(-k, two_pi_low, fma(-k, two_pi_high, *y));
+  *y = fma(-k, two_pi_low, fma(-k, two_pi, *y));
   *turns += (long)k;
 }
 
 pendres_coordinates pendres_coordinates_in(const pendres_pendulum *p, double x, double v)
 {
   pendres_coordinates s = {.y = NAN, .w = v / p->drive_frequency};
-  if (!(fabs(x) <= farthest)) return s;
+  if (!(fabs(x) <= pendres_farthest)) return s;
   const double origin = pendres_model_origin(p);
   /* Whole turns first: the difference would lose digits of a large x. */
   const double k = rint((x - origin) / pendres_model_turn(p));
   s.turns = (long)k;
-  s.y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - origin;
+  s.y = fma(-k, two_pi_low, fma(-k, two_pi, x)) - origin;
   pendres_coordinates_wrap(p, &s.y, &s.turns);
   return s;
 }
@@ -67,7 +67,7 @@ void pendres_coordinates_out(const pendres_pendulum *p, const pendres_coordinate
                              double *v)
 {
   const double turns = (double)s->turns;
-  *x = fma(two_pi_high, turns, fma(two_pi_low, turns, s->y + pendres_model_origin(p)));
+  *x = fma(two_pi, turns, fma(two_pi_low, turns, s->y + pendres_model_origin(p)));
   if (v != NULL) *v = s->w * p->drive_frequency;
 }
 

@@ -1,4 +1,5 @@
 /* flow.c -- a block of pendulums on one ARKODE problem; see flow.h. */
+#include "base/limits.h"
 #include "engine/flow.h"
 
 #include <math.h>
@@ -16,10 +17,6 @@
 #include "engine/lanes_tape.h"
 #include "engine/tables.h"
 
-/* Steps, of all lanes together, between two checks whether to go on: they take some hundredths of a
-   second. */
-static const double steps_between = 300000.0;
-
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
 {
   pendres_flow *flow = arg;
@@ -34,7 +31,7 @@ static int count_steps(pendres_flow *flow, int steps)
 {
   flow->steps_taken += (double)steps * (double)flow->lanes;
   if (flow->steps_taken < flow->next_asked) return 0;
-  flow->next_asked = flow->steps_taken + steps_between;
+  flow->next_asked = flow->steps_taken + (double)PENDRES_STEPS_BETWEEN_CHECKS;
   flow->stopped = flow->stop != NULL && flow->stop(flow->stop_arg) != 0;
   return flow->stopped ? -1 : 0;
 }
@@ -85,7 +82,7 @@ static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNC
   int bad = ERKStepSetTable(flow->arkode, butcher) != 0 ||
             ERKStepSetUserData(flow->arkode, flow) != 0 ||
             ERKStepSetPostprocessStepFn(flow->arkode, after_step) != 0 ||
-            ERKStepSetMaxNumSteps(flow->arkode, 100000000L) != 0 ||
+            ERKStepSetMaxNumSteps(flow->arkode, (long)PENDRES_MOST_SOLVER_STEPS) != 0 ||
             ERKStepSetMaxHnilWarns(flow->arkode, -1) != 0 ||
             ERKStepSetInterpolantType(flow->arkode, ARK_INTERP_LAGRANGE) != 0 ||
             ERKStepSetInterpolantDegree(flow->arkode, flow->tolerance == 0.0 ? 0 : 1) != 0;
@@ -120,7 +117,7 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
   flow->lanes = options->lanes;
   flow->stop = options->stop;
   flow->stop_arg = options->stop_arg;
-  flow->next_asked = steps_between;
+  flow->next_asked = (double)PENDRES_STEPS_BETWEEN_CHECKS;
   flow->tolerance = options->tolerance;
   if (pendres_flow_lanes_open(flow) != 0) goto fail;
   flow->replays = pendres_lanes_replays_create();
@@ -206,7 +203,7 @@ static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
 static const pendres_lanes_replay *known(pendres_flow *flow, int span)
 {
   const int steps = flow->drive.steps;
-  if (steps == 0 || (double)flow->lanes * steps > steps_between) return NULL;
+  if (steps == 0 || (double)flow->lanes * steps > (double)PENDRES_STEPS_BETWEEN_CHECKS) return NULL;
   const pendres_lanes_replay_kind kind = kind_of(flow, span);
   const pendres_lanes_replay *p = pendres_lanes_replays_find(flow->replays, &kind);
   if (p != NULL) return p;

@@ -1,4 +1,5 @@
 /* lanes.c -- the N_Vector of a block of pendulums; see lanes.h. */
+#include "base/limits.h"
 #include "engine/lanes.h"
 
 #include <math.h>
@@ -36,8 +37,8 @@ static size_t rounded_up(size_t n, size_t multiple)
 
 double *pendres_lanes_allocate(size_t n)
 {
-  const size_t bytes = rounded_up(n * sizeof(double), PENDRES_LANES_ALIGN);
-  double *data = aligned_alloc(PENDRES_LANES_ALIGN, bytes > 0 ? bytes : PENDRES_LANES_ALIGN);
+  const size_t bytes = rounded_up(n * sizeof(double), PENDRES_ALIGN);
+  double *data = aligned_alloc(PENDRES_ALIGN, bytes > 0 ? bytes : PENDRES_ALIGN);
   if (data != NULL) memset(data, 0, bytes);
   return data;
 }

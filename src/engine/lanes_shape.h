@@ -16,7 +16,7 @@
 
 #include "engine/kernels.h"
 
-enum { PENDRES_LANES_ALIGN = 64, PENDRES_LANES_MULTIPLE = 8 };
+enum { PENDRES_LANES_MULTIPLE = 8 };
 
 struct pendres_lanes_tape;
 

@@ -8,6 +8,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include "base/limits.h"
 #include "engine/compat.h"
 #include "engine/method_one.h"
 #include "model/model.h"
@@ -31,7 +32,7 @@ static problem *open_cvode(pendres_one *b, int multistep)
       CVodeInit(c->cvode, pendres_one_slope, 0.0, b->state) != 0 ||
       CVodeSetUserData(c->cvode, b) != 0 ||
       CVodeWFtolerances(c->cvode, pendres_one_weights) != 0 ||
-      CVodeSetMaxNumSteps(c->cvode, 100000000L) != 0)
+      CVodeSetMaxNumSteps(c->cvode, (long)PENDRES_MOST_SOLVER_STEPS) != 0)
     return NULL;
   return c;
 }

@@ -1,4 +1,5 @@
 /* method_one.c -- one ARKODE or CVODE problem a pendulum; see method_one.h. */
+#include "base/limits.h"
 #include "engine/method_one.h"
 
 #include <math.h>
@@ -10,16 +11,13 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 
-/* Evaluations between two checks whether to go on: they take some hundredths of a second. */
-enum { EVALUATIONS_BETWEEN = 300000 };
-
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one)
 {
   pendres_one *b = one;
   const double *s = N_VGetArrayPointer(state), omega = b->p->drive_frequency;
   double *d = N_VGetArrayPointer(out);
   b->ctx->cost.rhs_evaluations += 1.0;
-  if (++b->evaluations % EVALUATIONS_BETWEEN == 0 && !b->stopped)
+  if (++b->evaluations % PENDRES_STEPS_BETWEEN_CHECKS == 0 && !b->stopped)
     b->stopped = pendres_context_stops(b->ctx);
   if (b->stopped) return -1;
   d[0] = s[1];

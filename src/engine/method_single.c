@@ -1,6 +1,7 @@
 /* method_single.c -- one adaptive ARKODE problem a pendulum; see method_one.h. */
 #include <arkode/arkode_erkstep.h>
 
+#include "base/limits.h"
 #include "engine/compat.h"
 #include "engine/flow_table.h"
 #include "engine/method_one.h"
@@ -22,7 +23,7 @@ static int open(pendres_one *b)
           ERKStepSetTable(b->memory, table) != 0 || ERKStepSetUserData(b->memory, b) != 0 ||
           ERKStepSetPostprocessStepFn(b->memory, after_step) != 0 ||
           ERKStepWFtolerances(b->memory, pendres_one_weights) != 0 ||
-          ERKStepSetMaxNumSteps(b->memory, 100000000L) != 0 ||
+          ERKStepSetMaxNumSteps(b->memory, (long)PENDRES_MOST_SOLVER_STEPS) != 0 ||
           ERKStepSetMaxStep(b->memory, b->longest) != 0 ||
           pendres_flow_set_controller(b->memory) != 0;
   }

@@ -81,15 +81,27 @@ static void *hand(void *arg)
   return NULL;
 }
 
+/* The processors that this process may use. */
+static size_t processors(void)
+{
+  enum { MOST_PROCESSORS = 1 << 20 };
+  /* A set of the usual size has room for 1024. The system tells that a set is too small for it. */
+  for (size_t room = CPU_SETSIZE; room <= MOST_PROCESSORS; room *= 2) {
+    cpu_set_t *set = CPU_ALLOC(room);
+    if (set == NULL) break;
+    const size_t size = CPU_ALLOC_SIZE(room);
+    const int told = sched_getaffinity(0, size, set) == 0;
+    const size_t count = told ? (size_t)CPU_COUNT_S(size, set) : 0;
+    CPU_FREE(set);
+    if (told) return count;
+  }
+  return 1;
+}
+
 static size_t threads_of(const pool *c)
 {
-  cpu_set_t processors;
   size_t threads = (size_t)c->how->threads;
-  if (threads == 0) {
-    CPU_ZERO(&processors);
-    threads = sched_getaffinity(0, sizeof processors, &processors) == 0
-                ? (size_t)CPU_COUNT(&processors) : 1;
-  }
+  if (threads == 0) threads = processors();
   if (threads > PARTS_MOST_THREADS) threads = PARTS_MOST_THREADS;
   return threads < c->parts ? threads : c->parts;
 }

@@ -1,4 +1,5 @@
 /* steps.c -- how many fixed steps a drive period needs; see steps.h. */
+#include "base/limits.h"
 #include "engine/steps.h"
 
 #include <float.h>
@@ -16,7 +17,6 @@
 enum {
   PROBES = 16,          /* initial states a cell is probed with, two vectors of eight */
   FEWEST_STEPS = 8,
-  MOST_STEPS = 1000000,
   POINTS = 65           /* of a period at which probes are compared */
 };
 
@@ -47,20 +47,20 @@ static double lattice_upper(int index, double least, double ratio)
   return least * pow(ratio, index);
 }
 
-static const double damping_least = 0.05, damping_ratio = 1.25;
+/* The lattice: finer for frequencies, which the steps follow most closely. */
+static const double damping_least = 0.05, drive_least = 0.25, tolerance_least = 1e-18, ratio = 1.25;
 static const double frequency_least = 1e-4, frequency_ratio = 1.06;
-static const double drive_least = 0.25, drive_ratio = 1.25;
 static const double speed_least = 2.0, speed_ratio = 1.5;
 
 /* The index of a term that most pendulums do not have; -1 if it is 0. */
 static int lattice_or_none(double value)
 {
-  return value != 0.0 ? lattice(fabs(value), drive_least, drive_ratio) : -1;
+  return value != 0.0 ? lattice(fabs(value), drive_least, ratio) : -1;
 }
 
 static double lattice_or_none_upper(int index)
 {
-  return index >= 0 ? lattice_upper(index, drive_least, drive_ratio) : 0.0;
+  return index >= 0 ? lattice_upper(index, drive_least, ratio) : 0.0;
 }
 
 /* A cell of the lattice: indices of damping, frequency, drive, speed, tolerance, torque (-1: none),
@@ -73,11 +73,11 @@ typedef struct cell {
 
 static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 {
-  cell c = {.damping = lattice(p->damping, damping_least, damping_ratio),
+  cell c = {.damping = lattice(p->damping, damping_least, ratio),
             .frequency = lattice(p->drive_frequency, frequency_least, frequency_ratio),
-            .drive = lattice(fabs(p->drive_amplitude), drive_least, drive_ratio),
+            .drive = lattice(fabs(p->drive_amplitude), drive_least, ratio),
             .speed = lattice(speed, speed_least, speed_ratio),
-            .tolerance = lattice(tolerance, 1e-18, 1.25),
+            .tolerance = lattice(tolerance, tolerance_least, ratio),
             .torque = lattice_or_none(p->torque),
             .parametric = lattice_or_none(p->parametric_amplitude),
             .force = p->force};
@@ -89,10 +89,10 @@ static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *tolerance)
 {
   *p = (pendres_pendulum){
-    .damping = lattice_upper(c->damping, damping_least, damping_ratio),
+    .damping = lattice_upper(c->damping, damping_least, ratio),
     .drive_frequency =
       c->frequency > 0 ? lattice_upper(c->frequency - 1, frequency_least, frequency_ratio) : 0.0,
-    .drive_amplitude = lattice_upper(c->drive, drive_least, drive_ratio),
+    .drive_amplitude = lattice_upper(c->drive, drive_least, ratio),
     .torque = lattice_or_none_upper(c->torque),
     .parametric_amplitude = lattice_or_none_upper(c->parametric),
     .force = c->force};
@@ -101,7 +101,8 @@ static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *
   /* Below the least damping the corner of the cell has none. */
   if (c->damping == 0) p->damping = 0.0;
   *speed = lattice_upper(c->speed, speed_least, speed_ratio);
-  *tolerance = c->tolerance > 0 ? lattice_upper(c->tolerance - 1, 1e-18, 1.25) : 1e-18;
+  *tolerance = tolerance_least;
+  if (c->tolerance > 0) *tolerance = lattice_upper(c->tolerance - 1, tolerance_least, ratio);
 }
 
 /* ---- the scale of a force whose coordinate has no period ---- */
@@ -218,7 +219,9 @@ static void look(void *arg, int step, const pendres_rows *rows)
   }
 }
 
-/* All probes over one period, with the points on the way. */
+/* All probes over one period, with the points on the way. A cell is probed once, by the first of
+   the context's computations that needs it: what they cost is not counted, so that the cost of a
+   computation does not depend on those before it. */
 static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *s)
 {
   pendres_block b;
@@ -226,8 +229,10 @@ static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *
     ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, s->steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(&b);
-  const double before = pendres_flow_evaluations(b.flow), most = ctx->most_slopes;
-  ctx->most_slopes = INFINITY; /* the limit does not apply to probes */
+  const double slopes = pendres_flow_evaluations(b.flow), steps = pendres_flow_steps(b.flow);
+  const double most = ctx->most_slopes;
+  const pendres_cost before = ctx->cost;
+  ctx->most_slopes = INFINITY;
   for (s->first = 0; s->first < PROBES && status == PENDRES_OK; s->first += capacity) {
     s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
     pendres_block_resize(&b, s->lanes);
@@ -235,10 +240,10 @@ static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *
     status = pendres_block_period_sampled(&b, look, s);
   }
   ctx->most_slopes = most;
-  if (status != PENDRES_OK) return status;
-  ctx->probed_periods += PROBES;
-  ctx->probed_slopes += pendres_flow_evaluations(b.flow) - before;
-  return PENDRES_OK;
+  ctx->cost = before;
+  ctx->cost.rhs_evaluations -= pendres_flow_evaluations(b.flow) - slopes;
+  ctx->cost.steps -= pendres_flow_steps(b.flow) - steps;
+  return status;
 }
 
 /*
@@ -281,10 +286,10 @@ static int shaken(const pendres_pendulum *p)
 {
   const double push = fabs(p->drive_amplitude) + fabs(p->torque);
   const double speed = push / fmax(p->drive_frequency, p->damping);
-  return speed / p->drive_frequency > 0.5 * MOST_STEPS;
+  return speed / p->drive_frequency > 0.5 * PENDRES_MOST_STEPS;
 }
 
-/* PENDRES_TOLERANCE_UNREACHABLE, without a message: MOST_STEPS are too few. */
+/* PENDRES_TOLERANCE_UNREACHABLE, without a message: PENDRES_MOST_STEPS are too few. */
 static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
 {
   probed of;
@@ -297,7 +302,7 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
   of.reach = open_ended(p) ? reach_of(p, of.speed) : 2.75;
   of.pace = pace_of(p, of.speed, of.reach);
   double wanted = fmax(FEWEST_STEPS, least_steps(&of)), last_error = INFINITY;
-  while (wanted <= MOST_STEPS) {
+  while (wanted <= PENDRES_MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
     const int stride = stride_of(&of, n);
     sight coarse = sight_of(p, n, stride, 0), fine = sight_of(p, 2 * n, 2 * stride, 1);
@@ -338,7 +343,7 @@ static pendres_status too_many(pendres_context *ctx, const cell *c, const pendre
     "damping %g, drive amplitude %g, drive frequency %g, speed %g: %s needs more than %d explicit "
     "steps a period. A looser tolerance may do, and method cvode_bdf advances such pendulums "
     "(pendres_strobe_advance); orbits and labels need explicit steps",
-    p->damping, p->drive_amplitude, p->drive_frequency, speed, why, MOST_STEPS);
+    p->damping, p->drive_amplitude, p->drive_frequency, speed, why, PENDRES_MOST_STEPS);
 }
 
 /* ---- The steps that were chosen for cells ---------------------------------------------------- */

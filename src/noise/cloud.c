@@ -11,17 +11,12 @@
 #include "noise/noise_common.h"
 #include "orbits/attractor_internal.h"
 
-enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = 192 /* trajectories, at most */ };
+enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = PENDRES_NOISE_LANES };
 
 /* What linear theory neglects is smaller than a covariance by a factor of about the variance
  * itself. Below this variance it is lost in rounding, and trajectories would only be less
  * accurate. */
 static const double least_variance = 2e-16;
-
-/* Bound on the bias, relative to a cloud's widths and their products. */
-static const double bias_wanted = 0.01;
-
-static const double level = 0.95;
 
 static const pendres_langevin_estimate none = {NAN, NAN};
 
@@ -217,7 +212,7 @@ static pendres_cloud_verdict verdict_on(const pendres_cloud *c)
     const pendres_langevin_estimate b = c->bias.statistics[FIRST + k];
     /* Where the bias could not be measured its bound is taken. */
     const double off =
-      isfinite(b.value) ? hypot(b.value, b.error) : bias_wanted * fabs(linear[k]);
+      isfinite(b.value) ? hypot(b.value, b.error) : pendres_noise_bias * fabs(linear[k]);
     const double error =
       sqrt(s.error * s.error + c->linear_error * c->linear_error + off * off);
     if (!(fabs(s.value - linear[k]) <= 3.0 * error)) return PENDRES_CLOUD_TOO_HOT;
@@ -246,7 +241,6 @@ static pendres_status complete(pendres_context *ctx, const pendres_cloud_request
 static pendres_status prepare(pendres_context *ctx, const pendres_cloud_request *q,
                               pendres_cloud *c, double *x, double *v)
 {
-  enum { TRAJECTORIES = 384, RECORD = 60 }; /* to choose steps by */
   if (q == NULL || c == NULL) return PENDRES_CONTEXT_NULL(ctx, "request and cloud");
   const char *wrong = refuse(q);
   if (wrong == NULL && (x == NULL) != (v == NULL))
@@ -266,9 +260,9 @@ static pendres_status prepare(pendres_context *ctx, const pendres_cloud_request 
   if (status != PENDRES_OK) return status;
   ask_theory(&r, o, c);
   if (c->way == PENDRES_CLOUD_NARROW) return complete(ctx, q, c, x, v);
-  r.trajectories = TRAJECTORIES;
-  r.record = RECORD;
-  return pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, bias_wanted, &c->bias);
+  r.trajectories = 2 * PENDRES_NOISE_LANES; /* to choose steps by */
+  r.record = PENDRES_NOISE_RECORD;
+  return pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, pendres_noise_bias, &c->bias);
 }
 
 /* What prepares or measures a whole cloud, in canonical units. */
@@ -354,8 +348,8 @@ pendres_status pendres_cloud_conclude(const pendres_cloud_request *request, size
   pendres_units_in(&scales, &pendres_dim_whole_cloud, 1, &inside);
   cloud->verdict = verdict_on(&inside);
   if (!(cloud->escape_exposure > 0.0)) return PENDRES_OK;
-  return pendres_langevin_rate((double)cloud->measured.left, cloud->escape_exposure, level,
-                               &cloud->escape_rate);
+  return pendres_langevin_rate((double)cloud->measured.left, cloud->escape_exposure,
+                               pendres_noise_level, &cloud->escape_rate);
 }
 
 static pendres_status measure(pendres_context *ctx, const pendres_cloud_request *q,

@@ -1,4 +1,5 @@
 /* langevin.c -- advancing noisy trajectories; see langevin.h. */
+#include "base/limits.h"
 #include "noise/langevin_internal.h"
 
 #include <math.h>
@@ -7,12 +8,7 @@
 
 #include "engine/coordinates.h"
 #include "model/model.h"
-
-/* A double beyond this does not hold a position to a tenth of a radian; see coordinates.h. */
-static const double farthest = 1e15;
-
-/* More lanes than MOST_LANES do not fit into the fastest memory and are slower. */
-enum { MOST_STEPS = 1000000, MOST_LANES = 192 };
+#include "noise/noise_common.h"
 
 int pendres_langevin_resolve_steps(const pendres_context *ctx, int steps)
 {
@@ -24,7 +20,7 @@ pendres_status pendres_langevin_open(pendres_context *ctx, size_t trajectories, 
                                      pendres_langevin_block *b)
 {
   size_t lanes = (size_t)ctx->options.block_lanes;
-  if (lanes > MOST_LANES) lanes = MOST_LANES;
+  if (lanes > PENDRES_NOISE_LANES) lanes = PENDRES_NOISE_LANES;
   if (lanes > trajectories) lanes = (trajectories + 7) / 8 * 8;
   pendres_status status = pendres_langevin_block_make(b, lanes, ctx->options.seed);
   if (status == PENDRES_OK) status = pendres_langevin_block_set_steps(b, steps);
@@ -47,9 +43,9 @@ pendres_status pendres_langevin_accept(pendres_context *ctx, const pendres_pendu
                                        double v, int steps, size_t index)
 {
   const char *why = NULL;
-  if (steps < 2 || steps > MOST_STEPS)
+  if (steps < 2 || steps > PENDRES_MOST_STEPS)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "the steps a period must be 2 to %d", MOST_STEPS);
+                                "the steps a period must be 2 to %d", PENDRES_MOST_STEPS);
   if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
     why = pendres_coordinates_refuses(p, x, v);
     if (why == NULL) why = pendres_langevin_block_refuses(p, steps);
@@ -124,7 +120,7 @@ pendres_status pendres_langevin_check_ends(pendres_context *ctx, const pendres_l
                                            size_t first)
 {
   for (size_t i = 0; i < b->count; i++)
-    if (!(fabs(b->x[i]) <= farthest && isfinite(b->v[i])))
+    if (!(fabs(b->x[i]) <= pendres_farthest && isfinite(b->v[i])))
       return pendres_context_fail(ctx, PENDRES_INTEGRATION_FAILED,
                                   "trajectory %zu went beyond 1e15, where its angle is not "
                                   "known in double precision", first + i);

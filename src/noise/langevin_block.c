@@ -28,6 +28,7 @@
  * order. One that does not close has a linear ramp besides, whose sum is known exactly and
  * corrected for.
  */
+#include "base/limits.h"
 #include "noise/langevin_block.h"
 
 #include <math.h>
@@ -40,14 +41,10 @@
 
 static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
 
-enum { ALIGN = 64, ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };
+enum { ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };
 
 /* Beyond this an angle in the shaken frame loses more than 1e-9 to rounding. */
 static const double largest_pivot = 1e7;
-
-/* Number of steps of all lanes together between two calls of stop(): those of some hundredths of a
- * second, as in flow.c. */
-static const double steps_between = 300000.0;
 
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
 {
@@ -57,7 +54,7 @@ const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
 /* Memory for n entries of eight bytes on a 64-byte boundary, all zero; n is a multiple of 8. */
 static void *allocate(size_t n)
 {
-  void *memory = aligned_alloc(ALIGN, n * sizeof(double));
+  void *memory = aligned_alloc(PENDRES_ALIGN, n * sizeof(double));
   if (memory != NULL) memset(memory, 0, n * sizeof(double));
   return memory;
 }
@@ -272,7 +269,7 @@ static const double *noise(pendres_langevin_block *b, uint32_t period, int k)
 /* Whether the period is to end before this step. In short periods stop() is not called. */
 static int stops(const pendres_langevin_block *b, int step)
 {
-  const int every = (int)ceil(steps_between / (double)b->stride);
+  const int every = (int)ceil((double)PENDRES_STEPS_BETWEEN_CHECKS / (double)b->stride);
   return step > 0 && step % every == 0 && b->stop != NULL && b->stop(b->stop_arg) != 0;
 }
 

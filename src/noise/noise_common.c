@@ -11,10 +11,6 @@ enum {
   IDS = 1 << 20 /* ids between those of one pendulum and attractor and others */
 };
 
-/* Relative to a cloud's width the bias is the same at all small temperatures. At high ones a coarse
- * and a fine trajectory soon separate, and their difference says little about the steps. */
-static const double coldest = 1e-4;
-
 static uint64_t mix_in(uint64_t hash, double number)
 {
   uint64_t bits;
@@ -66,12 +62,12 @@ pendres_status pendres_noise_choose_steps(pendres_context *ctx,
   const int given = request->steps_per_period;
   pendres_status status = PENDRES_OK;
   *bias = (pendres_langevin_bias){.steps_per_period = given != 0 ? given : PENDRES_LANGEVIN_STEPS};
-  q.pendulum.temperature = fmin(q.pendulum.temperature, coldest);
+  q.pendulum.temperature = fmin(q.pendulum.temperature, pendres_noise_coldest);
   if (given == 0) status = pendres_langevin_choose_steps(ctx, &q, statistics, tolerance, bias);
   if (status == PENDRES_NOT_CONVERGED) status = PENDRES_OK;
   q = *request;
   q.steps_per_period = bias->steps_per_period;
-  if (status == PENDRES_OK && (given != 0 || q.pendulum.temperature > coldest))
+  if (status == PENDRES_OK && (given != 0 || q.pendulum.temperature > pendres_noise_coldest))
     status = pendres_langevin_measure_bias(ctx, &q, bias);
   if (status != PENDRES_NOT_FOUND) return status;
   for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++)

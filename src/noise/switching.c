@@ -23,9 +23,6 @@ enum { GONE = -1 };
    attractor's by this multiple of the temperature: one of exp(30) would return. */
 static const double no_return = 30.0;
 
-/* With fewer events or fewer trajectories their scatter is not known. */
-static const double FEWEST = 10.0;
-
 /* ---- Counting ------------------------------------------------------------------------------ */
 
 /* Where a trajectory belongs. */
@@ -198,7 +195,7 @@ static pendres_status look_at_ends(pendres_context *ctx, const pendres_switching
 {
   const size_t all = q->trajectories;
   pendres_outcome *outcome = malloc((all + 1) * sizeof *outcome);
-  double *x = malloc((2 * all + 1) * sizeof *x), *v = x + all;
+  double *x = malloc((2 * all + 1) * sizeof *x), *v = x != NULL ? x + all : NULL;
   size_t n = 0;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (outcome == NULL || x == NULL) goto done;
@@ -299,7 +296,7 @@ void pendres_switching_add(pendres_switching_tally *into, const pendres_switchin
 static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
 {
   const double events = y->events[s][t], n = y->trajectories;
-  if (events < FEWEST || n < FEWEST) return NAN;
+  if (events < pendres_noise_fewest || n < pendres_noise_fewest) return NAN;
   const double rate = events / y->exposure[s];
   const double square =
     y->events2[s][t] - 2.0 * rate * y->mixed[s][t] + rate * rate * y->exposure2[s];

@@ -7,8 +7,8 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_multifit.h>
 
-/* The logarithm of a rate from fewer events is far from Gaussian. */
-static const double FEWEST = 10.0;
+#include "noise/noise_common.h"
+
 
 /* Unknowns of the fit: ln rate at T0, energy / T0, the prefactor's power, two corrections. */
 enum { RATE, ENERGY, POWER, FIRST, SECOND, UNKNOWNS, PRIORS = UNKNOWNS - POWER };
@@ -155,7 +155,7 @@ pendres_status pendres_switching_fit(size_t n, const double *temperature,
   double *memory = malloc((4 * n + 1) * sizeof *memory);
   if (memory == NULL) return PENDRES_OUT_OF_MEMORY;
   pendres_status status =
-    select_points(n, temperature, rates, fewest > 0.0 ? fewest : FEWEST, memory, &s);
+    select_points(n, temperature, rates, fewest > 0.0 ? fewest : pendres_noise_fewest, memory, &s);
   out->points = s.count;
   if (status == PENDRES_OK) status = fit_line(&s, memory + 3 * n);
   if (status == PENDRES_OK) status = fit(&s, out);

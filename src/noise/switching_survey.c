@@ -10,15 +10,11 @@
 #include "noise/noise_common.h"
 #include "orbits/attractor_internal.h"
 
-/* Steps are chosen on the states' small clouds, at one temperature. */
-static const double bias_of_choice = 0.01, temperature_of_choice = 1e-4;
-
-static const double default_level = 0.95;
-
 enum {
   WAYS = PENDRES_SWITCHING_WAYS,
   WELL = -2,
-  PART = 96 /* trajectories, at most: sums of counts do not depend on the division into parts */
+  /* Trajectories of a part, at most: sums of counts do not depend on the division into parts. */
+  PART = PENDRES_NOISE_LANES / 2
 };
 
 /* Where ways begin and end: the first state, the second, or another well. */
@@ -70,7 +66,6 @@ static const pendres_switching_survey *open_survey(pendres_door *d, pendres_cont
 static pendres_status choose_steps(pendres_context *ctx, const pendres_switching_survey *q,
                                    int state, int *steps)
 {
-  enum { TRAJECTORIES = 192, RECORD = 60 }; /* to choose steps by */
   if (q == NULL || steps == NULL) return PENDRES_CONTEXT_NULL(ctx, "survey and steps");
   const char *wrong = refuse(q);
   if (wrong == NULL && (state < 0 || state > 1)) wrong = "the states are 0 and 1";
@@ -81,17 +76,18 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_switching
   const pendres_orbit *o = &pendres_attractors_get(q->set, from)->orbit;
   pendres_cores cores;
   pendres_langevin_request r = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
-                                .trajectories = TRAJECTORIES, .record = RECORD,
+                                .trajectories = PENDRES_NOISE_LANES,
+                                .record = PENDRES_NOISE_RECORD,
                                 .settle = pendres_noise_settle(o),
                                 .leave = pendres_cores_leave, .arg = &cores};
-  r.pendulum.temperature = temperature_of_choice;
+  r.pendulum.temperature = pendres_noise_coldest;
   r.first_id = pendres_noise_first_id(&r.pendulum, from);
   pendres_langevin_bias bias;
   pendres_status status =
-    pendres_cores_make(ctx, q->set, temperature_of_choice, 0.0, &cores);
+    pendres_cores_make(ctx, q->set, pendres_noise_coldest, 0.0, &cores);
   cores.home = (int)from;
   if (status == PENDRES_OK)
-    status = pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
+    status = pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, pendres_noise_bias, &bias);
   if (status == PENDRES_OK) *steps = 2 * bias.steps_per_period;
   return status;
 }
@@ -209,7 +205,7 @@ pendres_status pendres_switching_conclude(const pendres_switching_survey *survey
   const pendres_switching_rate none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
   pendres_status status = PENDRES_OK;
   if (survey == NULL || rates == NULL || refuse(survey) != NULL) return PENDRES_INVALID_ARGUMENT;
-  const double level = survey->level > 0.0 ? survey->level : default_level;
+  const double level = survey->level > 0.0 ? survey->level : pendres_noise_level;
   const int *state = survey->state;
   *rates = (pendres_switching_rates){.temperature = temperature, .exposure = {NAN, NAN}};
   for (int k = 0; k < WAYS; k++) rates->way[k] = none;

@@ -14,9 +14,6 @@
 #include "model/model.h"
 #include "orbits/orbit_prime.h"
 
-/* Two orbits are taken for one when their Poincaré points agree to this. Stable orbits that differ
-   are that close at most next to a bifurcation. */
-static const double same_point = 1e-6;
 /* Guesses closer than this lead to the same orbit, so one of them is enough. */
 static const double same_guess = 0.05;
 
@@ -31,7 +28,7 @@ static int known(const pendres_attractor_set *c, const pendres_orbit *o)
     double x, v;
     pendres_coordinates_out(&o->pendulum, &place, &x, &v);
     if (at->period == o->period && at->winding == o->winding &&
-        pendres_orbit_apart(o, x, v) < same_point)
+        pendres_orbit_apart(o, x, v) < pendres_orbit_same_point)
       return 1;
   }
   return 0;
@@ -41,7 +38,8 @@ static int known(const pendres_attractor_set *c, const pendres_orbit *o)
 static int closes_earlier(const pendres_orbit *points, int q)
 {
   for (int d = 1; d < q; d++)
-    if (q % d == 0 && pendres_orbit_apart(&points[0], points[d].x, points[d].v) < same_point)
+    if (q % d == 0 &&
+        pendres_orbit_apart(&points[0], points[d].x, points[d].v) < pendres_orbit_same_point)
       return 1;
   return 0;
 }
@@ -132,7 +130,7 @@ static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
 {
   pendres_status status = PENDRES_OK;
   pendres_pendulum *p = malloc(l->count * sizeof *p);
-  double *x = malloc(2 * l->count * sizeof *x), *v = x + l->count;
+  double *x = malloc(2 * l->count * sizeof *x), *v = x != NULL ? x + l->count : NULL;
   size_t *who = malloc(l->count * sizeof *who), left = l->count;
   if (p == NULL || x == NULL || who == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
@@ -172,7 +170,7 @@ static int returns_earlier(const pendres_orbit *o, const pendres_orbit_guess *gu
 {
   for (int d = 1; d < o->period; d++)
     if (o->period % d == 0 &&
-        pendres_orbit_apart(o, guess[d].x, guess[d].v) < 0.5 * same_point)
+        pendres_orbit_apart(o, guess[d].x, guess[d].v) < 0.5 * pendres_orbit_same_point)
       return 1;
   return 0;
 }
@@ -359,7 +357,7 @@ static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
     int new = !known(&attractor_sets[set[i]], &o[i]);
     for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
       new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
-            pendres_orbit_apart(&o[j], o[i].x, o[i].v) > same_point;
+            pendres_orbit_apart(&o[j], o[i].x, o[i].v) > pendres_orbit_same_point;
     if (!new) continue;
     set[count] = set[i];
     o[count++] = o[i];

@@ -12,13 +12,14 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "base/limits.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/tables.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
 
-enum { FIRST_STEPS = 16, MOST_STEPS = 1000000, MOST_ITERATIONS = 40 };
+enum { FIRST_STEPS = 16, MOST_ITERATIONS = 40 };
 
 /* A correction below this leaves an error far below that of the steps. */
 static const double last_correction = 1e-7;
@@ -80,7 +81,7 @@ static void judge(const pendres_context *ctx, swing *s)
     const double part = fmax(0.1, 1.5 / (pow(ratio, order) - 1.0)) * difference;
     const int asked = ctx->options.steps_per_period > 0;
     if (part + floor <= ctx->options.tolerance || part <= floor || asked ||
-        s->steps >= MOST_STEPS) {
+        s->steps >= PENDRES_MOST_STEPS) {
       s->error = part + floor;
       return;
     }
@@ -90,7 +91,7 @@ static void judge(const pendres_context *ctx, swing *s)
   s->have_coarse = 1;
   s->coarse = clock;
   s->coarse_steps = s->steps;
-  s->steps = (int)fmin(ceil(wanted), MOST_STEPS);
+  s->steps = (int)fmin(ceil(wanted), PENDRES_MOST_STEPS);
   s->iterations = 0;
 }
 

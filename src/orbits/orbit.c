@@ -94,7 +94,6 @@ static double size_of(const double m[2][2])
    half as much again, since terms of third order follow. */
 static void left_over(const result *coarse, const result *fine, double left[2])
 {
-  static const double rest = 1.5;
   double bent[2] = {0.0, 0.0};
   left[0] = left[1] = 0.0;
   for (int k = 0; k < 2; k++)
@@ -102,7 +101,7 @@ static void left_over(const result *coarse, const result *fine, double left[2])
       for (int j = 0; j < 2; j++)
         bent[i] += 0.5 * coarse->m_by[k][i][j] * fine->off[k] * fine->off[j];
   (void)pendres_newton_solve(fine->m, bent, left, NULL);
-  for (int i = 0; i < 2; i++) left[i] = rest * fabs(left[i]);
+  for (int i = 0; i < 2; i++) left[i] = pendres_orbit_left_over * fabs(left[i]);
 }
 
 static void set_slope(const result *coarse, const result *fine,

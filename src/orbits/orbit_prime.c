@@ -9,9 +9,6 @@
 #include "engine/strobe_run.h"
 #include "model/model.h"
 
-/* Poincaré points of one orbit agree to this and their errors. So may those of an orbit that has
-   just doubled its period; but there the shorter one is not stable. */
-static const double same_point = 1e-6;
 /* The tolerance of a run around the closed orbit, for methods that choose their own steps. */
 static const double run_within = 1e-10;
 
@@ -35,7 +32,7 @@ double pendres_orbit_apart(const pendres_orbit *o, double x, double v)
 
 static int is_same(const pendres_orbit *o, double x, double v)
 {
-  return pendres_orbit_apart(o, x, v) < same_point + 4.0 * (o->x_error + o->v_error);
+  return pendres_orbit_apart(o, x, v) < pendres_orbit_same_point + 4.0 * (o->x_error + o->v_error);
 }
 
 /* At each period that divides the orbit's: whether the lane is back where it began. */

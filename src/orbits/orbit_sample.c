@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "base/limits.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"
@@ -110,9 +111,9 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
 /* Why such samples cannot be taken; NULL: they can. */
 static const char *refuses_samples(const pendres_orbit *orbit, int count)
 {
-  enum { MOST_STEPS = 1000000, MOST_SAMPLES = 100000000 };
+  enum { MOST_SAMPLES = 100000000 };
   const char *why = pendres_orbit_refuses(orbit);
-  if (why == NULL && (orbit->steps < 1 || orbit->steps > MOST_STEPS))
+  if (why == NULL && (orbit->steps < 1 || orbit->steps > PENDRES_MOST_STEPS))
     why = "its number of steps must lie between 1 and 1000000, as orbits that were found have it";
   if (why == NULL && (count < 1 || count > MOST_SAMPLES / orbit->period))
     why = "there must be one a period at least, and 100 million in all at most";
@@ -157,11 +158,12 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
 /* Why such a stretch cannot be recorded; NULL: it can. */
 static const char *refuses(const pendres_orbit_stretch *s)
 {
-  const long most = 1000000000000000; /* of turns and of samples: doubles tell them apart */
   if (s->first < 0 || s->periods < 0) return "periods are counted from 0 on";
-  if (s->first > most / s->samples || s->periods > most / s->samples)
+  const double first = (double)s->first, periods = (double)s->periods, samples = s->samples;
+  /* Doubles tell so many turns and samples apart. */
+  if (first * samples > pendres_farthest || periods * samples > pendres_farthest)
     return "there may be 1e15 samples at most";
-  if (s->well < -most || s->well > most) return "the well must lie within 1e15 of 0";
+  if (fabs((double)s->well) > pendres_farthest) return "the well must lie within 1e15 of 0";
   return NULL;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/limits.h"
 #include "orbits/attractor_internal.h"
 #include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"
@@ -19,10 +20,6 @@ enum {
   MOST_EXTENSIONS = 4
 };
 
-/* As in strobe_run.h: positions beyond this, and those that speeds beyond this lead to, cannot be
-   told to a tenth of a radian. */
-static const double farthest = 1e15;
-
 static pendres_status check_grid(pendres_context *ctx, const pendres_attractors *set,
                                  const pendres_basin_grid *grid)
 {
@@ -32,7 +29,7 @@ static pendres_status check_grid(pendres_context *ctx, const pendres_attractors 
   /* The parameters of attractors have been checked before: only the states are left to check. */
   for (size_t i = 0; i < grid->nx + grid->nv; i++) {
     const double value = i < grid->nx ? grid->x[i] : grid->v[i - grid->nx];
-    if (!(fabs(value) <= farthest))
+    if (!(fabs(value) <= pendres_farthest))
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                   "%c of a grid must be finite, and 1e15 at most",
                                   i < grid->nx ? 'x' : 'v');

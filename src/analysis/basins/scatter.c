@@ -9,8 +9,6 @@
 enum {
   QUANTITIES = PENDRES_SCATTER_QUANTITIES,
   LEAST_COUNT = 25, /* a share is fitted if it comes from this many uncertain states */
-  LEAST_SCALES = 3, /* an exponent needs this many shares */
-  MOST_SCALES = 5,
   LEAST_GROUPS = 4
 };
 
@@ -50,15 +48,16 @@ double pendres_scatter_variance(const pendres_scatter *s, const double *weight)
 
 /* The scales that can be used, from the smallest distance on. */
 typedef struct usable {
-  int n, scale[MOST_SCALES];
-  double a[MOST_SCALES], b[MOST_SCALES]; /* logarithms of distance and share */
+  int n, scale[PENDRES_SCATTER_MOST_SCALES];
+  /* Logarithms of distance and share. */
+  double a[PENDRES_SCATTER_MOST_SCALES], b[PENDRES_SCATTER_MOST_SCALES];
 } usable;
 
 static usable list_usable(const pendres_scatter *s, int scales, const double *distance,
                           const double *tried)
 {
   usable u = {0};
-  for (int k = 0; k < scales && u.n < MOST_SCALES; k++) {
+  for (int k = 0; k < scales && u.n < PENDRES_SCATTER_MOST_SCALES; k++) {
     const double count = s->total[k];
     if (count < LEAST_COUNT || count > most_uncertain * tried[k]) continue;
     u.scale[u.n] = k;
@@ -114,7 +113,7 @@ static double bend(const pendres_scatter *s, const usable *u, int m)
   for (int j = 0; j < slopes; j++)
     mean += (u->b[j + 1] - u->b[j]) / (u->a[j + 1] - u->a[j]) / slopes;
   for (int j = 0; j < slopes; j++) {
-    double c[MOST_SCALES] = {0.0};
+    double c[PENDRES_SCATTER_MOST_SCALES] = {0.0};
     const double apart = u->a[j + 1] - u->a[j];
     const double off = (u->b[j + 1] - u->b[j]) / apart - mean;
     squares += off * off / (slopes - 1);
@@ -133,11 +132,11 @@ void pendres_scatter_exponent(const pendres_scatter *s, int scales, const double
                               const double *tried, double *exponent, double *error)
 {
   const usable u = list_usable(s, scales, distance, tried);
-  double c[MOST_SCALES];
+  double c[PENDRES_SCATTER_MOST_SCALES];
   *exponent = *error = NAN;
-  if (u.n < LEAST_SCALES) return;
+  if (u.n < PENDRES_SCATTER_LEAST_SCALES) return;
   const double whole = slope(&u, u.n, c);
-  for (int m = u.n; m >= LEAST_SCALES; m--) {
+  for (int m = u.n; m >= PENDRES_SCATTER_LEAST_SCALES; m--) {
     const double value = slope(&u, m, c), scatter = variance_of_logs(s, &u, m, c);
     /* Few slopes may agree by chance: the slope over all distances is compared, too. */
     const double one = sqrt(scatter + pow(bend(s, &u, m), 2.0) + pow(value - whole, 2.0)) +

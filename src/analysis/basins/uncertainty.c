@@ -15,7 +15,6 @@
 #include "orbits/settle.h"
 
 enum {
-  LEAST_SCALES = 3,
   LEAST_STATES = 16,
   FIRST_SAMPLE = 256, /* states that tell what more of them cost, and whether they are of use */
   SAMPLES_AT_A_TIME = 4096
@@ -97,7 +96,7 @@ static int hopeful(const pendres_scatter *s, double states, int scales)
 {
   int below = 0;
   for (int k = 0; k < scales; k++) below += s->total[k] <= 0.5 * states + 2.5 * sqrt(states);
-  return below >= LEAST_SCALES;
+  return below >= PENDRES_SCATTER_LEAST_SCALES;
 }
 
 typedef struct sample {
@@ -189,11 +188,11 @@ pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double mos
   const size_t n = asked->n;
   const int scales = asked->scales;
   const double *distance = asked->distance;
-  if (n < LEAST_STATES || scales < LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
+  if (n < LEAST_STATES || scales < PENDRES_SCATTER_LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
       set->sets != 1)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "an uncertainty exponent needs states and at least %d distances",
-                                LEAST_SCALES);
+                                PENDRES_SCATTER_LEAST_SCALES);
   int bad = (window->by != PENDRES_BASIN_BY_ATTRACTOR && window->by != PENDRES_BASIN_BY_WELL) ||
             !(window->x_low < window->x_high && window->v_low < window->v_high &&
               fmax(fmax(fabs(window->x_low), fabs(window->x_high)),
@@ -244,7 +243,7 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
    made certain down to rounding, whatever the tolerance is. This is far above it, and a thousandth
    of the distances of a fine grid. Where half of the states are uncertain even there, states are
    drawn that are nearer to each other, step by step, as long as rounding is far below. */
-enum { RANDOM_STATES = 16384, RANDOM_SCALES = 5, RANDOM_SEED = 1 };
+enum { RANDOM_STATES = 16384, RANDOM_SEED = 1 };
 static const double nearest = 1e-5, ratio = 6.0, nearer = 0.01, near_rounding = 1e-12;
 
 static int random_states_tell_more(const pendres_basin_statistics *s)
@@ -265,15 +264,16 @@ static pendres_status exponent_of_random(pendres_context *ctx, const pendres_att
                                          const pendres_basin_window *window,
                                          pendres_basin_statistics *out)
 {
-  double distance[RANDOM_SCALES];
+  double distance[PENDRES_SCATTER_MOST_SCALES];
   const pendres_basin_sample asked = {
-    .n = RANDOM_STATES, .seed = RANDOM_SEED, .scales = RANDOM_SCALES, .distance = distance};
+    .n = RANDOM_STATES, .seed = RANDOM_SEED, .scales = PENDRES_SCATTER_MOST_SCALES,
+    .distance = distance};
   pendres_status status = PENDRES_NOT_FOUND;
   int many = 1;
   for (double first = nearest; first > near_rounding && many; first *= nearer) {
-    for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = first * pow(ratio, k);
+    for (int k = 0; k < PENDRES_SCATTER_MOST_SCALES; k++) distance[k] = first * pow(ratio, k);
     status = pendres_basin_uncertainty(ctx, set, window, &asked, out);
-    many = status == PENDRES_NOT_FOUND && out->uncertain[LEAST_SCALES - 1] > 0.5;
+    many = status == PENDRES_NOT_FOUND && out->uncertain[PENDRES_SCATTER_LEAST_SCALES - 1] > 0.5;
   }
   return status;
 }

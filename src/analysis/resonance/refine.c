@@ -221,7 +221,7 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
 static double lag_error(const pendres_scan_point *at, const pendres_scan_point *near,
                         const pendres_orbit_coarser *coarser, double full)
 {
-  static const double chance = 0.1, rest = 1.5;
+  static const double chance = 0.1;
   const pendres_response *r = &at->response;
   const pendres_orbit *o = &r->state[0].orbit, *b = &near->response.state[0].orbit;
   if (r->states != 1 || r->unresolved + r->unlisted > 0 || !pendres_response_has_loop(r->state) ||
@@ -238,7 +238,8 @@ static double lag_error(const pendres_scan_point *at, const pendres_scan_point *
   const double across = direction[0] * apart[1] - direction[1] * apart[0];
   const double turning = direction[0] * turn[1] - direction[1] * turn[0];
   const pendres_orbit_uncertainty uncertainty = {hypot(apart[0], apart[1]), coarser->rounding};
-  const double off = (rest * fabs(o->loop_area_slope) + coarser->slope_rounding) / curvature;
+  const double off =
+    (pendres_orbit_left_over * fabs(o->loop_area_slope) + coarser->slope_rounding) / curvature;
   return (pendres_orbit_error(across, 0.0, 1.0, &uncertainty) + fabs(turning * off)) / radius +
          chance * full;
 }

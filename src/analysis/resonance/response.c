@@ -17,8 +17,6 @@
 #include "engine/coordinates.h"
 #include "analysis/resonance/response_sampling.h"
 
-enum { BATCH_SETS = 32 };
-
 /* An ensemble's members by attractor; attractors without members count for nothing. */
 typedef struct parted {
   size_t attractors;
@@ -278,7 +276,7 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
 {
   const size_t n = sets * e->members;
   pendres_status status = PENDRES_OK;
-  pendres_attractor_set attractor_sets[BATCH_SETS] = {0};
+  pendres_attractor_set attractor_sets[PENDRES_RESPONSE_BATCH] = {0};
   double *x = malloc(n * sizeof *x), *v = malloc(n * sizeof *v);
   size_t *set = malloc(n * sizeof *set);
   pendres_outcome *outcome = malloc(n * sizeof *outcome);
@@ -335,8 +333,8 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
   pendres_status status = PENDRES_OK;
-  for (size_t first = 0; first < n && status == PENDRES_OK; first += BATCH_SETS) {
-    const size_t sets = n - first < BATCH_SETS ? n - first : BATCH_SETS;
+  for (size_t first = 0; first < n && status == PENDRES_OK; first += PENDRES_RESPONSE_BATCH) {
+    const size_t sets = n - first < PENDRES_RESPONSE_BATCH ? n - first : PENDRES_RESPONSE_BATCH;
     status = compute_batch(ctx, sets, pendulums + first, ensemble,
                            where != NULL ? where + first * ensemble->members : NULL, out + first);
   }

@@ -8,6 +8,9 @@
 
 #include "orbits/attractor_set.h"
 
+/* Parameter sets that are computed side by side: enough to fill blocks with their members. */
+enum { PENDRES_RESPONSE_BATCH = 32 };
+
 /*
  * As pendres_response_find(). where[n * members], unless it is NULL, receives the state that
  * each member is on, as a number in its response's state[]; -1: none of those.

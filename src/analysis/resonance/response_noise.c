@@ -35,10 +35,9 @@ static void count_members(const pendres_response *r, double *all, double *loops)
 static pendres_status measure_state(pendres_context *ctx, const pendres_langevin_request *q,
                                     pendres_langevin_cloud *cloud, pendres_langevin_bias *bias)
 {
-  enum { TRAJECTORIES = 192, RECORD = 60 }; /* to choose steps by */
   pendres_langevin_request r = *q;
-  r.trajectories = TRAJECTORIES;
-  r.record = RECORD;
+  r.trajectories = PENDRES_NOISE_LANES; /* to choose steps by */
+  r.record = PENDRES_NOISE_RECORD;
   const pendres_status status =
     pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_RESPONSE, bias_wanted, bias);
   if (status != PENDRES_OK) return status;

@@ -5,11 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/resonance/response_members.h"
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
-
-enum { BATCH = 32 /* frequencies evaluated side by side */ };
 
 /* The work of one evaluation of a pendulum's equation, and of one step of Newton's method: about
    seconds of one processor, but the same number on every machine. Periods would not do as a
@@ -178,7 +177,7 @@ pendres_status pendres_search_add(size_t n, pendres_search *const *s)
                   ? expected_work(w.by[0], w.pendulum[0].drive_frequency) : 0.0;
   for (size_t done = 0, batch; done < w.n && status == PENDRES_OK && !b->exhausted; done += batch) {
     const double affordable = (b->most - b->work) / cost, before = b->work;
-    batch = w.n - done < BATCH ? w.n - done : BATCH;
+    batch = w.n - done < PENDRES_RESPONSE_BATCH ? w.n - done : PENDRES_RESPONSE_BATCH;
     if (affordable < (double)batch) batch = affordable < 1.0 ? 1 : (size_t)affordable;
     status = add_batch(&w, done, batch);
     cost = (b->work - before) / (double)batch;
