@@ -38,14 +38,6 @@ int scene_check_response(const pendres_response *r)
   return good;
 }
 
-/* What is not PENDRES_OK is not looked at any further. */
-int scene_check_resonance(const pendres_resonance *r, pendres_status outcome)
-{
-  if (outcome != PENDRES_OK) return scene_check_code((int)outcome, PENDRES_STATUS_COUNT);
-  return scene_check_code((int)r->peak, PENDRES_PEAK_COUNT) && scene_check_code(r->complete, 2) &&
-         scene_check_response(&r->response);
-}
-
 int scene_check_basin_state(const pendres_basin_state *state, size_t attractors)
 {
   const int number = state->attractor;

@@ -19,7 +19,6 @@ int scene_check_text(const char *text, size_t room);
 int scene_check_verdict(const scene_verdict *v);
 int scene_check_attractor(const pendres_attractor *a); /* closed or not */
 int scene_check_response(const pendres_response *r);
-int scene_check_resonance(const pendres_resonance *r, pendres_status outcome);
 
 /* attractors: in the set that the state of a grid names one of. */
 int scene_check_basin_state(const pendres_basin_state *state, size_t attractors);

@@ -80,24 +80,10 @@ void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, 
   if (f->words[point] != NULL) strcpy(f->words[point], words);
 }
 
-void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v)
-{
-  if (v->reason != SCENE_FAILURE_NONE)
-    scene_failures_mark(f, point, (scene_failure)v->reason, v->words);
-}
-
 void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *words)
 {
   v->reason = (int32_t)reason;
   snprintf(v->words, sizeof v->words, "%s", words != NULL ? words : "");
-}
-
-pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words)
-{
-  const scene_failure reason = scene_failure_of(status);
-  if (reason == SCENE_FAILURE_NONE) return status;
-  scene_verdict_mark(v, reason, words);
-  return PENDRES_OK;
 }
 
 void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
@@ -129,9 +115,11 @@ pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, cons
                                    farm_record *record)
 {
   char why[SCENE_TOLD];
-  if (!farm_gave_up(record, status)) return scene_verdict_note(v, status, words);
-  farm_lost(record, why, sizeof why);
-  scene_verdict_mark(v, SCENE_FAILURE_OUT_OF_TIME, why);
+  const int late = farm_gave_up(record, status);
+  const scene_failure reason = late ? SCENE_FAILURE_OUT_OF_TIME : scene_failure_of(status);
+  if (reason == SCENE_FAILURE_NONE) return status;
+  if (late) farm_lost(record, why, sizeof why);
+  scene_verdict_mark(v, reason, late ? why : words);
   return PENDRES_OK;
 }
 

@@ -64,10 +64,6 @@ typedef struct scene_verdict {
 /* Say why a point has no whole result; words NULL: those of the list. The last mark counts. */
 void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *words);
 
-/* What became of a point: marked if the failure is its own, and then PENDRES_OK; else the status as
-   it is. words: the message of the context that failed. */
-pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words);
-
 /* "damping 0.12, drive_period 8": a point of the deck's grid of `axes` axes, slowest first. */
 void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
                       size_t size);
@@ -77,8 +73,9 @@ void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id 
 void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t n, int axes,
                        const deck_axis_id *axis);
 
-/* As scene_verdict_note() for the point that was begun last: one that its budget has ended is
-   marked, too. */
+/* What became of the point of a task that was begun last: marked if the failure is its own or its
+   budget has ended it, and then PENDRES_OK; else the status as it is. words: the message of the
+   context that failed. */
 pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, const char *words,
                                    farm_record *record);
 
@@ -102,9 +99,6 @@ void scene_failures_create(scene_run *run, size_t n, scene_failures *out);
 
 /* Mark a point; the last mark counts. words are copied; NULL: those of the list. */
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);
-
-/* Take over what a record says of a point; what does not fail changes nothing. */
-void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v);
 
 /*
  * Write the variable `name` over `axes` axes of the deck, slowest first, whose dimensions exist;

@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/check.h"
 #include "system/grow.h"
 
 /* Of a point that has failed, behind the records of a task's points. */
 typedef struct mark {
-  uint64_t point; /* of the task */
-  int32_t reason; /* a scene_failure */
-  char words[SCENE_TOLD];
+  uint64_t point;
+  scene_verdict verdict;
 } mark;
 
 struct scene_marks {
@@ -54,8 +54,8 @@ static void add_mark(struct scene_marks *m, size_t point, scene_failure reason, 
     return;
   }
   mark *to = &m->list[m->count++];
-  *to = (mark){.point = point, .reason = (int32_t)reason};
-  snprintf(to->words, sizeof to->words, "%s", words != NULL ? words : "");
+  *to = (mark){.point = point};
+  scene_verdict_mark(&to->verdict, reason, words);
 }
 
 void scene_mark(const scene_some *some, size_t i, scene_failure reason, const char *words)
@@ -186,8 +186,8 @@ static int check(const void *arg, size_t task, const farm_record *in)
   mark m;
   if (in->size < bytes || (in->size - bytes) % sizeof m != 0) return 0;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
-    if (p->unmarked || m.point < t.first || m.point >= t.first + t.n || m.reason < 0 ||
-        m.reason >= SCENE_FAILURE_COUNT || memchr(m.words, '\0', sizeof m.words) == NULL)
+    if (p->unmarked || m.point < t.first || m.point >= t.first + t.n ||
+        !scene_check_verdict(&m.verdict))
       return 0;
   int good = 1;
   for (size_t i = 0; good && i < t.n; i++) {
@@ -205,7 +205,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   scene_points *p = t.of;
   mark m;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
-    scene_failures_mark(&p->failed, m.point, (scene_failure)m.reason, m.words);
+    scene_failures_mark(&p->failed, m.point, (scene_failure)m.verdict.reason, m.verdict.words);
   if (p->collect != NULL) return p->collect(p, t.first, t.n, in->data);
   if (p->large != NULL) return scene_temporary_put(s->run, p->large, t.first, t.n, in->data);
   memcpy((char *)p->rows + t.first * p->size, in->data, t.n * p->size);
