@@ -22,7 +22,8 @@ UNITS = [(2.0**10, 2.0**-7), (2.0**-21, 2.0**-23)]
 LENGTH, SPEED, RATE, TIME, FORCE, AREA, POWER, PURE = (
     (1, 0), (1, -1), (0, -1), (0, 1), (1, -2), (2, -2), (2, -3), (0, 0))
 DIMENSIONS = [
-    (r"a1", (0, -2)), (r"a2", (-1, -2)), (r"a3", (-2, -2)), (r"a4", (-3, -2)), (r"a5", (-4, -2)),
+    (r"(.*_)?a1", (0, -2)), (r"a2", (-1, -2)), (r"(.*_)?a3", (-2, -2)), (r"a4", (-3, -2)),
+    (r"a5", (-4, -2)),
     (r".*cov_xx", (2, 0)), (r".*cov_xv", (2, -1)), (r".*cov_vv", AREA),
     (r"power_spectrum", (2, -1)),
     (r".*curvature", (-2, -1)),
@@ -36,6 +37,7 @@ DIMENSIONS = [
 ]
 
 DUFFING = """&pendulum force = 'polynomial', force_coefficients = <1|0,-2>, 0, <1|-2,-2>"""
+SPRING = """&pendulum force = 'polynomial', force_coefficients = <1|0,-2>, damping = <0.2|0,-1>"""
 ENSEMBLE = "&ensemble members = 8, x_first = <-1|1,0>, x_last = <1.5|1,0> /"
 
 # Name, deck, dimension of the parameter that moves.
@@ -96,6 +98,18 @@ DECKS = [
       &scene kind = 'lyapunov_map' /
       &sweep damping = <0.125|0,-1>, <0.25|0,-1>, drive_frequency = <0.5|0,-1>, <1|0,-1>,
       drive_amplitude = <16|1,-2> / &lyapunov_map v = <0.5|1,-1> /""", PURE),
+    ("stiffened", SPRING + """, drive_amplitude = <0.3|1,-2>, drive_frequency = <1.5|0,-1> /
+      &scene kind = 'hysteresis' /
+      &sweep a3 = <0.5|-2,-2>, <2|-2,-2>, <4|-2,-2>, <6|-2,-2> /
+      &hysteresis x = <0.2|1,0> /""", (-2, -2)),
+    ("springs", SPRING + """, drive_amplitude = <0.3|1,-2> /
+      &scene kind = 'phase_diagram' /
+      &sweep a3 = <0.5|-2,-2>, <2|-2,-2>, drive_frequency = <1.25|0,-1>, <1.5|0,-1> /
+      """ + ENSEMBLE, PURE),
+    ("plane", """&pendulum force = 'polynomial', damping = <0.2|0,-1>, drive_amplitude = <0.3|1,-2>,
+      drive_frequency = <1.25|0,-1> /
+      &scene kind = 'response' /
+      &sweep a1 = <0.5|0,-2>, <1|0,-2>, a3 = <0.5|-2,-2>, <2|-2,-2> /""" + ENSEMBLE, PURE),
     ("switching", """&pendulum force = 'polynomial', force_coefficients = <-1|0,-2>, 0, <1|-2,-2>,
       damping = <0.3|0,-1>, drive_amplitude = <0.1|1,-2>, drive_frequency = <1.2|0,-1> /
       &scene kind = 'switching' /
