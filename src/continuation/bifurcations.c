@@ -14,7 +14,7 @@ static const double wildest = 300.0; /* default */
 
 pendres_special pendres_curve_kind_get(const pendres_curve *c)
 {
-  return c != NULL ? pendres_continuation_kind(c->kind.system.condition, &c->kind.system.map)
+  return c != NULL ? pendres_special_of(c->kind.system.condition, &c->kind.system.map)
                    : PENDRES_REGULAR;
 }
 
@@ -48,12 +48,12 @@ pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_param
                                      double spacing, double u[PENDRES_U_COUNT])
 {
   const pendres_parameter parameter[2] = {b->parameter, second};
-  const pendres_continuation_condition condition =
+  const pendres_condition condition =
     b->kind == PENDRES_FOLD           ? PENDRES_CONDITION_FOLD
     : b->kind == PENDRES_BRANCH_POINT ? PENDRES_CONDITION_CROSSING
                                       : PENDRES_CONDITION_FLIP;
   pendres_followed curve = pendres_followed_of(&b->orbit, condition, parameter, spacing, u);
-  if (b->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&curve.system.map);
+  if (b->kind == PENDRES_PERIOD_DOUBLING) pendres_map_unfold(&curve.system.map);
   return curve;
 }
 
@@ -81,7 +81,7 @@ static const pendres_curve_test cusps = {.function = test_cusp, .locate = locate
  * what the node knows: with A = N - I and its null vectors l and v,
  * d det A (v) = trace A / (l . v) * l . D2F(v, v).
  */
-static double curvature_of(const pendres_continuation_system *s, const pendres_curve_node *p)
+static double curvature_of(const pendres_system *s, const pendres_curve_node *p)
 {
   if (s->condition != PENDRES_CONDITION_FOLD) return NAN;
   const double (*j)[PENDRES_U_COUNT] = (const double (*)[PENDRES_U_COUNT])p->image.j;
@@ -101,8 +101,7 @@ static void fill_point(pendres_curve *c, size_t k)
   const pendres_parameter parameter[2] = {pendres_curve_parameter(c, 0),
                                           pendres_curve_parameter(c, 1)};
   const pendres_cusp *s = p->special >= 0 ? &c->cusp[p->special] : NULL;
-  const pendres_continuation_pair *pair =
-    s != NULL ? &c->special[p->special].located.pair : &c->pair[p->i];
+  const pendres_solution *pair = s != NULL ? &c->special[p->special].located.pair : &c->pair[p->i];
   memcpy(c->u[k], pair->fine, sizeof c->u[k]);
   c->point[k] = (pendres_curve_point){
     .cusp = p->special,
@@ -113,8 +112,8 @@ static void fill_point(pendres_curve *c, size_t k)
     c->point[k].value[i] = pair->fine[c->kind.system.unknown[2 + i]];
     c->point[k].value_error[i] = s != NULL ? s->value_error[i] : c->error[p->i][i];
   }
-  pendres_continuation_orbit_set_critical(pendres_curve_kind_get(c), 2, parameter,
-                                          c->point[k].value_error, &c->point[k].orbit);
+  pendres_orbit_set_critical(pendres_curve_kind_get(c), 2, parameter, c->point[k].value_error,
+                             &c->point[k].orbit);
 }
 
 static pendres_status finish(pendres_context *ctx, pendres_curve *c)
@@ -129,8 +128,7 @@ static pendres_status finish(pendres_context *ctx, pendres_curve *c)
       !pendres_regrow(&c->u, c->count + 1, sizeof *c->u))
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
   for (size_t k = 0; k < c->specials && status == PENDRES_OK; k++)
-    status = pendres_continuation_locate_finish_cusp(ctx, c->kind.system.unknown,
-                                                     &c->special[k].located, &c->cusp[k]);
+    status = pendres_locate_cusp(ctx, c->kind.system.unknown, &c->special[k].located, &c->cusp[k]);
   for (size_t k = 0; k < c->count && status == PENDRES_OK; k++) fill_point(c, k);
   return status;
 }
@@ -145,8 +143,8 @@ static const char *check(const pendres_bifurcation *start, const pendres_curve_o
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
   if (start->kind == PENDRES_REGULAR || (unsigned)start->kind >= PENDRES_SPECIAL_COUNT)
     return "the start is no bifurcation";
-  const char *why = pendres_continuation_refuses(&start->orbit, start->parameter);
-  if (why == NULL) why = pendres_continuation_refuses(&start->orbit, o->second);
+  const char *why = pendres_follow_refuses(&start->orbit, start->parameter);
+  if (why == NULL) why = pendres_follow_refuses(&start->orbit, o->second);
   if (why == NULL && start->parameter == o->second)
     why = "the second parameter is the first once more";
   return why;
@@ -165,8 +163,7 @@ static pendres_status curve_follow(pendres_context *ctx, const pendres_bifurcati
                                        .wildest = o->wildest > 0.0 ? o->wildest : wildest,
                                        .most_points = o->most_points > 0 ? o->most_points : 2000};
   pendres_curve_start start;
-  start.kind =
-    pendres_followed_at(b, o->second, o->spacing > 0.0 ? o->spacing : 0.05, start.u);
+  start.kind = pendres_followed_at(b, o->second, o->spacing > 0.0 ? o->spacing : 0.05, start.u);
   return pendres_curve_make(ctx, &start, &bounds, finish, out);
 }
 

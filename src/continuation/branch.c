@@ -47,30 +47,27 @@ pendres_branch_end pendres_branch_end_get(const pendres_branch *b, int which)
 
 static double test_fold(const pendres_curve_node *p)
 {
-  return pendres_continuation_map_fold(&p->image);
+  return pendres_map_fold(&p->image);
 }
 
 static double test_flip(const pendres_curve_node *p)
 {
-  return pendres_continuation_map_flip(&p->image);
+  return pendres_map_flip(&p->image);
 }
 
 /* Half map number `which` of a branch's, about the place that an orbit at u is about, and by how
    far that misses closing by it. PENDRES_NOT_CONVERGED: there is none. */
 static pendres_status half_at(pendres_context *ctx, const pendres_curve *t, int which,
-                              const double u[PENDRES_U_COUNT], pendres_continuation_map *half,
-                              double *off)
+                              const double u[PENDRES_U_COUNT], pendres_map *half, double *off)
 {
   int steps = 0;
-  pendres_continuation_miss miss = {.off = {NAN, NAN}};
-  if (!pendres_continuation_map_half(&t->kind.system.map, which, half))
+  pendres_map_miss miss = {.off = {NAN, NAN}};
+  if (!pendres_map_half(&t->kind.system.map, which, half))
     return PENDRES_NOT_CONVERGED;
   pendres_status status =
-    pendres_continuation_map_steps(ctx, t->kind.system.map.force, u, pendres_accuracy_first(ctx),
-                                   &steps);
+    pendres_map_steps(ctx, t->kind.system.map.force, u, pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
-    status = pendres_continuation_map_closes(ctx, half, steps, 1,
-                                             (const double (*)[PENDRES_U_COUNT])u, &miss);
+    status = pendres_map_closes(ctx, half, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &miss);
   half->winding = miss.winding;
   *off = hypot(miss.off[0], miss.off[1]);
   return status;
@@ -81,7 +78,7 @@ static pendres_status closing_half(pendres_context *ctx, const pendres_curve *t,
                                    const double u[PENDRES_U_COUNT], int *which)
 {
   for (*which = 0; *which < PENDRES_MAP_HALVES; ++*which) {
-    pendres_continuation_map half;
+    pendres_map half;
     double off = NAN;
     const pendres_status status = half_at(ctx, t, *which, u, &half, &off);
     if (status == PENDRES_NOT_CONVERGED) break;
@@ -97,13 +94,13 @@ static pendres_status locate_birth(pendres_context *ctx, const pendres_curve *t,
                                    const double u[PENDRES_U_COUNT], double reach,
                                    pendres_curve_special *m)
 {
-  pendres_continuation_map half;
+  pendres_map half;
   pendres_located flip;
   double off = NAN;
   pendres_status status = half_at(ctx, t, m->at.half, u, &half, &off);
-  const pendres_continuation_system flips =
-    pendres_continuation_system_of(&half, PENDRES_CONDITION_FLIP, t->kind.system.unknown);
-  if (status == PENDRES_OK) status = pendres_continuation_locate(ctx, &flips, u, reach, &flip);
+  const pendres_system flips =
+    pendres_system_of(&half, PENDRES_CONDITION_FLIP, t->kind.system.unknown);
+  if (status == PENDRES_OK) status = pendres_locate(ctx, &flips, u, reach, &flip);
   if (!pendres_located_found(status)) return status;
   m->condition = PENDRES_CONDITION_FLIP;
   m->located = flip;
@@ -113,7 +110,7 @@ static pendres_status locate_birth(pendres_context *ctx, const pendres_curve *t,
 /* Whether a branch is of rest, or of orbits that share its map. */
 static int is_of_rest(const pendres_curve *t)
 {
-  const pendres_continuation_map *map = &t->kind.system.map;
+  const pendres_map *map = &t->kind.system.map;
   return map->mirror == PENDRES_MIRROR_WHOLE && map->period <= 2;
 }
 
@@ -192,10 +189,9 @@ static const pendres_curve_test tests[] = {
 static pendres_status set_crossing(pendres_context *ctx, const pendres_curve *t,
                                    const pendres_curve_special *s, pendres_bifurcation *b)
 {
-  const pendres_continuation_pair *p = &s->located.pair;
+  const pendres_solution *p = &s->located.pair;
   const int *unknown = t->kind.system.unknown;
-  pendres_continuation_system system =
-    pendres_continuation_system_of(&p->map, s->condition, unknown);
+  pendres_system system = pendres_system_of(&p->map, s->condition, unknown);
   double way[3];
   system.steps = p->fine_steps;
   const pendres_status status =
@@ -216,7 +212,7 @@ static pendres_status fill(pendres_context *ctx, pendres_curve *c)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t k = 0; k < c->specials; k++) {
     const pendres_curve_special *s = &c->special[k];
-    pendres_status status = pendres_continuation_locate_finish(
+    pendres_status status = pendres_locate_bifurcation(
       ctx, s->condition, pendres_curve_parameter(c, 0), &s->located, &c->bifurcation[k]);
     if (status == PENDRES_OK && s->condition == PENDRES_CONDITION_CROSSING)
       status = set_crossing(ctx, c, s, &c->bifurcation[k]);
@@ -262,7 +258,7 @@ const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
   if (o->parameter == PENDRES_DAMPING && !(o->low >= 0.0)) return "damping must not be negative";
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
   for (size_t i = 0; i < n; i++) {
-    const char *why = pendres_continuation_refuses(&starts[i], o->parameter);
+    const char *why = pendres_follow_refuses(&starts[i], o->parameter);
     if (why != NULL) return why;
   }
   return NULL;
@@ -295,7 +291,7 @@ pendres_status pendres_branch_begin(pendres_context *ctx, const pendres_orbit *o
 {
   pendres_curve_start start;
   *out = NULL;
-  const char *why = pendres_continuation_refuses(orbit, parameter);
+  const char *why = pendres_follow_refuses(orbit, parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   start.kind = pendres_followed_of(orbit, PENDRES_CONDITION_NONE, &parameter, spacing, start.u);
   pendres_branch *b = calloc(1, sizeof *b);

@@ -110,7 +110,7 @@ typedef struct stencil {
 static void next_to(const pendres_curve *c, size_t k, const double here[PENDRES_U_COUNT],
                     double u[PENDRES_U_COUNT])
 {
-  const pendres_continuation_map *map = &c->kind.system.map;
+  const pendres_map *map = &c->kind.system.map;
   const double turn = map->mirror ? 0.0 : pendres_model_of(map->force)->period;
   memcpy(u, c->u[k], PENDRES_U_COUNT * sizeof *u);
   if (turn > 0.0) u[PENDRES_U_Y] -= turn * rint((u[PENDRES_U_Y] - here[PENDRES_U_Y]) / turn);
@@ -223,7 +223,7 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
   if (!isfinite(value))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
   *found = 0;
-  const pendres_continuation_condition condition = c->kind.system.condition;
+  const pendres_condition condition = c->kind.system.condition;
   const int second = c->kind.system.unknown[3];
   double guess[PENDRES_U_COUNT], last_guess[PENDRES_U_COUNT], last[PENDRES_U_COUNT];
   for (size_t i = 0; i < chords_of(c); i++) {
@@ -249,8 +249,8 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
       memcpy(last, located.pair.fine, sizeof last);
       if (again) continue;
       if (*found < room) {
-        status = pendres_continuation_locate_finish(ctx, condition, pendres_curve_parameter(c, 0),
-                                                    &located, &out[*found]);
+        status = pendres_locate_bifurcation(ctx, condition, pendres_curve_parameter(c, 0), &located,
+                                            &out[*found]);
         if (status != PENDRES_OK) return status;
       }
       ++*found;

@@ -10,8 +10,7 @@ static int place_of(int parameter, int k)
   return k < 2 ? k : parameter;
 }
 
-pendres_crossing_pivot pendres_crossing_pivot_of(const pendres_continuation_image *image,
-                                                 int parameter)
+pendres_crossing_pivot pendres_crossing_pivot_of(const pendres_image *image, int parameter)
 {
   pendres_crossing_pivot pivot = {.parameter = parameter};
   double most = -1.0;
@@ -26,8 +25,8 @@ pendres_crossing_pivot pendres_crossing_pivot_of(const pendres_continuation_imag
   return pivot;
 }
 
-void pendres_crossing_rows(const pendres_crossing_pivot *pivot,
-                           const pendres_continuation_image *image, double rows[4])
+void pendres_crossing_rows(const pendres_crossing_pivot *pivot, const pendres_image *image,
+                           double rows[4])
 {
   const double *largest = image->j[pivot->row], *other = image->j[1 - pivot->row];
   const int place = place_of(pivot->parameter, pivot->column);
@@ -41,8 +40,7 @@ void pendres_crossing_rows(const pendres_crossing_pivot *pivot,
   rows[n] = image->f[1 - pivot->row] - times * image->f[pivot->row];
 }
 
-int pendres_crossing_closes(const pendres_continuation_image *image, int parameter, int steps,
-                            double error)
+int pendres_crossing_closes(const pendres_image *image, int parameter, int steps, double error)
 {
   /* Of a step, with an ample margin: what keeps branches apart and is not larger than this, no
      double can tell. */
@@ -51,7 +49,7 @@ int pendres_crossing_closes(const pendres_continuation_image *image, int paramet
   double rows[4];
   pendres_crossing_rows(&pivot, image, rows);
   return fabs(rows[3]) <=
-         rounding * sqrt(steps) * fmax(1.0, pendres_continuation_map_growth(image)) + error;
+         rounding * sqrt(steps) * fmax(1.0, pendres_map_growth(image)) + error;
 }
 
 /* ---- directions ---- */
@@ -69,7 +67,7 @@ static int normalise(double a[3])
 }
 
 /* Row i of B. */
-static void row_of(const pendres_continuation_image *image, int parameter, int i, double out[3])
+static void row_of(const pendres_image *image, int parameter, int i, double out[3])
 {
   for (int k = 0; k < 3; k++) out[k] = image->j[i][place_of(parameter, k)];
 }
@@ -91,8 +89,7 @@ static void cross(const double a[3], const double b[3], double out[3])
   }
 }
 
-double pendres_crossing_bordered(const pendres_continuation_image *image, int parameter,
-                                 const double tangent[3])
+double pendres_crossing_bordered(const pendres_image *image, int parameter, const double tangent[3])
 {
   double rows[2][3], along[3];
   for (int r = 0; r < 2; r++) row_of(image, parameter, r, rows[r]);
@@ -113,13 +110,13 @@ static int plane_of(const double row[3], const double along[3], double plane[2][
 }
 
 /* l D2F in a plane in the scale of arclength, by central differences of l B. */
-static pendres_status bend_of(pendres_context *ctx, const pendres_continuation_system *system,
+static pendres_status bend_of(pendres_context *ctx, const pendres_system *system,
                               const double u[PENDRES_U_COUNT], const double l[2],
                               double plane[2][3], double bend[2][2])
 {
   static const double h = 1e-4; /* truncation h^2 and rounding 1e-15/h only steer a direction */
   const int parameter = system->unknown[2];
-  pendres_continuation_image image[4];
+  pendres_image image[4];
   double points[4][PENDRES_U_COUNT], scale[3], way[2][3];
   scales_at(u, parameter, scale);
   for (int i = 0; i < 2; i++)
@@ -129,7 +126,7 @@ static pendres_status bend_of(pendres_context *ctx, const pendres_continuation_s
     for (int k = 0; k < 3; k++)
       points[i][place_of(parameter, k)] += (i % 2 == 0 ? h : -h) * way[i / 2][k];
   }
-  const pendres_status status = pendres_continuation_map_images(
+  const pendres_status status = pendres_map_images(
     ctx, system, 4, (const double (*)[PENDRES_U_COUNT])points, image);
   if (status != PENDRES_OK) return status;
   for (int i = 0; i < 2; i++)
@@ -145,15 +142,14 @@ static pendres_status bend_of(pendres_context *ctx, const pendres_continuation_s
   return PENDRES_OK;
 }
 
-pendres_status pendres_crossing_direction(pendres_context *ctx,
-                                          const pendres_continuation_system *system,
+pendres_status pendres_crossing_direction(pendres_context *ctx, const pendres_system *system,
                                           const double u[PENDRES_U_COUNT], const double own[3],
                                           double crossing[3])
 {
   const int parameter = system->unknown[2];
-  pendres_continuation_image image;
+  pendres_image image;
   double plane[2][3], row[3], scale[3], bend[2][2], l[2];
-  pendres_status status = pendres_continuation_map_images(
+  pendres_status status = pendres_map_images(
     ctx, system, 1, (const double (*)[PENDRES_U_COUNT])u, &image);
   if (status != PENDRES_OK) return status;
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(&image, parameter);

@@ -33,22 +33,20 @@ typedef struct pendres_crossing_pivot {
   int row, column;
 } pendres_crossing_pivot;
 
-pendres_crossing_pivot pendres_crossing_pivot_of(const pendres_continuation_image *image,
-                                                 int parameter);
+pendres_crossing_pivot pendres_crossing_pivot_of(const pendres_image *image, int parameter);
 
 /* F_r, the two of h, and beta. */
-void pendres_crossing_rows(const pendres_crossing_pivot *pivot,
-                           const pendres_continuation_image *image, double rows[4]);
+void pendres_crossing_rows(const pendres_crossing_pivot *pivot, const pendres_image *image,
+                           double rows[4]);
 
 /* Whether beta is 0 but for the rounding of so many steps and another error. */
-int pendres_crossing_closes(const pendres_continuation_image *image, int parameter, int steps,
-                            double error);
+int pendres_crossing_closes(const pendres_image *image, int parameter, int steps, double error);
 
 /*
  * The determinant of B bordered by a branch's tangent: along the branch in one direction it keeps
  * its sign, at folds too, and changes it where branches cross.
  */
-double pendres_crossing_bordered(const pendres_continuation_image *image, int parameter,
+double pendres_crossing_bordered(const pendres_image *image, int parameter,
                                  const double tangent[3]);
 
 /*
@@ -56,8 +54,7 @@ double pendres_crossing_bordered(const pendres_continuation_image *image, int pa
  * itself; both are of unit length in the scale of arclength. In the plane of null vectors of B both
  * directions t solve l D2F(t, t) = 0. PENDRES_NOT_CONVERGED if they are not told apart.
  */
-pendres_status pendres_crossing_direction(pendres_context *ctx,
-                                          const pendres_continuation_system *system,
+pendres_status pendres_crossing_direction(pendres_context *ctx, const pendres_system *system,
                                           const double u[PENDRES_U_COUNT], const double own[3],
                                           double crossing[3]);
 

@@ -69,7 +69,7 @@ typedef struct landing {
 } landing;
 
 /* Find the parameter among the unknowns that is out of its bounds, and that bound; 0: none is. */
-static int out_of_bounds(const pendres_continuation_system *s, const pendres_curve_bounds *b,
+static int out_of_bounds(const pendres_system *s, const pendres_curve_bounds *b,
                          const double u[PENDRES_U_COUNT], landing *out)
 {
   for (int k = 2; k < s->unknowns; k++) {
@@ -88,7 +88,7 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
                            const pendres_curve_node *inside, const pendres_curve_node *outside,
                            landing *out)
 {
-  pendres_continuation_system system = kind->system;
+  pendres_system system = kind->system;
   const int k = out->unknown, place = system.unknown[k];
   const double bound = out->bound, way_out = outside->u[place] - inside->u[place];
   const double part = (bound - inside->u[place]) / way_out;
@@ -101,8 +101,7 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
     c.u[i] = inside->u[i] + part * (outside->u[i] - inside->u[i]);
   c.u[place] = bound;
   c.tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
-  pendres_status status =
-    pendres_continuation_map_steps(ctx, system.map.force, c.u, kind->tolerance, &c.steps);
+  pendres_status status = pendres_map_steps(ctx, system.map.force, c.u, kind->tolerance, &c.steps);
   if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, &c);
   const double chord = pendres_arc_distance(inside->u, outside->u);
   if (status != PENDRES_OK || isnan(pendres_correction_rounding(&c)) ||
@@ -117,15 +116,15 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
   for (int i = 0; i < system.unknowns; i++)
     node->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
   system.steps = c.steps;
-  status = pendres_continuation_map_images(ctx, &system, 1,
-                                           (const double (*)[PENDRES_U_COUNT])&c.u, &node->image);
+  status = pendres_map_images(ctx, &system, 1, (const double (*)[PENDRES_U_COUNT])&c.u,
+                              &node->image);
   out->landed = status == PENDRES_OK;
   return status;
 }
 
 /* By how many whole turns, as an angle, y of a point is larger than that of another. It is 0 for a
    half map, whose mirror stands in one place, and where the coordinate has no period. */
-static double turns_between(const pendres_continuation_map *map, const double from[PENDRES_U_COUNT],
+static double turns_between(const pendres_map *map, const double from[PENDRES_U_COUNT],
                             const double to[PENDRES_U_COUNT])
 {
   const double turn = pendres_model_of(map->force)->period;
@@ -135,7 +134,7 @@ static double turns_between(const pendres_continuation_map *map, const double fr
 
 /* Whether the chord from a to b passes the start in the start's own direction, whole turns away
    perhaps. */
-static int passes(const pendres_continuation_system *s, const pendres_curve_node *start,
+static int passes(const pendres_system *s, const pendres_curve_node *start,
                   const pendres_curve_node *a, const pendres_curve_node *b)
 {
   double before = 0.0, behind = 0.0, along = 0.0, here[PENDRES_U_COUNT];
@@ -191,7 +190,7 @@ static pendres_status take(pendres_context *ctx, const pendres_curve_bounds *b,
 /* One curve of the way back, the start, and the way forth. */
 static pendres_status join(pendres_context *ctx, pendres_curve *c)
 {
-  const pendres_continuation_system *s = &c->kind.system;
+  const pendres_system *s = &c->kind.system;
   const int closed = c->way[0].end == PENDRES_END_CLOSED;
   size_t count[2] = {c->way[0].count, c->way[1].count}, n = 0;
   if (closed) count[1] = 0; /* it is the same curve in the other direction */
@@ -295,7 +294,7 @@ static const double another_pass = 4.0;
 static int same_place(const pendres_curve *c, const pendres_curve_special *a,
                       const pendres_curve_special *b)
 {
-  const pendres_continuation_system *s = &c->kind.system;
+  const pendres_system *s = &c->kind.system;
   const double round = c->node[c->nodes - 1].arclength;
   double sum = 0.0, between = fabs(c->node[a->at.i].arclength - c->node[b->at.i].arclength);
   if (pendres_curve_closed(c)) between = fmin(between, round - between);
@@ -351,11 +350,10 @@ pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *
 }
 
 pendres_status pendres_curve_locate(pendres_context *ctx, const pendres_followed *kind,
-                                    pendres_continuation_condition condition,
-                                    const double u[PENDRES_U_COUNT], double reach,
-                                    pendres_located *out)
+                                    pendres_condition condition, const double u[PENDRES_U_COUNT],
+                                    double reach, pendres_located *out)
 {
-  const pendres_continuation_system system =
-    pendres_continuation_system_of(&kind->system.map, condition, kind->system.unknown);
-  return pendres_continuation_locate(ctx, &system, u, reach, out);
+  const pendres_system system =
+    pendres_system_of(&kind->system.map, condition, kind->system.unknown);
+  return pendres_locate(ctx, &system, u, reach, out);
 }

@@ -23,7 +23,7 @@ typedef struct pendres_curve_zero {
 /* A bifurcation or a cusp, and where on the curve it lies. */
 typedef struct pendres_curve_special {
   pendres_curve_zero at;
-  pendres_continuation_condition condition;
+  pendres_condition condition;
   pendres_located located;
 } pendres_curve_special;
 
@@ -64,7 +64,7 @@ struct pendres_curve {
   pendres_curve_special *special;
   pendres_curve_place *place; /* [count] all points, in order */
   /* For each node: what it was corrected to, its orbit, and the errors of its parameters. */
-  pendres_continuation_pair *pair;
+  pendres_solution *pair;
   pendres_orbit *orbit;
   double (*error)[2];
 };
@@ -167,11 +167,10 @@ typedef struct pendres_curve_test {
 pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *curve, size_t n,
                                            const pendres_curve_test *tests);
 
-/* Solve for a condition near u, on the curve's map. As pendres_continuation_locate(). */
+/* Solve for a condition near u, on the curve's map. As pendres_locate(). */
 pendres_status pendres_curve_locate(pendres_context *ctx, const pendres_followed *kind,
-                                    pendres_continuation_condition condition,
-                                    const double u[PENDRES_U_COUNT], double reach,
-                                    pendres_located *out);
+                                    pendres_condition condition, const double u[PENDRES_U_COUNT],
+                                    double reach, pendres_located *out);
 
 /* Where a branch passes branch points, or places where branches come so close that its nodes have
    led from one to another, in order. Births are among them. */

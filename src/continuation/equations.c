@@ -21,13 +21,12 @@ static const double stencil_step = 8e-3;
 enum { STENCIL = 6 };
 
 /* Derivative of the fold's determinant along the null vector, from its stencil's images. */
-static double stencil_value(const pendres_continuation_image stencil[STENCIL])
+static double stencil_value(const pendres_image stencil[STENCIL])
 {
   static const double weight[STENCIL / 2] = {45.0, -9.0, 1.0};
   double sum = 0.0;
   for (int i = 0; i < STENCIL / 2; i++)
-    sum += weight[i] * (pendres_continuation_map_fold(&stencil[2 * i]) -
-                        pendres_continuation_map_fold(&stencil[2 * i + 1]));
+    sum += weight[i] * (pendres_map_fold(&stencil[2 * i]) - pendres_map_fold(&stencil[2 * i + 1]));
   return sum / (60.0 * stencil_step);
 }
 
@@ -45,7 +44,7 @@ static void stencil_points(const double u[PENDRES_U_COUNT], const double v[2],
 /* Work space: for each point its image and one for each nudged unknown, and their stencils. */
 typedef struct workspace {
   double (*u)[PENDRES_U_COUNT], (*around)[PENDRES_U_COUNT];
-  pendres_continuation_image *image, *around_image;
+  pendres_image *image, *around_image;
 } workspace;
 
 static void workspace_free(workspace *w)
@@ -71,7 +70,7 @@ static pendres_status workspace_create(pendres_context *ctx, size_t points, size
   return PENDRES_OK;
 }
 
-static void plain_rows(const pendres_continuation_image *image, pendres_continuation_equations *e)
+static void plain_rows(const pendres_image *image, pendres_equations *e)
 {
   e->equations = 2;
   e->image = *image;
@@ -80,8 +79,8 @@ static void plain_rows(const pendres_continuation_image *image, pendres_continua
 }
 
 /* Append an equation with the values it has at the point and at each nudged one. */
-static void append_row(pendres_continuation_equations *e, const pendres_continuation_system *s,
-                       double value, const double *nudged)
+static void append_row(pendres_equations *e, const pendres_system *s, double value,
+                       const double *nudged)
 {
   const int row = e->equations++;
   e->r[row] = value;
@@ -90,29 +89,25 @@ static void append_row(pendres_continuation_equations *e, const pendres_continua
 }
 
 /* Append the equation of a condition's determinant. */
-static void determinant_row(const pendres_continuation_system *s,
-                            const pendres_continuation_image *image,
-                            pendres_continuation_equations *e)
+static void determinant_row(const pendres_system *s, const pendres_image *image,
+                            pendres_equations *e)
 {
-  const pendres_continuation_rules *rules = pendres_continuation_rules_of(s->condition);
+  const pendres_condition_rules *rules = pendres_condition_rules_of(s->condition);
   double nudged[PENDRES_U_COUNT];
   for (int k = 0; k < s->unknowns; k++) nudged[k] = rules->determinant(&image[k + 1]);
   append_row(e, s, rules->determinant(image), nudged);
 }
 
-static void critical_rows(const pendres_continuation_system *s,
-                          const pendres_continuation_image *image,
-                          const pendres_continuation_image *along,
-                          pendres_continuation_equations *e)
+static void critical_rows(const pendres_system *s, const pendres_image *image,
+                          const pendres_image *along, pendres_equations *e)
 {
   (void)along;
   plain_rows(image, e);
   determinant_row(s, image, e);
 }
 
-static void cusp_rows(const pendres_continuation_system *s,
-                      const pendres_continuation_image *image,
-                      const pendres_continuation_image *along, pendres_continuation_equations *e)
+static void cusp_rows(const pendres_system *s, const pendres_image *image,
+                      const pendres_image *along, pendres_equations *e)
 {
   double nudged[PENDRES_U_COUNT];
   critical_rows(s, image, along, e);
@@ -121,10 +116,8 @@ static void cusp_rows(const pendres_continuation_system *s,
 }
 
 /* Of a branch point, all by one pivot. */
-static void crossing_rows(const pendres_continuation_system *s,
-                          const pendres_continuation_image *image,
-                          const pendres_continuation_image *along,
-                          pendres_continuation_equations *e)
+static void crossing_rows(const pendres_system *s, const pendres_image *image,
+                          const pendres_image *along, pendres_equations *e)
 {
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(image, s->unknown[2]);
   double rows[PENDRES_U_COUNT + 1][4];
@@ -141,44 +134,41 @@ static void crossing_rows(const pendres_continuation_system *s,
   }
 }
 
-const pendres_continuation_rules *
-pendres_continuation_rules_of(pendres_continuation_condition condition)
+const pendres_condition_rules *
+pendres_condition_rules_of(pendres_condition condition)
 {
-  static const pendres_continuation_rules rules[PENDRES_CONDITION_COUNT] = {
+  static const pendres_condition_rules rules[PENDRES_CONDITION_COUNT] = {
     [PENDRES_CONDITION_NONE] = {.unknowns = 2},
-    [PENDRES_CONDITION_FOLD] = {3, pendres_continuation_map_fold, 0, critical_rows},
-    [PENDRES_CONDITION_FLIP] = {3, pendres_continuation_map_flip, 0, critical_rows},
-    [PENDRES_CONDITION_CUSP] = {4, pendres_continuation_map_fold, 1, cusp_rows},
+    [PENDRES_CONDITION_FOLD] = {3, pendres_map_fold, 0, critical_rows},
+    [PENDRES_CONDITION_FLIP] = {3, pendres_map_flip, 0, critical_rows},
+    [PENDRES_CONDITION_CUSP] = {4, pendres_map_fold, 1, cusp_rows},
     [PENDRES_CONDITION_CROSSING] = {3, NULL, 0, crossing_rows}};
   return &rules[condition];
 }
 
 /* The images at all stencils of the points, each along its null vector. */
-static pendres_status look_around(pendres_context *ctx, const pendres_continuation_system *s,
-                                  size_t n, size_t each, workspace *w)
+static pendres_status look_around(pendres_context *ctx, const pendres_system *s, size_t n,
+                                  size_t each, workspace *w)
 {
   for (size_t i = 0; i < n * each; i++) {
     double v[2], first[2];
-    pendres_continuation_map_null(&w->image[i], v);
+    pendres_map_null(&w->image[i], v);
     /* One sign for all, or differences of the derivative mean nothing. */
-    pendres_continuation_map_null(&w->image[i / each * each], first);
+    pendres_map_null(&w->image[i / each * each], first);
     if (v[0] * first[0] + v[1] * first[1] < 0.0) {
       v[0] = -v[0];
       v[1] = -v[1];
     }
     stencil_points(w->u[i], v, w->around + i * STENCIL);
   }
-  return pendres_continuation_map_states(ctx, &s->map, s->steps, n * each * STENCIL,
-                                         (const double (*)[PENDRES_U_COUNT])w->around,
-                                         w->around_image);
+  return pendres_map_states(ctx, &s->map, s->steps, n * each * STENCIL,
+                            (const double (*)[PENDRES_U_COUNT])w->around, w->around_image);
 }
 
-pendres_status pendres_continuation_equations_at(pendres_context *ctx,
-                                                 const pendres_continuation_system *s, size_t n,
-                                                 const double (*u)[PENDRES_U_COUNT],
-                                                 pendres_continuation_equations *out)
+pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *s, size_t n,
+                                    const double (*u)[PENDRES_U_COUNT], pendres_equations *out)
 {
-  const pendres_continuation_rules *rules = pendres_continuation_rules_of(s->condition);
+  const pendres_condition_rules *rules = pendres_condition_rules_of(s->condition);
   const size_t each = rules->rows == NULL ? 1 : (size_t)s->unknowns + 1;
   workspace w = {0};
   pendres_status status =
@@ -189,13 +179,11 @@ pendres_status pendres_continuation_equations_at(pendres_context *ctx,
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
       if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += nudge;
     }
-  status = pendres_continuation_map_images(ctx, s, n * each,
-                                           (const double (*)[PENDRES_U_COUNT])w.u, w.image);
+  status = pendres_map_images(ctx, s, n * each, (const double (*)[PENDRES_U_COUNT])w.u, w.image);
   if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const pendres_continuation_image *image = w.image + i * each;
-    const pendres_continuation_image *along =
-      rules->stencils ? w.around_image + i * each * STENCIL : NULL;
+    const pendres_image *image = w.image + i * each;
+    const pendres_image *along = rules->stencils ? w.around_image + i * each * STENCIL : NULL;
     if (rules->rows != NULL) rules->rows(s, image, along, &out[i]);
     else plain_rows(image, &out[i]);
   }
@@ -206,7 +194,7 @@ done:
 
 /* ---- solving ---- */
 
-int pendres_continuation_equations_linear(int n, double a[][PENDRES_U_COUNT], double *b)
+int pendres_equations_linear(int n, double a[][PENDRES_U_COUNT], double *b)
 {
   double dense[PENDRES_U_COUNT * PENDRES_U_COUNT];
   size_t order[PENDRES_U_COUNT];
@@ -227,20 +215,18 @@ int pendres_continuation_equations_linear(int n, double a[][PENDRES_U_COUNT], do
   return gsl_linalg_LU_svx(&m.matrix, &permutation, &x.vector) == 0;
 }
 
-pendres_continuation_system pendres_continuation_system_of(const pendres_continuation_map *map,
-                                                           pendres_continuation_condition condition,
-                                                           const int *unknown)
+pendres_system pendres_system_of(const pendres_map *map, pendres_condition condition,
+                                 const int *unknown)
 {
-  pendres_continuation_system system = {.map = *map, .condition = condition};
-  system.unknowns = pendres_continuation_rules_of(condition)->unknowns;
+  pendres_system system = {.map = *map, .condition = condition};
+  system.unknowns = pendres_condition_rules_of(condition)->unknowns;
   for (int k = 0; k < system.unknowns; k++) system.unknown[k] = unknown[k];
   return system;
 }
 
-pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
-                                                    const pendres_continuation_system *s,
-                                                    double longest, double u[PENDRES_U_COUNT],
-                                                    pendres_continuation_equations *at)
+pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_system *s,
+                                       double longest, double u[PENDRES_U_COUNT],
+                                       pendres_equations *at)
 {
   enum { MOST = 20 };
   const int n = s->unknowns;
@@ -249,18 +235,18 @@ pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
   for (int i = 0; i < MOST; i++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
     const pendres_status status =
-      pendres_continuation_equations_at(ctx, s, 1, (const double (*)[PENDRES_U_COUNT])u, at);
+      pendres_equations_at(ctx, s, 1, (const double (*)[PENDRES_U_COUNT])u, at);
     if (status != PENDRES_OK) return status;
     for (int r = 0; r < n; r++) {
       d[r] = -at->r[r];
       for (int k = 0; k < n; k++) a[r][k] = at->j[r][s->unknown[k]];
     }
-    if (!pendres_continuation_equations_linear(n, a, d)) return PENDRES_NOT_CONVERGED;
+    if (!pendres_equations_linear(n, a, d)) return PENDRES_NOT_CONVERGED;
     for (int k = 0; k < n; k++) length = hypot(length, d[k]);
     if (!(length < 1e3)) return PENDRES_NOT_CONVERGED;
     const double part = length > longest ? longest / length : 1.0;
     for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];
-    const pendres_pendulum p = pendres_continuation_map_pendulum(s->map.force, u);
+    const pendres_pendulum p = pendres_map_pendulum(s->map.force, u);
     if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
     /* Determinants' derivatives are differences, so the next step is a hundredth of this one or
        less; or it is rounding. */

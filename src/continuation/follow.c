@@ -11,17 +11,17 @@
 #include "engine/context_internal.h"
 
 pendres_followed pendres_followed_of(const pendres_orbit *orbit,
-                                         pendres_continuation_condition condition,
+                                         pendres_condition condition,
                                          const pendres_parameter *parameter, double spacing,
                                          double u[PENDRES_U_COUNT])
 {
   pendres_followed kind = {.tolerance = pendres_accuracy_of_arcs(), .spacing = spacing};
-  pendres_continuation_system *s = &kind.system;
-  *s = (pendres_continuation_system){.condition = condition,
+  pendres_system *s = &kind.system;
+  *s = (pendres_system){.condition = condition,
                                      .unknowns = condition == PENDRES_CONDITION_NONE ? 3 : 4,
                                      .unknown = {PENDRES_U_Y, PENDRES_U_W}};
   for (int k = 2; k < s->unknowns; k++) s->unknown[k] = PENDRES_U_OMEGA + (int)parameter[k - 2];
-  s->map = pendres_continuation_map_of(orbit, s->unknowns, s->unknown, u);
+  s->map = pendres_map_of(orbit, s->unknowns, s->unknown, u);
   return kind;
 }
 
@@ -48,15 +48,15 @@ static const int widest_gap = 3; /* how many steps lie between one point and the
 static const double too_close = 1e-6;
 
 /* The scale of unknown number k at a place. */
-static double scale_at(const pendres_continuation_system *s, int k, const double u[PENDRES_U_COUNT])
+static double scale_at(const pendres_system *s, int k, const double u[PENDRES_U_COUNT])
 {
   return pendres_arc_scale(s->unknown[k], u[s->unknown[k]]);
 }
 
 /* The equations at u, and the plane across a direction, linearised in the scaled unknowns. */
-static void linearise(const pendres_continuation_system *s,
-                      const pendres_continuation_equations *e, const double u[PENDRES_U_COUNT],
-                      const double *direction, double a[][PENDRES_U_COUNT])
+static void linearise(const pendres_system *s, const pendres_equations *e,
+                      const double u[PENDRES_U_COUNT], const double *direction,
+                      double a[][PENDRES_U_COUNT])
 {
   const int n = s->unknowns;
   for (int k = 0; k < n; k++) {
@@ -66,15 +66,14 @@ static void linearise(const pendres_continuation_system *s,
 }
 
 /* The curve's tangent at its point u: the null vector of the equations, along `along`. */
-static int tangent_of(const pendres_continuation_system *s,
-                      const pendres_continuation_equations *e, const double u[PENDRES_U_COUNT],
-                      const double *along, double *tangent)
+static int tangent_of(const pendres_system *s, const pendres_equations *e,
+                      const double u[PENDRES_U_COUNT], const double *along, double *tangent)
 {
   const int n = s->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], t[PENDRES_U_COUNT] = {0.0}, length = 0.0;
   linearise(s, e, u, along, a);
   t[n - 1] = 1.0;
-  if (!pendres_continuation_equations_linear(n, a, t)) return 0;
+  if (!pendres_equations_linear(n, a, t)) return 0;
   for (int k = 0; k < n; k++) length = hypot(length, t[k]);
   for (int k = 0; k < n; k++) tangent[k] = t[k] / length;
   return 1;
@@ -82,8 +81,8 @@ static int tangent_of(const pendres_continuation_system *s,
 
 /* Set all of a node but its place; the null vector takes the sign of `like`, unless that is
    NULL. */
-static void describe(const pendres_continuation_system *s, const pendres_continuation_equations *e,
-                     const double *like, pendres_curve_node *node)
+static void describe(const pendres_system *s, const pendres_equations *e, const double *like,
+                     pendres_curve_node *node)
 {
   double slope = 0.0;
   node->image = e->image;
@@ -91,10 +90,10 @@ static void describe(const pendres_continuation_system *s, const pendres_continu
     for (int k = 0; k < s->unknowns; k++)
       slope = hypot(slope, e->j[r][s->unknown[k]] * scale_at(s, k, node->u));
   /* The determinant has two factors that grow as errors do, and its derivative three or more. */
-  node->growth = fmax(pendres_continuation_map_growth(&e->image), sqrt(slope));
+  node->growth = fmax(pendres_map_growth(&e->image), sqrt(slope));
   if (s->condition != PENDRES_CONDITION_FOLD) return;
   double *v = node->null;
-  pendres_continuation_map_null(&e->image, v);
+  pendres_map_null(&e->image, v);
   if (like != NULL && v[0] * like[0] + v[1] * like[1] < 0.0) {
     v[0] = -v[0];
     v[1] = -v[1];
@@ -107,20 +106,20 @@ static void describe(const pendres_continuation_system *s, const pendres_continu
 /* Whether a point is one of a pendulum that can be integrated. */
 static int is_possible(const pendres_correction *c)
 {
-  const pendres_pendulum p = pendres_continuation_map_pendulum(c->kind->system.map.force, c->u);
+  const pendres_pendulum p = pendres_map_pendulum(c->kind->system.map.force, c->u);
   return pendres_pendulum_check(&p, NULL) == PENDRES_OK;
 }
 
 /* One Newton step within the plane. */
 static void correct(pendres_correction *c)
 {
-  const pendres_continuation_system *s = &c->kind->system;
+  const pendres_system *s = &c->kind->system;
   const int n = s->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
   linearise(s, &c->at, c->u, c->tangent, a);
   for (int r = 0; r < n - 1; r++) d[r] = -c->at.r[r];
   c->state = PENDRES_CORRECTION_FAILED;
-  if (!pendres_continuation_equations_linear(n, a, d)) return;
+  if (!pendres_equations_linear(n, a, d)) return;
   for (int k = 0; k < n; k++) length = hypot(length, d[k]);
   if (!(length < 1.0)) return;
   for (int k = 0; k < n; k++) c->u[s->unknown[k]] += scale_at(s, k, c->u) * d[k];
@@ -140,7 +139,7 @@ double pendres_correction_rounding(const pendres_correction *c)
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
     linearise(&c->kind->system, &c->at, c->u, c->tangent, a);
     b[column] = column < 2 ? unit : 4.0 * unit;
-    if (!pendres_continuation_equations_linear(n, a, b)) return NAN;
+    if (!pendres_equations_linear(n, a, b)) return NAN;
     for (int k = 0; k < n; k++) sum = hypot(sum, b[k]);
   }
   return sum;
@@ -148,7 +147,7 @@ double pendres_correction_rounding(const pendres_correction *c)
 
 static int same_block(const pendres_correction *a, const pendres_correction *b)
 {
-  const pendres_continuation_system *s = &a->kind->system, *t = &b->kind->system;
+  const pendres_system *s = &a->kind->system, *t = &b->kind->system;
   return a->steps == b->steps && s->condition == t->condition && s->map.force == t->map.force &&
          s->map.mirror == t->map.mirror && s->map.period == t->map.period &&
          s->map.winding == t->map.winding && s->map.centre == t->map.centre &&
@@ -171,19 +170,17 @@ static size_t gather(size_t n, pendres_correction *c, size_t first, size_t *inde
 }
 
 /* Evaluate all active points, those of equal maps and steps together. */
-static pendres_status evaluate(pendres_context *ctx, size_t n, pendres_correction *c,
-                               size_t *index, double (*u)[PENDRES_U_COUNT],
-                               pendres_continuation_equations *at)
+static pendres_status evaluate(pendres_context *ctx, size_t n, pendres_correction *c, size_t *index,
+                               double (*u)[PENDRES_U_COUNT], pendres_equations *at)
 {
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < n; i++) c[i].waiting = c[i].state == PENDRES_CORRECTION_ACTIVE;
   for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
     if (!c[first].waiting) continue;
     const size_t count = gather(n, c, first, index, u);
-    pendres_continuation_system system = c[first].kind->system;
+    pendres_system system = c[first].kind->system;
     system.steps = c[first].steps;
-    status = pendres_continuation_equations_at(ctx, &system, count,
-                                               (const double (*)[PENDRES_U_COUNT])u, at);
+    status = pendres_equations_at(ctx, &system, count, (const double (*)[PENDRES_U_COUNT])u, at);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++) c[index[i]].at = at[i];
   }
   return status;
@@ -198,19 +195,19 @@ static pendres_status keep_off(pendres_context *ctx, int which, size_t n, pendre
                                size_t *index, double (*u)[PENDRES_U_COUNT])
 {
   pendres_status status = PENDRES_OK;
-  pendres_continuation_miss *miss = malloc((n + 1) * sizeof *miss);
+  pendres_map_miss *miss = malloc((n + 1) * sizeof *miss);
   if (miss == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n; i++)
     c[i].waiting =
       c[i].state == PENDRES_CORRECTION_CONVERGED && (c[i].kind->apart >> which & 1) != 0;
   for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
-    pendres_continuation_map half;
+    pendres_map half;
     if (!c[first].waiting) continue;
     const size_t count = gather(n, c, first, index, u);
-    if (!pendres_continuation_map_half(&c[first].kind->system.map, which, &half)) continue;
-    status = pendres_continuation_map_closes(ctx, &half, c[first].steps, count,
-                                             (const double (*)[PENDRES_U_COUNT])u, miss);
+    if (!pendres_map_half(&c[first].kind->system.map, which, &half)) continue;
+    status = pendres_map_closes(ctx, &half, c[first].steps, count,
+                                (const double (*)[PENDRES_U_COUNT])u, miss);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++)
       if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close))
         c[index[i]].state = PENDRES_CORRECTION_FAILED;
@@ -225,7 +222,7 @@ static pendres_status converge(pendres_context *ctx, size_t n, pendres_correctio
   pendres_status status = PENDRES_OK;
   size_t *index = malloc((n + 1) * sizeof *index), active = n;
   double(*u)[PENDRES_U_COUNT] = malloc((n + 1) * sizeof *u);
-  pendres_continuation_equations *at = malloc((n + 1) * sizeof *at);
+  pendres_equations *at = malloc((n + 1) * sizeof *at);
   if (index == NULL || u == NULL || at == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
     goto done;
@@ -258,9 +255,8 @@ pendres_status pendres_follow_correct(pendres_context *ctx, size_t n, pendres_co
 
 /* The tangent at a point, towards growing last unknown if `direction` is positive. Each unknown is
    tried as the one that goes on: near a fold the last one hardly changes. */
-static int first_tangent(const pendres_continuation_system *s,
-                         const pendres_continuation_equations *e, const double u[PENDRES_U_COUNT],
-                         double direction, double *tangent)
+static int first_tangent(const pendres_system *s, const pendres_equations *e,
+                         const double u[PENDRES_U_COUNT], double direction, double *tangent)
 {
   const int n = s->unknowns, last = n - 1;
   int best = -1;
@@ -280,12 +276,11 @@ static int first_tangent(const pendres_continuation_system *s,
 }
 
 static pendres_status equations_at(pendres_context *ctx, const pendres_followed *kind, int steps,
-                                   const double u[PENDRES_U_COUNT],
-                                   pendres_continuation_equations *e)
+                                   const double u[PENDRES_U_COUNT], pendres_equations *e)
 {
-  pendres_continuation_system s = kind->system;
+  pendres_system s = kind->system;
   s.steps = steps;
-  return pendres_continuation_equations_at(ctx, &s, 1, (const double (*)[PENDRES_U_COUNT])u, e);
+  return pendres_equations_at(ctx, &s, 1, (const double (*)[PENDRES_U_COUNT])u, e);
 }
 
 /* Find which half maps an orbit at u does not close by. */
@@ -294,11 +289,10 @@ static pendres_status find_apart(pendres_context *ctx, int steps, const double u
 {
   pendres_status status = PENDRES_OK;
   for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++) {
-    pendres_continuation_map half;
-    pendres_continuation_miss miss;
-    if (!pendres_continuation_map_half(&kind->system.map, which, &half)) break;
-    status = pendres_continuation_map_closes(ctx, &half, steps, 1,
-                                             (const double (*)[PENDRES_U_COUNT])u, &miss);
+    pendres_map half;
+    pendres_map_miss miss;
+    if (!pendres_map_half(&kind->system.map, which, &half)) break;
+    status = pendres_map_closes(ctx, &half, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &miss);
     if (status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > too_close)
       kind->apart |= 1 << which;
   }
@@ -309,14 +303,13 @@ pendres_status pendres_follow_begin(pendres_context *ctx, const pendres_followed
                                     const double u[PENDRES_U_COUNT], double direction,
                                     pendres_follower *w)
 {
-  const pendres_continuation_system *s = &kind->system;
-  pendres_continuation_equations e;
+  const pendres_system *s = &kind->system;
+  pendres_equations e;
   *w = (pendres_follower){.kind = *kind, .step = 0.1 * kind->spacing};
   w->kind.apart = 0;
   pendres_correction place = {.kind = &w->kind};
   memcpy(place.u, u, sizeof place.u);
-  pendres_status status =
-    pendres_continuation_map_steps(ctx, s->map.force, u, kind->tolerance, &place.steps);
+  pendres_status status = pendres_map_steps(ctx, s->map.force, u, kind->tolerance, &place.steps);
   if (status == PENDRES_OK) status = equations_at(ctx, kind, place.steps, u, &e);
   if (status != PENDRES_OK) return status;
   if (!first_tangent(s, &e, u, direction, w->here.tangent)) return PENDRES_NOT_CONVERGED;
@@ -336,7 +329,7 @@ pendres_status pendres_follow_begin(pendres_context *ctx, const pendres_followed
 pendres_status pendres_follow_describe(pendres_context *ctx, const pendres_followed *kind,
                                        int steps, pendres_curve_node *node)
 {
-  pendres_continuation_equations e;
+  pendres_equations e;
   double tangent[PENDRES_UNKNOWNS], null[2] = {node->null[0], node->null[1]};
   const pendres_status status = equations_at(ctx, kind, steps, node->u, &e);
   if (status != PENDRES_OK) return status;
@@ -351,7 +344,7 @@ pendres_status pendres_follow_describe(pendres_context *ctx, const pendres_follo
 /* Where point number `rank` ahead is expected. */
 static void predict(const pendres_follower *w, int rank, double u[PENDRES_U_COUNT])
 {
-  const pendres_continuation_system *system = &w->kind.system;
+  const pendres_system *system = &w->kind.system;
   const double s = w->step * (rank + 1);
   memcpy(u, w->here.u, sizeof w->here.u);
   for (int k = 0; k < system->unknowns; k++)
@@ -360,7 +353,7 @@ static void predict(const pendres_follower *w, int rank, double u[PENDRES_U_COUN
 }
 
 /* How far the chord from `last` is from the mean of both tangents, in its length. */
-static double off_chord(const pendres_continuation_system *s, const pendres_curve_node *last,
+static double off_chord(const pendres_system *s, const pendres_curve_node *last,
                         const pendres_correction *c, const pendres_curve_node *node, double way)
 {
   double off = 0.0;
@@ -377,7 +370,7 @@ static double off_chord(const pendres_continuation_system *s, const pendres_curv
 static int follows(const pendres_follower *w, const pendres_curve_node *last, int gap, int rank,
                    const pendres_correction *c, pendres_curve_node *node)
 {
-  const pendres_continuation_system *s = &w->kind.system;
+  const pendres_system *s = &w->kind.system;
   double way = 0.0, miss = 0.0, turn = 0.0, predicted[PENDRES_U_COUNT];
   if (c->state != PENDRES_CORRECTION_CONVERGED) return 0;
   if (s->condition == PENDRES_CONDITION_CROSSING &&
@@ -409,7 +402,7 @@ static pendres_status stays(pendres_context *ctx, const pendres_follower *w,
                             const pendres_curve_node *last, const pendres_curve_node *node,
                             int *same)
 {
-  const pendres_continuation_system *s = &w->kind.system;
+  const pendres_system *s = &w->kind.system;
   const double a = pendres_crossing_bordered(&last->image, s->unknown[2], last->tangent);
   const double b = pendres_crossing_bordered(&node->image, s->unknown[2], node->tangent);
   double u[PENDRES_U_COUNT];
@@ -418,9 +411,9 @@ static pendres_status stays(pendres_context *ctx, const pendres_follower *w,
   if (!(w->step >= shortest_crossing && a * b < 0.0)) return PENDRES_OK;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
     u[i] = last->u[i] + a / (a - b) * (node->u[i] - last->u[i]);
-  const pendres_continuation_system crossings =
-    pendres_continuation_system_of(&s->map, PENDRES_CONDITION_CROSSING, s->unknown);
-  const pendres_status status = pendres_continuation_locate(
+  const pendres_system crossings =
+    pendres_system_of(&s->map, PENDRES_CONDITION_CROSSING, s->unknown);
+  const pendres_status status = pendres_locate(
     ctx, &crossings, u, 2.0 * pendres_arc_distance(last->u, node->u), &at);
   *same = !(status == PENDRES_NOT_CONVERGED && at.parted);
   return pendres_located_found(status) || status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
@@ -478,8 +471,7 @@ pendres_status pendres_follow_advance(pendres_context *ctx, size_t n,
     int steps = 0;
     w->found = 0;
     if (w->stuck) continue;
-    status = pendres_continuation_map_steps(ctx, w->kind.system.map.force, w->here.u,
-                                            w->kind.tolerance, &steps);
+    status = pendres_map_steps(ctx, w->kind.system.map.force, w->here.u, w->kind.tolerance, &steps);
     if (status != PENDRES_OK) goto done;
     for (int rank = 0; rank < PENDRES_AHEAD; rank++, count++) {
       c[count] = (pendres_correction){.kind = &w->kind, .steps = steps};

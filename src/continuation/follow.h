@@ -19,7 +19,7 @@ enum { PENDRES_AHEAD = 8 };
 
 /* What is followed, and how finely. */
 typedef struct pendres_followed {
-  pendres_continuation_system system; /* one unknown more than equations; steps are chosen on the
+  pendres_system system; /* one unknown more than equations; steps are chosen on the
                                          way */
   double tolerance; /* the error of a period that steps are chosen for */
   double spacing;   /* the largest spacing of points, in scaled arclength */
@@ -34,7 +34,7 @@ typedef struct pendres_curve_node {
   double tangent[PENDRES_UNKNOWNS]; /* unit vector of the scaled unknowns */
   int held; /* 1 + the number of an unknown that corrections leave as it is; 0: none */
   double arclength; /* from where the follower began, of the scaled unknowns */
-  pendres_continuation_image image;
+  pendres_image image;
   double growth;  /* how sensitive the equations are here; curves end where it is too large */
   double null[2]; /* of folds: the null vector of N - I, its sign kept along the curve, */
   double bending; /* and the derivative of det(N - I) along it, whose zero is a cusp */
@@ -55,7 +55,7 @@ typedef struct pendres_follower {
  * an orbit lies on, and its place there.
  */
 pendres_followed pendres_followed_of(const pendres_orbit *orbit,
-                                         pendres_continuation_condition condition,
+                                         pendres_condition condition,
                                          const pendres_parameter *parameter, double spacing,
                                          double u[PENDRES_U_COUNT]);
 
@@ -81,7 +81,7 @@ typedef struct pendres_correction {
   /* The corrector's own: */
   enum { PENDRES_CORRECTION_ACTIVE, PENDRES_CORRECTION_CONVERGED, PENDRES_CORRECTION_FAILED } state;
   int waiting;
-  pendres_continuation_equations at;
+  pendres_equations at;
 } pendres_correction;
 
 /* Correct n points. One fails, too, that converges to orbits that its kind keeps apart from. */

@@ -16,7 +16,7 @@ static const double epsilon = 4e-16;
 
 /* By how much the unknowns move when the equations are off by so much, all at once. 0 if
    singular. */
-static int moved_at_once(const pendres_continuation_equations *e, const int *unknown,
+static int moved_at_once(const pendres_equations *e, const int *unknown,
                          const double off[PENDRES_EQUATIONS_MOST],
                          double moved[PENDRES_EQUATIONS_MOST])
 {
@@ -26,13 +26,13 @@ static int moved_at_once(const pendres_continuation_equations *e, const int *unk
     for (int k = 0; k < n; k++) a[r][k] = e->j[r][unknown[k]];
     b[r] = off[r];
   }
-  if (!pendres_continuation_equations_linear(n, a, b)) return 0;
+  if (!pendres_equations_linear(n, a, b)) return 0;
   for (int i = 0; i < n; i++) moved[i] = fabs(b[i]);
   return 1;
 }
 
 /* The same where each equation is off by so much with either sign. */
-static int moved_by_each(const pendres_continuation_equations *e, const int *unknown,
+static int moved_by_each(const pendres_equations *e, const int *unknown,
                          const double off[PENDRES_EQUATIONS_MOST],
                          double moved[PENDRES_EQUATIONS_MOST])
 {
@@ -50,12 +50,11 @@ static int moved_by_each(const pendres_continuation_equations *e, const int *unk
 /* What rounding of the map adds to each equation. The derivatives of the map are a few times less
    exact than the map itself, and change with what rounding makes of the orbit; the third equation
    of a cusp comes from differences over a hundredth. */
-static void rounding_of(const pendres_continuation_equations *e,
-                        pendres_continuation_condition condition, int steps, int period,
-                        double off[PENDRES_EQUATIONS_MOST])
+static void rounding_of(const pendres_equations *e, pendres_condition condition, int steps,
+                        int period, double off[PENDRES_EQUATIONS_MOST])
 {
   const double along = epsilon * sqrt(steps * period);
-  const double unit = along * fmax(1.0, pendres_continuation_map_growth(&e->image));
+  const double unit = along * fmax(1.0, pendres_map_growth(&e->image));
   off[0] = off[1] = unit;
   off[2] = hypot(4.0 * unit, along * hypot(e->j[2][PENDRES_U_Y], e->j[2][PENDRES_U_W]));
   off[3] = 400.0 * unit;
@@ -65,13 +64,11 @@ static void rounding_of(const pendres_continuation_equations *e,
 
 /* What the equations of the place differ by from those that it solves; the last one of a cusp
    follows the others, that of a branch point is what they leave. */
-static void residuals_of(const pendres_continuation_system *system,
-                         const pendres_crossing_pivot *pivot,
-                         const pendres_continuation_image *at,
-                         const pendres_continuation_image *solved,
+static void residuals_of(const pendres_system *system, const pendres_crossing_pivot *pivot,
+                         const pendres_image *at, const pendres_image *solved,
                          double off[PENDRES_EQUATIONS_MOST])
 {
-  const pendres_continuation_condition condition = system->condition;
+  const pendres_condition condition = system->condition;
   if (condition == PENDRES_CONDITION_CROSSING) {
     double is[4], was[4];
     pendres_crossing_rows(pivot, at, is);
@@ -81,7 +78,7 @@ static void residuals_of(const pendres_continuation_system *system,
   }
   off[0] = at->f[0] - solved->f[0];
   off[1] = at->f[1] - solved->f[1];
-  const pendres_continuation_rules *rules = pendres_continuation_rules_of(condition);
+  const pendres_condition_rules *rules = pendres_condition_rules_of(condition);
   off[2] = rules->determinant != NULL ? rules->determinant(at) - rules->determinant(solved) : 0.0;
   off[3] = 0.0;
 }
@@ -103,21 +100,21 @@ typedef struct distance {
  * not the parameter at which it bifurcates, and a trace does not feel it: what the equations differ
  * by cancels by right.
  */
-static pendres_status distance_of(pendres_context *ctx, const pendres_continuation_system *system,
-                                  const pendres_continuation_pair *pair,
-                                  const pendres_continuation_equations *at, distance *out)
+static pendres_status distance_of(pendres_context *ctx, const pendres_system *system,
+                                  const pendres_solution *pair, const pendres_equations *at,
+                                  distance *out)
 {
   const int between = (pair->coarse_steps + pair->fine_steps) / 4 * 2;
   const int steps[] = {pair->coarse_steps, between, pair->fine_steps};
   double early[PENDRES_EQUATIONS_MOST], late[PENDRES_EQUATIONS_MOST];
   const int crosses = system->condition == PENDRES_CONDITION_CROSSING;
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(&at->image, system->unknown[2]);
-  pendres_continuation_system of = *system;
-  pendres_continuation_image image[3];
+  pendres_system of = *system;
+  pendres_image image[3];
   if (!crosses) of.unknowns = 0; /* which need the derivatives by the state alone */
   for (int i = 0; i < 3; i++) {
     of.steps = steps[i];
-    const pendres_status status = pendres_continuation_map_images(
+    const pendres_status status = pendres_map_images(
       ctx, &of, 1, (const double (*)[PENDRES_U_COUNT])pair->coarse, &image[i]);
     if (status != PENDRES_OK) return status;
   }
@@ -143,14 +140,13 @@ static pendres_status distance_of(pendres_context *ctx, const pendres_continuati
  * l N = l and F(z, p) = G - z, p'' = -l . D2F(v, v) / l . dF/dp. D2F by central differences
  * of the derivative N over h.
  */
-static pendres_status curvature_of(pendres_context *ctx,
-                                   const pendres_continuation_system *system,
+static pendres_status curvature_of(pendres_context *ctx, const pendres_system *system,
                                    const double u[PENDRES_U_COUNT], double h, double *out)
 {
   const int parameter = system->unknown[0];
-  pendres_continuation_image image[3];
+  pendres_image image[3];
   double points[3][PENDRES_U_COUNT];
-  pendres_status status = pendres_continuation_map_images(
+  pendres_status status = pendres_map_images(
     ctx, system, 1, (const double (*)[PENDRES_U_COUNT])u, image);
   if (status != PENDRES_OK) return status;
   const double a = image[0].j[0][0], b = image[0].j[0][1], c = image[0].j[1][0],
@@ -164,8 +160,7 @@ static pendres_status curvature_of(pendres_context *ctx,
     points[i][PENDRES_U_Y] += (i - 1) * h * v[0] / length;
     points[i][PENDRES_U_W] += (i - 1) * h * v[1] / length;
   }
-  status = pendres_continuation_map_images(
-    ctx, system, 3, (const double (*)[PENDRES_U_COUNT])points, image);
+  status = pendres_map_images(ctx, system, 3, (const double (*)[PENDRES_U_COUNT])points, image);
   if (status != PENDRES_OK) return status;
   double top = 0.0, bottom = 0.0;
   for (int i = 0; i < 2; i++) {
@@ -179,8 +174,8 @@ static pendres_status curvature_of(pendres_context *ctx,
 
 /* Whether two branches cross at a place that solves their equations, or only come close: what these
    leave of the closing is rounding, or an error of the steps, which their two numbers tell. */
-static int crosses(const pendres_continuation_system *system,
-                   const pendres_continuation_image *coarse, const pendres_continuation_image *fine)
+static int crosses(const pendres_system *system, const pendres_image *coarse,
+                   const pendres_image *fine)
 {
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(fine, system->unknown[2]);
   double few[4], many[4];
@@ -191,12 +186,12 @@ static int crosses(const pendres_continuation_system *system,
 }
 
 /* Solve a system with its own steps, and again with more. */
-static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_system system,
+static pendres_status solve_twice(pendres_context *ctx, pendres_system system,
                                   const double u[PENDRES_U_COUNT], double reach,
                                   pendres_located *out)
 {
-  pendres_continuation_equations at;
-  pendres_continuation_pair *pair = &out->pair;
+  pendres_equations at;
+  pendres_solution *pair = &out->pair;
   const int n = system.unknowns, steps = system.steps, *const unknown = system.unknown;
   double off[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
   distance away;
@@ -208,14 +203,14 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_sys
   pair->fine_steps += pair->fine_steps % 2;
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status =
-    pendres_continuation_equations_solve(ctx, &system, fmin(reach, 0.1), pair->coarse, &at);
+    pendres_equations_solve(ctx, &system, fmin(reach, 0.1), pair->coarse, &at);
   if (status == PENDRES_OK && !(pendres_arc_distance(u, pair->coarse) <= reach))
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);
   system.steps = pair->fine_steps;
-  const pendres_continuation_image few = at.image;
-  status = pendres_continuation_equations_solve(ctx, &system, 0.01, pair->fine, &at);
+  const pendres_image few = at.image;
+  status = pendres_equations_solve(ctx, &system, 0.01, pair->fine, &at);
   if (status != PENDRES_OK) return status;
   out->parted =
     system.condition == PENDRES_CONDITION_CROSSING && !crosses(&system, &few, &at.image);
@@ -230,22 +225,20 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_sys
     /* That the parts cancel to less than a thirty-second may be chance. */
     const double fine = pair->fine[unknown[i]], coarse = pair->coarse[unknown[i]];
     const double apart = fmax(fabs(fine - coarse), away.late[i]) + away.parts[i] / 32.0;
-    out->error[i] = pendres_continuation_orbit_error(
+    out->error[i] = pendres_solution_error(
       0.0, apart, rounding[i] + 0.5 * DBL_EPSILON * fabs(fine));
     if (i < 2) pair->apart = hypot(pair->apart, apart);
   }
   return PENDRES_OK;
 }
 
-pendres_status pendres_continuation_locate(pendres_context *ctx,
-                                           const pendres_continuation_system *of,
-                                           const double u[PENDRES_U_COUNT], double reach,
-                                           pendres_located *out)
+pendres_status pendres_locate(pendres_context *ctx, const pendres_system *of,
+                              const double u[PENDRES_U_COUNT], double reach, pendres_located *out)
 {
   enum { MOST_TRIES = 5 };
   const double tolerance = ctx->options.tolerance;
-  pendres_continuation_system system = *of;
-  pendres_status status = pendres_continuation_map_steps(
+  pendres_system system = *of;
+  pendres_status status = pendres_map_steps(
     ctx, system.map.force, u, pendres_accuracy_first(ctx), &system.steps);
   double from[PENDRES_U_COUNT];
   memcpy(from, u, sizeof from);
@@ -268,57 +261,53 @@ int pendres_located_found(pendres_status status)
   return status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE;
 }
 
-pendres_special pendres_continuation_kind(pendres_continuation_condition condition,
-                                          const pendres_continuation_map *map)
+pendres_special pendres_special_of(pendres_condition condition, const pendres_map *map)
 {
   if (condition == PENDRES_CONDITION_FOLD) return PENDRES_FOLD;
   if (condition == PENDRES_CONDITION_CROSSING) return PENDRES_BRANCH_POINT;
   return map->mirror ? PENDRES_SYMMETRY_BREAKING : PENDRES_PERIOD_DOUBLING;
 }
 
-pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
-                                                  pendres_continuation_condition condition,
-                                                  pendres_parameter parameter,
-                                                  const pendres_located *l,
-                                                  pendres_bifurcation *out)
+pendres_status pendres_locate_bifurcation(pendres_context *ctx, pendres_condition condition,
+                                          pendres_parameter parameter, const pendres_located *l,
+                                          pendres_bifurcation *out)
 {
   const int place = PENDRES_U_OMEGA + (int)parameter;
-  const pendres_continuation_pair *p = &l->pair;
+  const pendres_solution *p = &l->pair;
   *out = (pendres_bifurcation){.parameter = parameter,
                                .value = p->fine[place],
                                .value_error = l->error[2],
                                .curvature = NAN,
                                .curvature_error = NAN,
                                .crossing = {NAN, NAN, NAN}};
-  out->kind = pendres_continuation_kind(condition, &p->map);
-  pendres_status status = pendres_continuation_orbit_measure(ctx, 1, p, &out->orbit);
-  pendres_continuation_orbit_set_critical(out->kind, 1, &parameter, &out->value_error, &out->orbit);
+  out->kind = pendres_special_of(condition, &p->map);
+  pendres_status status = pendres_solution_measure(ctx, 1, p, &out->orbit);
+  pendres_orbit_set_critical(out->kind, 1, &parameter, &out->value_error, &out->orbit);
   if (status != PENDRES_OK || condition != PENDRES_CONDITION_FOLD) return status;
   /* Truncation h^2 and rounding 1e-15/h meet here; twice the width tells how large they are. */
   const double h = 1e-4;
   double wide = 0.0, coarse = 0.0;
-  pendres_continuation_system at = {
+  pendres_system at = {
     .map = p->map, .steps = p->fine_steps, .unknowns = 1, .unknown = {place}};
   status = curvature_of(ctx, &at, p->fine, h, &out->curvature);
   if (status == PENDRES_OK) status = curvature_of(ctx, &at, p->fine, 2.0 * h, &wide);
   at.steps = p->coarse_steps;
   if (status == PENDRES_OK) status = curvature_of(ctx, &at, p->coarse, h, &coarse);
   out->curvature_error = fabs(wide - out->curvature) +
-                         pendres_continuation_orbit_error(coarse, out->curvature,
-                                                          1e-10 * fabs(out->curvature));
+                         pendres_solution_error(coarse, out->curvature,
+                                                1e-10 * fabs(out->curvature));
   return status;
 }
 
-pendres_status pendres_continuation_locate_finish_cusp(pendres_context *ctx, const int *unknown,
-                                                       const pendres_located *l, pendres_cusp *out)
+pendres_status pendres_locate_cusp(pendres_context *ctx, const int *unknown,
+                                   const pendres_located *l, pendres_cusp *out)
 {
   for (int i = 0; i < 2; i++) {
     out->parameter[i] = (pendres_parameter)(unknown[2 + i] - PENDRES_U_OMEGA);
     out->value[i] = l->pair.fine[unknown[2 + i]];
     out->value_error[i] = l->error[2 + i];
   }
-  const pendres_status status = pendres_continuation_orbit_measure(ctx, 1, &l->pair, &out->orbit);
-  pendres_continuation_orbit_set_critical(PENDRES_FOLD, 2, out->parameter, out->value_error,
-                                          &out->orbit);
+  const pendres_status status = pendres_solution_measure(ctx, 1, &l->pair, &out->orbit);
+  pendres_orbit_set_critical(PENDRES_FOLD, 2, out->parameter, out->value_error, &out->orbit);
   return status;
 }

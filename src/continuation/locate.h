@@ -13,7 +13,7 @@
 
 /* A solution with the errors of its unknowns, in their order. */
 typedef struct pendres_located {
-  pendres_continuation_pair pair;
+  pendres_solution pair;
   double error[PENDRES_EQUATIONS_MOST];
   int parted;          /* where two branches were to cross: they come close, and do not */
 } pendres_located;
@@ -24,28 +24,22 @@ typedef struct pendres_located {
  * message) if there is nothing within `reach` of u (in the scale of arclength);
  * PENDRES_TOLERANCE_UNREACHABLE with *out complete.
  */
-pendres_status pendres_continuation_locate(pendres_context *ctx,
-                                           const pendres_continuation_system *system,
-                                           const double u[PENDRES_U_COUNT], double reach,
-                                           pendres_located *out);
+pendres_status pendres_locate(pendres_context *ctx, const pendres_system *system,
+                              const double u[PENDRES_U_COUNT], double reach, pendres_located *out);
 
-/* Whether a status of pendres_continuation_locate() says that *out is complete. */
+/* Whether a status of pendres_locate() says that *out is complete. */
 int pendres_located_found(pendres_status status);
 
 /* The bifurcation that a condition is of, of this map. */
-pendres_special pendres_continuation_kind(pendres_continuation_condition condition,
-                                          const pendres_continuation_map *map);
+pendres_special pendres_special_of(pendres_condition condition, const pendres_map *map);
 
 /* Make a public bifurcation of a located fold or flip in one parameter. */
-pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
-                                                  pendres_continuation_condition condition,
-                                                  pendres_parameter parameter,
-                                                  const pendres_located *located,
-                                                  pendres_bifurcation *out);
+pendres_status pendres_locate_bifurcation(pendres_context *ctx, pendres_condition condition,
+                                          pendres_parameter parameter,
+                                          const pendres_located *located, pendres_bifurcation *out);
 
 /* Make a public cusp of a located one, whose last two unknowns are the parameters. */
-pendres_status pendres_continuation_locate_finish_cusp(pendres_context *ctx, const int *unknown,
-                                                       const pendres_located *located,
-                                                       pendres_cusp *out);
+pendres_status pendres_locate_cusp(pendres_context *ctx, const int *unknown,
+                                   const pendres_located *located, pendres_cusp *out);
 
 #endif

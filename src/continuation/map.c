@@ -12,8 +12,7 @@
 #include "model/model.h"
 #include "model/parameter.h"
 
-pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
-                                                   const double u[PENDRES_U_COUNT])
+pendres_pendulum pendres_map_pendulum(pendres_force force, const double u[PENDRES_U_COUNT])
 {
   pendres_pendulum p = {.force = force};
   for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
@@ -73,17 +72,15 @@ static int is_own_reflection(const pendres_orbit *o, double centre)
   return reflected_after(o->period) > 0 && o->winding == 0;
 }
 
-pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int unknowns,
-                                                     const int *unknown,
-                                                     double u[PENDRES_U_COUNT])
+pendres_map pendres_map_of(const pendres_orbit *o, int unknowns, const int *unknown,
+                           double u[PENDRES_U_COUNT])
 {
-  pendres_continuation_map map = {
+  pendres_map map = {
     .force = o->pendulum.force, .period = o->period, .winding = o->winding};
   const pendres_coordinates s = pendres_coordinates_in_whole(&o->pendulum, o->x, o->v);
   pendres_pendulum still = o->pendulum;
   still.parametric_amplitude = 0.0;
-  const double centre =
-    pendres_model_centre(&still, isfinite(o->mean_angle) ? o->mean_angle : s.y);
+  const double centre = pendres_model_centre(&still, isfinite(o->mean_angle) ? o->mean_angle : s.y);
   int kept = isfinite(centre);
   point_of(&o->pendulum, s.y, s.w, u);
   for (int k = 0; k < unknowns && kept; k++) kept = !breaks_symmetry(unknown[k], centre);
@@ -105,38 +102,36 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int
   return map;
 }
 
-pendres_status pendres_continuation_map_steps(pendres_context *ctx, pendres_force force,
-                                              const double u[PENDRES_U_COUNT], double tolerance,
-                                              int *steps)
+pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
+                                 const double u[PENDRES_U_COUNT], double tolerance, int *steps)
 {
-  const pendres_pendulum p = pendres_continuation_map_pendulum(force, u);
+  const pendres_pendulum p = pendres_map_pendulum(force, u);
   const char *why = NULL;
   if (pendres_pendulum_check(&p, &why) != PENDRES_OK)
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the branch leaves the parameters: %s",
                                 why);
-  const double speed =
-    pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
+  const double speed = pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
   const pendres_status status = pendres_steps_choose(ctx, &p, speed, tolerance, steps);
   *steps += *steps % 2;
   return status;
 }
 
-double pendres_continuation_map_fold(const pendres_continuation_image *i)
+double pendres_map_fold(const pendres_image *i)
 {
   return 1.0 - i->trace + i->determinant;
 }
 
-double pendres_continuation_map_flip(const pendres_continuation_image *i)
+double pendres_map_flip(const pendres_image *i)
 {
   return 1.0 + i->trace + i->determinant;
 }
 
-double pendres_continuation_map_growth(const pendres_continuation_image *i)
+double pendres_map_growth(const pendres_image *i)
 {
   return hypot(hypot(i->n[0][0], i->n[0][1]), hypot(i->n[1][0], i->n[1][1]));
 }
 
-void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2])
+void pendres_map_null(const pendres_image *image, double v[2])
 {
   /* The larger row of N - I has more digits. */
   const double *row =
@@ -173,15 +168,14 @@ double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PEND
 /* ---- images ---- */
 
 /* Of a map. */
-static int whole_periods(const pendres_continuation_map *map)
+static int whole_periods(const pendres_map *map)
 {
   if (map->mirror == PENDRES_MIRROR_WHOLE) return reflected_after(map->period);
   return map->mirror == PENDRES_MIRROR_HALF ? map->period / 2 : map->period;
 }
 
-static void read_image(const pendres_rows *rows, size_t lane,
-                       const pendres_continuation_map *map, const double u[PENDRES_U_COUNT],
-                       int columns, pendres_continuation_image *out)
+static void read_image(const pendres_rows *rows, size_t lane, const pendres_map *map,
+                       const double u[PENDRES_U_COUNT], int columns, pendres_image *out)
 {
   const double sign = map->mirror ? -1.0 : 1.0;
   const double turns = map->mirror ? two_pi * map->winding + 2.0 * map->centre
@@ -202,14 +196,13 @@ static void read_image(const pendres_rows *rows, size_t lane,
   out->determinant = exp(-u[PENDRES_U_GAMMA] * time);
 }
 
-static pendres_status run_block(pendres_block *b, const pendres_continuation_map *map, size_t n,
-                                const double (*u)[PENDRES_U_COUNT], int columns,
-                                pendres_continuation_image *out)
+static pendres_status run_block(pendres_block *b, const pendres_map *map, size_t n,
+                                const double (*u)[PENDRES_U_COUNT], int columns, pendres_image *out)
 {
   pendres_status status = PENDRES_OK;
   pendres_block_resize(b, n);
   for (size_t i = 0; i < n; i++) {
-    const pendres_pendulum p = pendres_continuation_map_pendulum(map->force, u[i]);
+    const pendres_pendulum p = pendres_map_pendulum(map->force, u[i]);
     pendres_block_load(b, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
   }
   const int whole = whole_periods(map);
@@ -243,9 +236,9 @@ static pendres_flow_kind kind_of(int unknowns, const int *unknown)
   return kinds[k];
 }
 
-static pendres_status images(pendres_context *ctx, const pendres_continuation_system *s, size_t n,
+static pendres_status images(pendres_context *ctx, const pendres_system *s, size_t n,
                              const double (*u)[PENDRES_U_COUNT], pendres_flow_kind kind,
-                             pendres_continuation_image *out)
+                             pendres_image *out)
 {
   pendres_block b;
   const int columns = columns_of(kind);
@@ -259,33 +252,28 @@ static pendres_status images(pendres_context *ctx, const pendres_continuation_sy
   return status;
 }
 
-pendres_status pendres_continuation_map_images(pendres_context *ctx,
-                                               const pendres_continuation_system *s, size_t n,
-                                               const double (*u)[PENDRES_U_COUNT],
-                                               pendres_continuation_image *out)
+pendres_status pendres_map_images(pendres_context *ctx, const pendres_system *s, size_t n,
+                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out)
 {
   return images(ctx, s, n, u, kind_of(s->unknowns, s->unknown), out);
 }
 
-pendres_status pendres_continuation_map_states(pendres_context *ctx,
-                                               const pendres_continuation_map *map, int steps,
-                                               size_t n, const double (*u)[PENDRES_U_COUNT],
-                                               pendres_continuation_image *out)
+pendres_status pendres_map_states(pendres_context *ctx, const pendres_map *map, int steps, size_t n,
+                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out)
 {
-  const pendres_continuation_system s = {.map = *map, .steps = steps};
+  const pendres_system s = {.map = *map, .steps = steps};
   return images(ctx, &s, n, u, PENDRES_FLOW_VARIATIONAL, out);
 }
 
 /* ---- half maps ---- */
 
-void pendres_continuation_map_unfold(pendres_continuation_map *map)
+void pendres_map_unfold(pendres_map *map)
 {
   if (map->mirror != PENDRES_MIRROR_NONE) map->winding = 0;
   map->mirror = PENDRES_MIRROR_NONE;
 }
 
-int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
-                                  pendres_continuation_map *half)
+int pendres_map_half(const pendres_map *map, int which, pendres_map *half)
 {
   /* Most orbits of one or two periods are born of rest, or of orbits that are their own image. */
   const int reflects = map->reflects && map->winding == 0 && reflected_after(map->period) > 0;
@@ -295,7 +283,7 @@ int pendres_continuation_map_half(const pendres_continuation_map *map, int which
     return 1;
   }
   if (map->mirror == PENDRES_MIRROR_WHOLE) {
-    pendres_continuation_map_unfold(half);
+    pendres_map_unfold(half);
     half->period = 1;
     return which == 0 && map->period <= 2;
   }
@@ -310,21 +298,20 @@ int pendres_continuation_map_half(const pendres_continuation_map *map, int which
   return map->winding % 2 == 0;
 }
 
-pendres_status pendres_continuation_map_closes(pendres_context *ctx,
-                                               const pendres_continuation_map *half, int steps,
-                                               size_t n, const double (*u)[PENDRES_U_COUNT],
-                                               pendres_continuation_miss *miss)
+pendres_status pendres_map_closes(pendres_context *ctx, const pendres_map *half, int steps,
+                                  size_t n, const double (*u)[PENDRES_U_COUNT],
+                                  pendres_map_miss *miss)
 {
-  pendres_continuation_image *image = malloc((n + 1) * sizeof *image);
+  pendres_image *image = malloc((n + 1) * sizeof *image);
   if (image == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu images", n);
-  const pendres_status status = pendres_continuation_map_states(ctx, half, steps, n, u, image);
+  const pendres_status status = pendres_map_states(ctx, half, steps, n, u, image);
   const double period = pendres_model_of(half->force)->period;
   const double turn = period > 0.0 ? period : INFINITY;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     /* The reflection of an angle may be about any multiple of pi. */
     const double turns = half->mirror ? -rint(image[i].f[0] / turn) : 0.0;
-    miss[i] = (pendres_continuation_miss){{image[i].f[0] + two_pi * turns, image[i].f[1]},
+    miss[i] = (pendres_map_miss){{image[i].f[0] + two_pi * turns, image[i].f[1]},
                                           half->winding + (int)turns};
   }
   free(image);

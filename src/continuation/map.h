@@ -48,7 +48,7 @@ enum {
   PENDRES_U_COUNT = PENDRES_U_OMEGA + PENDRES_PARAMETER_FOLLOWED
 };
 
-typedef struct pendres_continuation_map {
+typedef struct pendres_map {
   pendres_force force;
   int symmetric; /* all pendulums on the way have the mirror symmetry */
   int reflects;  /* or have that of a parametric drive alone, at the same phase */
@@ -60,65 +60,58 @@ typedef struct pendres_continuation_map {
   int period;    /* q */
   int winding;   /* p */
   double centre; /* c, where there is a mirror symmetry of either kind; otherwise 0 */
-} pendres_continuation_map;
+} pendres_map;
 
 /* What one evaluation of the map finds. */
-typedef struct pendres_continuation_image {
+typedef struct pendres_image {
   double f[2];                  /* G(z) - z */
   double j[2][PENDRES_U_COUNT]; /* its derivatives by u; NaN by those that were not asked for */
   double n[2][2];               /* DG */
   double trace, determinant;    /* of DG; the latter from Liouville's formula */
-} pendres_continuation_image;
+} pendres_image;
 
 /* An equation beside G(z) = z. */
-typedef enum pendres_continuation_condition {
+typedef enum pendres_condition {
   PENDRES_CONDITION_NONE,
   PENDRES_CONDITION_FOLD, /* det(N - I) = 0 */
   PENDRES_CONDITION_FLIP, /* det(N + I) = 0 */
   PENDRES_CONDITION_CUSP, /* fold, and its quadratic term is 0 */
   PENDRES_CONDITION_CROSSING, /* two branches cross (crossing.h) */
   PENDRES_CONDITION_COUNT
-} pendres_continuation_condition;
+} pendres_condition;
 
 enum { PENDRES_UNKNOWNS = 4 /* at most */ };
 
 /* Equations on a map, and what is unknown in them: the first two of `unknown[unknowns]` are y and
    w, the others parameters. */
-typedef struct pendres_continuation_system {
-  pendres_continuation_map map;
+typedef struct pendres_system {
+  pendres_map map;
   int steps; /* a period */
-  pendres_continuation_condition condition;
+  pendres_condition condition;
   int unknowns, unknown[PENDRES_UNKNOWNS];
-} pendres_continuation_system;
+} pendres_system;
 
-pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
-                                                   const double u[PENDRES_U_COUNT]);
+pendres_pendulum pendres_map_pendulum(pendres_force force, const double u[PENDRES_U_COUNT]);
 
 /* The map that an orbit is a fixed point of, and the point. The first two of `unknown[unknowns]`
    are y and w, the others change along the way: where one of them breaks the mirror symmetry, the
    map of the whole period is meant. */
-pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *orbit, int unknowns,
-                                                     const int *unknown,
-                                                     double u[PENDRES_U_COUNT]);
+pendres_map pendres_map_of(const pendres_orbit *orbit, int unknowns, const int *unknown,
+                           double u[PENDRES_U_COUNT]);
 
 /* Choose the steps a period at a point for an error of about `tolerance` a period; the number is
    even. */
-pendres_status pendres_continuation_map_steps(pendres_context *ctx, pendres_force force,
-                                              const double u[PENDRES_U_COUNT], double tolerance,
-                                              int *steps);
+pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
+                                 const double u[PENDRES_U_COUNT], double tolerance, int *steps);
 
 /* The map at n points of any parameters, all of the given kind, period and steps, with the
    derivatives by the system's unknowns, and by others that cost nothing more. */
-pendres_status pendres_continuation_map_images(pendres_context *ctx,
-                                               const pendres_continuation_system *system, size_t n,
-                                               const double (*u)[PENDRES_U_COUNT],
-                                               pendres_continuation_image *out);
+pendres_status pendres_map_images(pendres_context *ctx, const pendres_system *system, size_t n,
+                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out);
 
 /* The same without the derivatives by parameters, which become NaN. */
-pendres_status pendres_continuation_map_states(pendres_context *ctx,
-                                               const pendres_continuation_map *map, int steps,
-                                               size_t n, const double (*u)[PENDRES_U_COUNT],
-                                               pendres_continuation_image *out);
+pendres_status pendres_map_states(pendres_context *ctx, const pendres_map *map, int steps, size_t n,
+                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out);
 
 /*
  * The half map: one whose second iterate is `map`, so that its fixed points are those of `map` as
@@ -128,26 +121,24 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
  * first. 0 if there is none.
  */
 enum { PENDRES_MAP_HALVES = 2 };
-int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
-                                  pendres_continuation_map *half);
+int pendres_map_half(const pendres_map *map, int which, pendres_map *half);
 
 /* The map over all of an orbit's period: the one whose flip is a period doubling. */
-void pendres_continuation_map_unfold(pendres_continuation_map *map);
+void pendres_map_unfold(pendres_map *map);
 
 /* By what vector (y, w) a point misses being a fixed point of such a half map, whichever place that
    reflects about, the bottom of a well or the top of a barrier; the winding tells the place. */
-typedef struct pendres_continuation_miss {
+typedef struct pendres_map_miss {
   double off[2];
   int winding;
-} pendres_continuation_miss;
-pendres_status pendres_continuation_map_closes(pendres_context *ctx,
-                                               const pendres_continuation_map *half, int steps,
-                                               size_t n, const double (*u)[PENDRES_U_COUNT],
-                                               pendres_continuation_miss *miss);
+} pendres_map_miss;
+pendres_status pendres_map_closes(pendres_context *ctx, const pendres_map *half, int steps,
+                                  size_t n, const double (*u)[PENDRES_U_COUNT],
+                                  pendres_map_miss *miss);
 
 /* det(N -+ I). */
-double pendres_continuation_map_fold(const pendres_continuation_image *image);
-double pendres_continuation_map_flip(const pendres_continuation_image *image);
+double pendres_map_fold(const pendres_image *image);
+double pendres_map_flip(const pendres_image *image);
 
 /* The length that counts as one in arclength, of entry `i` of u where it has this value. Of
    parameters it is a constant at first, but never less than a twentieth of the value: beyond twenty
@@ -161,9 +152,9 @@ double pendres_arc_least_scale(int i);
 double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);
 
 /* Norm of DG: by how much the map may enlarge an error of the state. */
-double pendres_continuation_map_growth(const pendres_continuation_image *image);
+double pendres_map_growth(const pendres_image *image);
 
 /* The null vector of N - I at a fold, of unit length; its sign is arbitrary. */
-void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2]);
+void pendres_map_null(const pendres_image *image, double v[2]);
 
 #endif

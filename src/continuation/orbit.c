@@ -19,16 +19,16 @@ typedef struct reading {
   pendres_orbit_measures measures;
 } reading;
 
-double pendres_continuation_orbit_error(double coarse, double fine, double rounding)
+double pendres_solution_error(double coarse, double fine, double rounding)
 {
   /* An order-8 method's error falls to a fifteenth with 1.4 times the steps; a quarter of the
      difference is claimed, for where the order has not set in yet. */
   return 0.25 * fabs(fine - coarse) + rounding;
 }
 
-void pendres_continuation_orbit_set_critical(pendres_special kind, int parameters,
-                                             const pendres_parameter *parameter,
-                                             const double *error, pendres_orbit *o)
+void pendres_orbit_set_critical(pendres_special kind, int parameters,
+                                const pendres_parameter *parameter, const double *error,
+                                pendres_orbit *o)
 {
   const double damping = o->pendulum.damping, omega = o->pendulum.drive_frequency;
   const double time = two_pi * o->period / omega, product = exp(-damping * time);
@@ -45,7 +45,7 @@ void pendres_continuation_orbit_set_critical(pendres_special kind, int parameter
   o->stable = 0;
 }
 
-static int winding_of(const pendres_continuation_map *map)
+static int winding_of(const pendres_map *map)
 {
   return map->mirror ? 0 : map->winding;
 }
@@ -75,8 +75,8 @@ static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c
 }
 
 /* Integrate all pairs at their coarse or their fine steps. */
-static pendres_status read_all(pendres_context *ctx, size_t n,
-                               const pendres_continuation_pair *pairs, int fine, reading *out)
+static pendres_status read_all(pendres_context *ctx, size_t n, const pendres_solution *pairs,
+                               int fine, reading *out)
 {
   const pendres_orbit_reader reader = {
     .want = PENDRES_ORBIT_PLAIN, .bends = !fine, .take = take, .arg = out};
@@ -88,10 +88,10 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
     goto done;
   }
   for (size_t i = 0; i < n; i++) {
-    const pendres_continuation_pair *p = &pairs[i];
+    const pendres_solution *p = &pairs[i];
     const double *u = fine ? p->fine : p->coarse;
     out[i].within = fine && !p->critical ? p->rounding : 0.0;
-    guess[i] = (pendres_orbit_guess){.pendulum = pendres_continuation_map_pendulum(p->map.force, u),
+    guess[i] = (pendres_orbit_guess){.pendulum = pendres_map_pendulum(p->map.force, u),
                                      .period = p->map.period,
                                      .winding = winding_of(&p->map)};
     c[i] = (pendres_newton_candidate){.guess = &guess[i],
@@ -113,8 +113,7 @@ done:
  * step: of an angle of order one in a step. The equations of a bifurcation have an inverse of their
  * own, that of I - M is singular there: what it makes of the start is larger along the orbit.
  */
-static double rounding_along(const pendres_continuation_pair *pair, const reading *fine,
-                             double step)
+static double rounding_along(const pendres_solution *pair, const reading *fine, double step)
 {
   if (pair->critical) return pair->rounding * fine->noise.swell;
   const double y = pair->fine[PENDRES_U_Y], w = pair->fine[PENDRES_U_W];
@@ -122,13 +121,12 @@ static double rounding_along(const pendres_continuation_pair *pair, const readin
   return fmax(pair->rounding, step * size * fine->noise.along);
 }
 
-static void fill(const pendres_continuation_pair *pair, const reading *a, const reading *b,
-                 double step, pendres_orbit *o)
+static void fill(const pendres_solution *pair, const reading *a, const reading *b, double step,
+                 pendres_orbit *o)
 {
   const double from[2] = {pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
                           pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]};
-  const double along =
-    pendres_orbit_measures_apart(&a->measures, &b->measures, pair->map.period);
+  const double along = pendres_orbit_measures_apart(&a->measures, &b->measures, pair->map.period);
   /* The equations of a bifurcation do not multiply errors by the inverse of I - M, which is
      singular there, but by their own. */
   const double beside =
@@ -140,7 +138,7 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   /* Velocities are compared, since the two computations may differ in the drive frequency. */
   const double clocks = pair->coarse[PENDRES_U_OMEGA] / pair->fine[PENDRES_U_OMEGA];
   pendres_orbit_twice two = {
-    .pendulum = pendres_continuation_map_pendulum(pair->map.force, pair->fine),
+    .pendulum = pendres_map_pendulum(pair->map.force, pair->fine),
     .period = pair->map.period,
     .winding = winding_of(&pair->map),
     .steps = pair->fine_steps,
@@ -158,9 +156,8 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   pendres_orbit_set(&two, o);
 }
 
-pendres_status pendres_continuation_orbit_measure(pendres_context *ctx, size_t n,
-                                                  const pendres_continuation_pair *pairs,
-                                                  pendres_orbit *out)
+pendres_status pendres_solution_measure(pendres_context *ctx, size_t n,
+                                        const pendres_solution *pairs, pendres_orbit *out)
 {
   const double step = pendres_newton_rounding(ctx->options.table);
   reading *coarse = malloc((n + 1) * sizeof *coarse), *fine = malloc((n + 1) * sizeof *fine);

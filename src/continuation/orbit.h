@@ -11,30 +11,29 @@
 #include "continuation/map.h"
 
 /* A fixed point as two computations of different steps a period found it. */
-typedef struct pendres_continuation_pair {
-  pendres_continuation_map map;
+typedef struct pendres_solution {
+  pendres_map map;
   double coarse[PENDRES_U_COUNT], fine[PENDRES_U_COUNT];
   int coarse_steps, fine_steps;
   int critical;    /* at a bifurcation, not at given parameters */
   double apart;    /* of the two at a bifurcation, in y and w, chance left out */
   double rounding; /* of y and w */
-} pendres_continuation_pair;
+} pendres_solution;
 
 /* Measure n orbits; nothing is moved. */
-pendres_status pendres_continuation_orbit_measure(pendres_context *ctx, size_t n,
-                                                  const pendres_continuation_pair *pairs,
-                                                  pendres_orbit *out);
+pendres_status pendres_solution_measure(pendres_context *ctx, size_t n,
+                                        const pendres_solution *pairs, pendres_orbit *out);
 
 /*
  * The multipliers of an orbit at a bifurcation that was found as the parameters changed, each known
  * but for its error: one is +1 or -1, and the product of both is known (Liouville). What a map near
  * the bifurcation has instead tells of its distance alone.
  */
-void pendres_continuation_orbit_set_critical(pendres_special kind, int parameters,
-                                             const pendres_parameter *parameter,
-                                             const double *error, pendres_orbit *o);
+void pendres_orbit_set_critical(pendres_special kind, int parameters,
+                                const pendres_parameter *parameter, const double *error,
+                                pendres_orbit *o);
 
 /* The error of the finer of two computations, rounding included. */
-double pendres_continuation_orbit_error(double coarse, double fine, double rounding);
+double pendres_solution_error(double coarse, double fine, double rounding);
 
 #endif

@@ -116,7 +116,7 @@ static int orbit_fits(const pendres_orbit *o)
          o->period <= LONGEST_PERIOD;
 }
 
-static int map_fits(const pendres_continuation_map *m)
+static int map_fits(const pendres_map *m)
 {
   return (unsigned)m->force < PENDRES_FORCE_COUNT && (unsigned)m->mirror <= PENDRES_MIRROR_WHOLE &&
          m->period >= 1 && m->period <= LONGEST_PERIOD;
@@ -129,7 +129,7 @@ static int ends_fit(const pendres_branch_end end[2])
 
 static int head_fits(const pendres_curve *c)
 {
-  const pendres_continuation_system *s = &c->kind.system;
+  const pendres_system *s = &c->kind.system;
   int good = map_fits(&s->map) && ends_fit(c->end) &&
              (unsigned)s->condition < PENDRES_CONDITION_COUNT &&
              s->unknowns == (pendres_curve_is_branch(c) ? 3 : 4);

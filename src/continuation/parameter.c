@@ -18,7 +18,7 @@ double pendres_parameter_beyond(pendres_parameter parameter, double value, doubl
   return above ? fmax(value + distance, 0.5 * value) : value + distance;
 }
 
-const char *pendres_continuation_refuses(const pendres_orbit *o, pendres_parameter parameter)
+const char *pendres_follow_refuses(const pendres_orbit *o, pendres_parameter parameter)
 {
   const char *why = pendres_orbit_refuses(o);
   if (why == NULL) why = pendres_parameter_refuses(parameter, o->pendulum.force);

@@ -14,6 +14,6 @@ double pendres_parameter_scale(pendres_parameter parameter);
 double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance);
 
 /* Why an orbit cannot be followed in a parameter, a static sentence; NULL if it can. */
-const char *pendres_continuation_refuses(const pendres_orbit *orbit, pendres_parameter parameter);
+const char *pendres_follow_refuses(const pendres_orbit *orbit, pendres_parameter parameter);
 
 #endif

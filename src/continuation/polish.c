@@ -19,8 +19,8 @@
  * fold that would lead around it: there a parameter that is off by so much moves the orbit by the
  * root of it.
  */
-static void to_one_parameter(const pendres_continuation_system *s, const pendres_curve_node *at,
-                             pendres_continuation_pair *pair)
+static void to_one_parameter(const pendres_system *s, const pendres_curve_node *at,
+                             pendres_solution *pair)
 {
   const int place = s->unknown[2];
   const double along = at->tangent[2];
@@ -49,11 +49,11 @@ static pendres_status begin(pendres_context *ctx, pendres_curve *c, const size_t
   pendres_status status = PENDRES_OK;
   for (size_t k = 0; k < p->left && status == PENDRES_OK; k++) {
     const size_t i = p->index[k] = index != NULL ? index[k] : k;
-    c->pair[i] = (pendres_continuation_pair){
+    c->pair[i] = (pendres_solution){
       .map = kind->system.map, .critical = kind->system.condition != PENDRES_CONDITION_NONE};
     memcpy(c->pair[i].coarse, c->node[i].u, sizeof c->pair[i].coarse);
-    status = pendres_continuation_map_steps(ctx, kind->system.map.force, c->node[i].u,
-                                            pendres_accuracy_first(ctx), &c->pair[i].coarse_steps);
+    status = pendres_map_steps(ctx, kind->system.map.force, c->node[i].u,
+                               pendres_accuracy_first(ctx), &c->pair[i].coarse_steps);
   }
   return status;
 }
@@ -64,7 +64,7 @@ static pendres_status begin(pendres_context *ctx, pendres_curve *c, const size_t
 static double rounded_size(const pendres_correction *c)
 {
   static const double least = 1e-9, angle = 0.2;
-  const pendres_continuation_system *s = &c->kind->system;
+  const pendres_system *s = &c->kind->system;
   const double whole = pendres_model_of(s->map.force)->angle ? angle : 1.0;
   const double far = hypot(c->u[PENDRES_U_Y], c->u[PENDRES_U_W]);
   return s->condition == PENDRES_CONDITION_NONE ? fmax(least, fmin(1.0, far / whole)) : 1.0;
@@ -76,7 +76,7 @@ static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish
   enum { CHUNK = 1024 };
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < w->left; i++) {
-    pendres_continuation_pair *p = &curve->pair[w->index[i]];
+    pendres_solution *p = &curve->pair[w->index[i]];
     const pendres_curve_node *at = &curve->node[w->index[i]];
     pendres_correction *c = &w->point[i];
     c->kind = &curve->kind;
@@ -96,7 +96,7 @@ static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish
     status = pendres_follow_correct(ctx, w->left - first < CHUNK ? w->left - first : CHUNK,
                                     w->point + first);
   for (size_t i = 0; i < w->left && status == PENDRES_OK; i++) {
-    pendres_continuation_pair *p = &curve->pair[w->index[i]];
+    pendres_solution *p = &curve->pair[w->index[i]];
     /* A node that cannot be corrected stays where the follower left it, with an error that says
        so. */
     const pendres_correction *c = &w->point[i];
@@ -116,8 +116,8 @@ static int across(const pendres_curve *c, size_t i)
 /* Errors of the parameters of node i; returns the largest error of all, as tolerances have it. */
 static double errors_at(const pendres_curve *c, size_t i, double error[2])
 {
-  const pendres_continuation_system *s = &c->kind.system;
-  const pendres_continuation_pair *p = &c->pair[i];
+  const pendres_system *s = &c->kind.system;
+  const pendres_solution *p = &c->pair[i];
   const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
                              p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
   /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
@@ -126,7 +126,7 @@ static double errors_at(const pendres_curve *c, size_t i, double error[2])
   for (int k = 0; k < s->unknowns; k++) {
     const int place = s->unknown[k];
     /* Two values of a parameter may agree by chance: it is not known better than the point is. */
-    const double e = pendres_continuation_orbit_error(
+    const double e = pendres_solution_error(
       p->coarse[place], p->fine[place],
       pendres_arc_scale(place, p->fine[place]) * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
     if (k >= 2) error[k - 2] = e;
@@ -210,7 +210,7 @@ pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *c)
   pendres_status status = make_room(ctx, c);
   if (status == PENDRES_OK) status = pendres_curve_polish(ctx, c, c->nodes, NULL);
   if (status == PENDRES_OK)
-    status = pendres_continuation_orbit_measure(ctx, c->nodes, c->pair, c->orbit);
+    status = pendres_solution_measure(ctx, c->nodes, c->pair, c->orbit);
   if (status == PENDRES_OK) list_points(c);
   return status;
 }
@@ -233,7 +233,7 @@ static pendres_status polish_neighbours(pendres_context *ctx, pendres_curve *c)
 }
 
 /* The trace of the derivative over all of the orbit's period, from that of its map. */
-static double trace_of(const pendres_continuation_map *map, const pendres_continuation_image *image)
+static double trace_of(const pendres_map *map, const pendres_image *image)
 {
   const double trace = image->trace;
   if (map->mirror == PENDRES_MIRROR_NONE) return trace;
@@ -242,11 +242,10 @@ static double trace_of(const pendres_continuation_map *map, const pendres_contin
   return trace * trace - 2.0 * image->determinant;
 }
 
-static pendres_orbit outline_of(const pendres_continuation_pair *pair,
-                                const pendres_continuation_image *image)
+static pendres_orbit outline_of(const pendres_solution *pair, const pendres_image *image)
 {
   const double *u = pair->fine;
-  const pendres_pendulum p = pendres_continuation_map_pendulum(pair->map.force, u);
+  const pendres_pendulum p = pendres_map_pendulum(pair->map.force, u);
   const pendres_coordinates place = {.y = u[PENDRES_U_Y], .w = u[PENDRES_U_W]};
   const double time = two_pi * pair->map.period / p.drive_frequency;
   pendres_orbit o = pendres_orbit_none(&p);
@@ -261,7 +260,7 @@ pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *c)
 {
   pendres_status status = make_room(ctx, c);
   for (size_t i = 0; i < c->nodes && status == PENDRES_OK; i++) {
-    c->pair[i] = (pendres_continuation_pair){.map = c->kind.system.map};
+    c->pair[i] = (pendres_solution){.map = c->kind.system.map};
     memcpy(c->pair[i].fine, c->node[i].u, sizeof c->pair[i].fine);
     c->error[i][0] = c->error[i][1] = c->kind.tolerance;
   }

@@ -13,7 +13,7 @@ static const double widest_range = 3.0; /* of a branch's parameter, as a ratio *
 static const double wildest = 1e3; /* growth of errors in a map: such curves do not come back */
 
 /* Whether the parameter of a branch has left the range that is searched. */
-static int is_far(const pendres_continuation_system *s, const pendres_curve_node *start,
+static int is_far(const pendres_system *s, const pendres_curve_node *start,
                   const pendres_curve_node *here)
 {
   const int place = s->unknown[2];
@@ -90,7 +90,7 @@ pendres_status pendres_follow_search(pendres_context *ctx, const pendres_followe
 static double fold_value(const pendres_curve_node *start, const pendres_curve_node *node)
 {
   (void)start;
-  return pendres_continuation_map_fold(&node->image);
+  return pendres_map_fold(&node->image);
 }
 
 /* Where branches cross the determinant changes its sign, too. */
@@ -112,7 +112,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   static const pendres_search search = {
     .start = "orbit", .value = fold_value, .locate = locate_fold};
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
-  const char *why = pendres_continuation_refuses(near, parameter);
+  const char *why = pendres_follow_refuses(near, parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", why);
   double u[PENDRES_U_COUNT];
   pendres_located located;
@@ -124,7 +124,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
                                 pendres_name_get(PENDRES_NAMES_PARAMETER, parameter),
                                 pendres_parameter_get(parameter, &near->pendulum));
   if (!pendres_located_found(status)) return status;
-  const pendres_status measured = pendres_continuation_locate_finish(
+  const pendres_status measured = pendres_locate_bifurcation(
     ctx, PENDRES_CONDITION_FOLD, parameter, &located, out);
   if (measured != PENDRES_OK) return measured;
   if (status == PENDRES_TOLERANCE_UNREACHABLE)
@@ -169,8 +169,8 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
   if (near->kind != PENDRES_FOLD)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
-  const char *why = pendres_continuation_refuses(&near->orbit, near->parameter);
-  if (why == NULL) why = pendres_continuation_refuses(&near->orbit, second);
+  const char *why = pendres_follow_refuses(&near->orbit, near->parameter);
+  if (why == NULL) why = pendres_follow_refuses(&near->orbit, second);
   if (why == NULL && second == near->parameter)
     why = "the second parameter must be another one than the fold's";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", why);
@@ -182,8 +182,7 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
     return pendres_context_fail(ctx, status, "the curve of folds through %g leads to no cusp",
                                 near->value);
   if (!pendres_located_found(status)) return status;
-  const pendres_status measured =
-    pendres_continuation_locate_finish_cusp(ctx, kind.system.unknown, &located, out);
+  const pendres_status measured = pendres_locate_cusp(ctx, kind.system.unknown, &located, out);
   if (measured != PENDRES_OK) return measured;
   if (status == PENDRES_TOLERANCE_UNREACHABLE)
     return pendres_context_fail(ctx, status, "the cusp is known to %.1e and %.1e only",

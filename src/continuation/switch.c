@@ -12,8 +12,7 @@
 /* Correct a node of a kind of orbits to where they meet the plane across its tangent; *error
    becomes that of the parameter. */
 static pendres_status meet_plane(pendres_context *ctx, const pendres_followed *kind,
-                                 pendres_curve_node *node, pendres_continuation_pair *pair,
-                                 double *error)
+                                 pendres_curve_node *node, pendres_solution *pair, double *error)
 {
   double errors[1][2] = {{NAN, NAN}};
   pendres_curve one = {.kind = *kind, .nodes = 1, .node = node, .pair = pair, .error = errors};
@@ -46,7 +45,7 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
     for (int side = 1; side >= -1; side -= 2) {
       pendres_orbit here;
       pendres_curve_node node = {.arclength = 0.0};
-      pendres_continuation_pair pair;
+      pendres_solution pair;
       double error;
       memcpy(node.tangent, way, sizeof way);
       memcpy(node.u, u, sizeof u);
@@ -55,7 +54,7 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
       if (status == PENDRES_NOT_CONVERGED) continue;
       const int good = status == PENDRES_OK && error < 1e-6 &&
                        pendres_arc_distance(pair.fine, node.u) <= straight * away;
-      if (good) status = pendres_continuation_orbit_measure(ctx, 1, &pair, &here);
+      if (good) status = pendres_solution_measure(ctx, 1, &pair, &here);
       if (status != PENDRES_OK) return status;
       if (good && (!found || here.stable)) *out = here;
       found += good;
@@ -73,22 +72,21 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
       at->kind != PENDRES_BRANCH_POINT)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "no branch crosses at a bifurcation of this kind");
-  const char *why = pendres_continuation_refuses(&at->orbit, at->parameter);
+  const char *why = pendres_follow_refuses(&at->orbit, at->parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   if (at->kind == PENDRES_BRANCH_POINT) return switch_crossing(ctx, at, out);
   double u[PENDRES_U_COUNT];
-  pendres_continuation_image image;
+  pendres_image image;
   int steps = 0;
   pendres_followed twice =
     pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
-  pendres_continuation_map *map = &twice.system.map;
-  if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(map);
-  const pendres_continuation_map once = *map;
+  pendres_map *map = &twice.system.map;
+  if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_map_unfold(map);
+  const pendres_map once = *map;
   pendres_status status =
-    pendres_continuation_map_steps(ctx, map->force, u, pendres_accuracy_first(ctx), &steps);
+    pendres_map_steps(ctx, map->force, u, pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
-    status = pendres_continuation_map_states(ctx, &once, steps, 1,
-                                             (const double (*)[PENDRES_U_COUNT])u, &image);
+    status = pendres_map_states(ctx, &once, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &image);
   if (status != PENDRES_OK) return status;
   /* The null vector of N + I: the way in which the doubled map's orbits leave. */
   const double a = image.n[0][0] + 1.0, b = image.n[0][1], c = image.n[1][0],
@@ -106,7 +104,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   for (size_t k = 0; k < sizeof tries / sizeof *tries && reach * tries[k] < 0.5; k++) {
     const double away = reach * tries[k];
     pendres_curve_node node = {.tangent = {v[0], v[1], 0.0, 0.0}};
-    pendres_continuation_pair pair;
+    pendres_solution pair;
     double error;
     memcpy(node.u, u, sizeof node.u);
     node.u[PENDRES_U_Y] += away * v[0];
@@ -116,12 +114,12 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     if (error > 1e-6 || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
     /* Keep away from the branch that it came from, which the plane meets as well. Orbits of the
        other branch are on the far side after one map, and so twice as far away. */
-    status = pendres_continuation_map_states(ctx, &once, steps, 1,
-                                             (const double (*)[PENDRES_U_COUNT])pair.fine, &image);
+    status = pendres_map_states(ctx, &once, steps, 1, (const double (*)[PENDRES_U_COUNT])pair.fine,
+                                &image);
     if (status != PENDRES_OK) return status;
     const double apart = hypot(image.f[0], image.f[1]);
     if (!(apart > away && apart < 4.0 * away)) continue;
-    return pendres_continuation_orbit_measure(ctx, 1, &pair, out);
+    return pendres_solution_measure(ctx, 1, &pair, out);
   }
   return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
 }

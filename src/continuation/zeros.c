@@ -153,7 +153,7 @@ pendres_status pendres_curve_find_crossings(pendres_context *ctx, const pendres_
  * An orbit and its image by a half map lie on either side of the orbit that both were born from,
  * and change places there: the way from one to the other turns round.
  */
-static void turns_round(const pendres_curve *t, int half, const pendres_continuation_miss *miss,
+static void turns_round(const pendres_curve *t, int half, const pendres_map_miss *miss,
                         pendres_curve_zero zeros[PENDRES_CURVE_ZEROS], size_t *count)
 {
   for (size_t i = 0; i < chords_of(t) && *count < PENDRES_CURVE_ZEROS; i++) {
@@ -169,27 +169,26 @@ pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_cur
                                          size_t *count)
 {
   const size_t n = t->nodes;
-  const pendres_continuation_map *map = &t->kind.system.map;
+  const pendres_map *map = &t->kind.system.map;
   pendres_status status = PENDRES_OK;
   *count = 0;
   if (!t->kind.apart || n < 2) return status;
   double(*u)[PENDRES_U_COUNT] = malloc(n * sizeof *u);
-  pendres_continuation_miss *miss = malloc(n * sizeof *miss);
+  pendres_map_miss *miss = malloc(n * sizeof *miss);
   int steps = 0;
   if (u == NULL || miss == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     int here = 0;
     memcpy(u[i], t->node[i].u, sizeof u[i]);
-    status = pendres_continuation_map_steps(ctx, map->force, u[i], t->kind.tolerance, &here);
+    status = pendres_map_steps(ctx, map->force, u[i], t->kind.tolerance, &here);
     if (here > steps) steps = here;
   }
   for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++) {
-    pendres_continuation_map half;
-    if ((t->kind.apart >> which & 1) == 0 || !pendres_continuation_map_half(map, which, &half))
+    pendres_map half;
+    if ((t->kind.apart >> which & 1) == 0 || !pendres_map_half(map, which, &half))
       continue;
-    status = pendres_continuation_map_closes(ctx, &half, steps, n,
-                                             (const double (*)[PENDRES_U_COUNT])u, miss);
+    status = pendres_map_closes(ctx, &half, steps, n, (const double (*)[PENDRES_U_COUNT])u, miss);
     if (status == PENDRES_OK) turns_round(t, which, miss, zeros, count);
   }
   free(u);
@@ -210,7 +209,7 @@ static pendres_status point_at(pendres_context *ctx, const pendres_curve *t,
   *out = part < 0.5 ? *a : *b;
   memcpy(c.tangent, out->tangent, sizeof c.tangent);
   for (int i = 0; i < PENDRES_U_COUNT; i++) c.u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
-  pendres_status status = pendres_continuation_map_steps(
+  pendres_status status = pendres_map_steps(
     ctx, t->kind.system.map.force, c.u, pendres_accuracy_first(ctx), &c.steps);
   if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, &c);
   *good = status == PENDRES_OK && !isnan(pendres_correction_rounding(&c));
@@ -258,8 +257,7 @@ static pendres_status descend(pendres_context *ctx, const pendres_curve *t,
       next = s[2] - s[1] > s[1] - s[0] ? 0.5 * (s[1] + s[2]) : 0.5 * (s[0] + s[1]);
     const int side = next < s[1] ? 0 : 1;
     pendres_curve_node here;
-    const pendres_status status =
-      point_at(ctx, t, &points[side], next, &here, &good);
+    const pendres_status status = point_at(ctx, t, &points[side], next, &here, &good);
     if (status != PENDRES_OK) return status;
     if (!good) break;
     const double value = test(&here);

@@ -33,8 +33,8 @@ void pendres_boundary_grow_free(pendres_boundary_curve *curve)
 /* ---- the local manifold ---- */
 
 /* Unit eigenvector of the map's derivative for an eigenvalue, and of its transpose. */
-static void eigenvectors(const pendres_continuation_image *image, double eigenvalue,
-                         double right[2], double left[2])
+static void eigenvectors(const pendres_image *image, double eigenvalue, double right[2],
+                         double left[2])
 {
   const double a = image->n[0][0] - eigenvalue, b = image->n[0][1];
   const double c = image->n[1][0], d = image->n[1][1] - eigenvalue;
@@ -47,20 +47,19 @@ static void eigenvectors(const pendres_continuation_image *image, double eigenva
 }
 
 /* l . D2P(e, e) by central differences of the monodromy over h. */
-static pendres_status second_derivative(pendres_context *ctx,
-                                        const pendres_continuation_system *closing,
+static pendres_status second_derivative(pendres_context *ctx, const pendres_system *closing,
                                         const double u[PENDRES_U_COUNT], const double e[2],
                                         const double l[2], double *out)
 {
   const double h = 1e-4;
   double points[2][PENDRES_U_COUNT], sum = 0.0;
-  pendres_continuation_image image[2];
+  pendres_image image[2];
   for (int i = 0; i < 2; i++) {
     memcpy(points[i], u, sizeof points[i]);
     points[i][PENDRES_U_Y] += (2 * i - 1) * h * e[0];
     points[i][PENDRES_U_W] += (2 * i - 1) * h * e[1];
   }
-  const pendres_status status = pendres_continuation_map_states(
+  const pendres_status status = pendres_map_states(
     ctx, &closing->map, closing->steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
   for (int i = 0; i < 2 && status == PENDRES_OK; i++)
     for (int k = 0; k < 2; k++)
@@ -74,15 +73,14 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
 {
   static const int unknown[] = {PENDRES_U_Y, PENDRES_U_W};
   double u[PENDRES_U_COUNT], stable[2], unstable[2], left[2], unused[2], second = 0.0;
-  pendres_continuation_equations at;
-  (void)pendres_continuation_map_of(saddle, 2, unknown, u);
+  pendres_equations at;
+  (void)pendres_map_of(saddle, 2, unknown, u);
   /* The map over the whole period, even where that over half of it would do. */
-  const pendres_continuation_map map = {
+  const pendres_map map = {
     .force = saddle->pendulum.force, .period = saddle->period, .winding = saddle->winding};
-  pendres_continuation_system closing =
-    pendres_continuation_system_of(&map, PENDRES_CONDITION_NONE, unknown);
+  pendres_system closing = pendres_system_of(&map, PENDRES_CONDITION_NONE, unknown);
   closing.steps = steps;
-  pendres_status status = pendres_continuation_equations_solve(ctx, &closing, 0.01, u, &at);
+  pendres_status status = pendres_equations_solve(ctx, &closing, 0.01, u, &at);
   if (status == PENDRES_NOT_CONVERGED)
     return pendres_context_fail(ctx, status, "the saddle is not an orbit at %d steps a period",
                                 steps);
@@ -412,8 +410,7 @@ static front front_of(const pendres_boundary_seed *seed, const pendres_boundary_
     return (front){.seed = seed, .options = o, .out_v = 2.0 * most,
                    .out_low = o->x_low - 0.5 * width, .out_high = o->x_high + 0.5 * width};
   }
-  const double push =
-    fabs(p->drive_amplitude) + fabs(p->torque) + fabs(p->parametric_amplitude);
+  const double push = fabs(p->drive_amplitude) + fabs(p->torque) + fabs(p->parametric_amplitude);
   const double speed = fmax(most, push / -p->damping);
   return (front){.seed = seed, .options = o, .out_v = sqrt(speed * speed + 4.0),
                  .out_low = -INFINITY, .out_high = INFINITY};
