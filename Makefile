@@ -19,6 +19,7 @@
 #   make doc        reference manual from the public headers, with doxygen
 #   make man        man/resonance.1 anew, with help2man: for a release, and when options change
 #   make decks-reference   docs/decks.md anew, from the table of keys
+#   make interface-list    tests/interface.txt anew, the functions, values and structs that are public
 #   make figures    run every deck and draw every picture, into build/figures; some minutes
 #   make gallery    the small pictures of docs/gallery.md anew, from those runs
 #   make style      where lines or files are too long
@@ -200,7 +201,8 @@ BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 FUZZ_SECONDS ?= 60
 
 .PHONY: all accuracy check check-run fuzz bench bench-baseline install uninstall deps deps-mpi \
-        deps-fuzz deps-plots deps-python doc decks-reference style figures gallery clean \
+        deps-fuzz deps-plots deps-python doc decks-reference interface-list style figures gallery \
+        clean \
         help sdist wheel FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
@@ -452,6 +454,9 @@ man: $(PROGRAM)
 
 decks-reference: $(PROGRAM)
 	@./$(PROGRAM) --reference >docs/decks.md.new && mv docs/decks.md.new docs/decks.md
+
+interface-list:
+	@$${PYTHON:-/usr/bin/python3} -B tests/interface_list.py '$(CC)' include >tests/interface.txt
 
 # Every deck that computes a figure, and its picture, into build/figures. The shell makes the names:
 # those of make end at a blank.

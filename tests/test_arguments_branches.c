@@ -20,7 +20,8 @@ static void branches(void **state)
   const pendres_branch *known = pendres_branches_get(f->branches, 0);
   const pendres_branch_options options = {
     .parameter = PENDRES_DRIVE_FREQUENCY, .low = 0.78, .high = 0.79 };
-  pendres_branch_options bad[] = { options, options, options, options, options, options, options };
+  pendres_branch_options bad[] = { options, options, options, options, options, options, options,
+                                   options };
   assert_non_null(known);
   bad[0].parameter = PENDRES_PARAMETER_COUNT;
   bad[1].parameter = (pendres_parameter)-1;
@@ -29,6 +30,7 @@ static void branches(void **state)
   bad[4].low = 0.79, bad[4].high = 0.78;
   bad[5].spacing = NAN;
   bad[6].wildest = NAN;
+  bad[7].size = sizeof options + 1; /* of a later version */
   REFUSED(pendres_fold_find(f->ctx, NULL, PENDRES_DRIVE_FREQUENCY, &fold));
   REFUSED(pendres_fold_find(f->ctx, &f->orbit, PENDRES_DRIVE_FREQUENCY, NULL));
   REFUSED(pendres_fold_find(f->ctx, NULL, PENDRES_DAMPING, &fold));
@@ -125,7 +127,7 @@ static void exponents(void **state)
   fixture *f = *state;
   f->wrong = 0;
   const double zero = 0.0;
-  const pendres_lyapunov_options bad[] = { { .transient = -1 }, { .periods = -1 },
+  const pendres_lyapunov_options bad[] = { { .size = 4 }, { .transient = -1 }, { .periods = -1 },
                                            { .transient = LONG_MAX }, { .periods = LONG_MAX } };
   pendres_pendulum undamped = good;
   pendres_lyapunov l;

@@ -92,6 +92,16 @@ static void bad_options(void **state)
   assert_non_null(strstr(pendres_context_message(NULL), "pendres_options_check"));
 }
 
+/* Options say how large they are, or nothing; those of another version are refused. */
+static void sizes(void **state)
+{
+  (void)state;
+  assert_null(pendres_options_check(&(pendres_options){.size = 0}));
+  assert_null(pendres_options_check(&(pendres_options){.size = sizeof(pendres_options)}));
+  assert_non_null(pendres_options_check(&(pendres_options){.size = sizeof(pendres_options) + 8}));
+  assert_non_null(pendres_options_check(&(pendres_options){.size = 8}));
+}
+
 static void names(void **state)
 {
   static const char *const methods[] = {"block_fixed", "block_adaptive", "single",
@@ -191,7 +201,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(defaults),    cmocka_unit_test(options_are_copied),
-    cmocka_unit_test(bad_options), cmocka_unit_test(names),
+    cmocka_unit_test(bad_options), cmocka_unit_test(sizes), cmocka_unit_test(names),
     cmocka_unit_test(costs_are_counted),
     cmocka_unit_test(costs_do_not_depend_on_the_past), cmocka_unit_test(interrupted),
   };

@@ -20,6 +20,8 @@
 #ifndef PENDRES_BOUNDARY_H
 #define PENDRES_BOUNDARY_H
 
+#include <stddef.h>
+
 #include <pendres/context.h>
 #include <pendres/orbit.h>
 
@@ -30,6 +32,7 @@ extern "C" {
 
 /** Options. Zero in a field means the default. */
 typedef struct pendres_boundary_options {
+  size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
   double x_low;         /**< window in which points are kept, rad; where x_low and x_high are 0: one
                              turn around well 0, of a polynomial pi times its unit of length
                              (pendres_units_of) to both sides of 0 */

@@ -60,6 +60,7 @@ typedef enum pendres_table {
 
 /** What a caller may choose. Zero in any field means the default. */
 typedef struct pendres_options {
+  size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
   double tolerance;     /**< absolute tolerance of the results: a length, like x; that of areas,
                              velocities and others follows with the pendulum's units
                              (pendres_units_of). At least 1e-13 of the unit of length, otherwise

@@ -25,6 +25,8 @@
 #ifndef PENDRES_CONTINUATION_H
 #define PENDRES_CONTINUATION_H
 
+#include <stddef.h>
+
 #include <pendres/context.h>
 #include <pendres/orbit.h>
 #include <pendres/parameter.h>
@@ -103,6 +105,7 @@ pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near
 
 /** Along which parameter, how far and how finely. Zero in a field of the last three: default. */
 typedef struct pendres_branch_options {
+  size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
   pendres_parameter parameter; /**< what changes along the branch */
   double low;           /**< lowest value of the parameter to which the branch is followed */
   double high;          /**< highest value */
@@ -253,6 +256,7 @@ typedef struct pendres_cusp {
 
 /** How far and how finely. Zero in one of the last three: default. */
 typedef struct pendres_curve_options {
+  size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
   pendres_parameter second;      /**< beside the one that the start was found in */
   double low[2];                 /**< lowest values of the start's parameter and of the second */
   double high[2];                /**< highest values: the curve is followed while both lie within */

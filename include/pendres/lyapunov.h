@@ -16,6 +16,8 @@
 #ifndef PENDRES_LYAPUNOV_H
 #define PENDRES_LYAPUNOV_H
 
+#include <stddef.h>
+
 #include <pendres/attractor.h>
 
 #ifdef __cplusplus
@@ -25,6 +27,7 @@ extern "C" {
 
 /** Lengths of the computation. Zero in a field: its default. */
 typedef struct pendres_lyapunov_options {
+  size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
   long transient; /**< drive periods, at most, until an orbit is reached, and before averages are
                        taken; default 200, and more where damping is weak */
   long periods;   /**< drive periods of an average, rounded up to a multiple of 16; default 512,

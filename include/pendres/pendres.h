@@ -2,16 +2,17 @@
  * @file pendres.h
  * @brief Umbrella header of libpendres: everything public.
  *
- * How the interface grows. What a program keeps in its own memory (pendres_orbit,
- * pendres_resonance and all other structs that are not opaque) has a size that was compiled into
- * it. Within one soname (libpendres.so.N) these structs therefore keep their size, and their
- * fields their places; only functions come, and values at the ends of enums, before the one that
- * counts them. A release in which a struct has to grow gets a new soname, and a new node in
- * pendres.map, so that a program which was linked before goes on with the library that it knows,
- * beside the new one. Fields are then appended, so that a program's source stays as it is:
- * compiled anew, it finds zero in fields that it does not set, which means what was so before.
- * Until the first release nothing of this binds. abidiff compares two versions, see
- * CONTRIBUTING.md.
+ * How the interface lasts. Within one soname (libpendres.so.1) a program that was linked goes on
+ * with every later library. Functions keep their names, arguments and meaning; values of enums keep
+ * their numbers. What a program keeps in its own memory (pendres_orbit, pendres_resonance and all
+ * other structs that are not opaque) has a size that was compiled into it, and keeps it. Three
+ * things come: functions; values at the ends of enums, before the one that counts them; and fields
+ * at the ends of options. Structs called options begin with their size for that: a program that
+ * sets it to sizeof the struct may use all fields that its headers have, and one that leaves it 0
+ * those of version 1.0. Fields are zero by default, and zero means what was so before. Structs that
+ * the library itself makes and hands out by pointers may grow at their ends, too.
+ *
+ * docs/interface.md lists all functions by what one asks, and tells how one is replaced by another.
  */
 #ifndef PENDRES_PENDRES_H
 #define PENDRES_PENDRES_H

@@ -103,6 +103,7 @@ typedef struct pendres_phase_point {
 
 /** How the points of a line are computed. */
 typedef struct pendres_phase_options {
+  size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
   pendres_ensemble ensemble;   /**< whose members settle at every point */
   pendres_parameter parameter; /**< what changes along a line: PENDRES_DRIVE_FREQUENCY or
                                     PENDRES_DRIVE_AMPLITUDE */
@@ -115,12 +116,13 @@ typedef struct pendres_phase_options {
 /** The points of a diagram. A point has the number line * values + place on the line. */
 typedef struct pendres_phase_grid {
   pendres_pendulum pendulum;    /**< the parameters that all points share */
-  pendres_phase_options options; /**< for all lines; its parameter changes along each */
   size_t values;                /**< points of a line */
   const double *value;          /**< [values] of the parameter along a line, ascending; not owned */
   pendres_parameter across;     /**< what changes from line to line: another parameter */
   size_t lines;                 /**< how many lines */
   const double *line_value;     /**< [lines] of the parameter across, ascending; not owned */
+  pendres_phase_options options; /**< for all lines; its parameter changes along each. Last, since
+                                      it may grow */
 } pendres_phase_grid;
 
 /** Opaque: the points of a grid, the branches of its lines, and the curves of bifurcations. */

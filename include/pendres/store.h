@@ -76,6 +76,7 @@ typedef enum pendres_store_type {
  *  to run (hosts, times taken) belongs into the provenance, so that the rest is equal for equal
  *  results. */
 typedef struct pendres_store_options {
+  size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
   const char *title;      /**< what the file holds, in a line (CF conventions, 2.6.2) */
   const char *history;    /**< what was done to the data, and when */
   const char *source;     /**< how the data were made: the program and its version */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/grow.h"
+#include "base/sized.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
@@ -137,6 +138,7 @@ static pendres_status finish(pendres_context *ctx, pendres_curve *c)
 
 static const char *check(const pendres_bifurcation *start, const pendres_curve_options *o)
 {
+  if (PENDRES_SIZED_REFUSES(o) != NULL) return PENDRES_SIZED_REFUSES(o);
   for (int i = 0; i < 2; i++)
     if (!(o->low[i] < o->high[i] && isfinite(o->low[i]) && isfinite(o->high[i])))
       return "a parameter's range is empty";

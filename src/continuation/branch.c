@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/grow.h"
+#include "base/sized.h"
 #include "continuation/crossing.h"
 #include "continuation/curve.h"
 #include "continuation/parameter.h"
@@ -250,6 +251,7 @@ static pendres_status finish(pendres_context *ctx, pendres_curve *c)
 const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
                                    const pendres_orbit *starts)
 {
+  if (PENDRES_SIZED_REFUSES(o) != NULL) return PENDRES_SIZED_REFUSES(o);
   if ((unsigned)o->parameter >= PENDRES_PARAMETER_FOLLOWED) return "unknown parameter";
   if (!(o->low < o->high && isfinite(o->low) && isfinite(o->high)))
     return "the range of the parameter is empty";

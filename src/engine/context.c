@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "engine/accuracy.h"
 #include "engine/compat.h"
 #include "engine/flow.h"
@@ -18,6 +19,7 @@ enum { DEFAULT_LANES = 512, MOST_LANES = 4096 };
 /* NULL if the options are valid, otherwise what is wrong. */
 static const char *resolve(pendres_options *o)
 {
+  if (PENDRES_SIZED_REFUSES(o) != NULL) return PENDRES_SIZED_REFUSES(o);
   if (o->tolerance == 0.0) o->tolerance = PENDRES_ACCURACY_DEFAULT;
   if (!(o->tolerance > 0.0 && isfinite(o->tolerance)))
     return "the tolerance must be above 0 and finite";

@@ -8,6 +8,7 @@
  * Source of the layout: CF Conventions 1.8; HDF5 Dimension Scale specification 1.0.
  */
 #include "store/internal.h"
+#include "base/sized.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -204,6 +205,11 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
   if (!path || !*path) {
     status = store->failed =
       pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "a store needs the path of its file");
+    goto leave;
+  }
+  if (options && PENDRES_SIZED_REFUSES(options)) {
+    status = store->failed = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "%s",
+                                                PENDRES_SIZED_REFUSES(options));
     goto leave;
   }
   status = pendres_store_file_create(&store->file, path, options && options->alone);

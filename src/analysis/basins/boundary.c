@@ -10,6 +10,7 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "analysis/basins/boundary_grow.h"
+#include "base/sized.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
@@ -46,6 +47,7 @@ void pendres_boundary_free(pendres_boundary *b)
 
 static const char *resolve(const pendres_pendulum *p, pendres_boundary_options *o)
 {
+  if (PENDRES_SIZED_REFUSES(o) != NULL) return PENDRES_SIZED_REFUSES(o);
   if (o->x_low == 0.0 && o->x_high == 0.0) {
     o->x_low = pendres_model_origin(p) - pi;
     o->x_high = pendres_model_origin(p) + pi;

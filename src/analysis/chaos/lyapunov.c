@@ -11,6 +11,7 @@
 #include "orbits/attractor_set.h"
 #include "analysis/chaos/lyapunov_certain.h"
 #include "analysis/chaos/lyapunov_move.h"
+#include "base/sized.h"
 
 enum {
   PERIODS = 512,     /* of a first average, unless the caller says so */
@@ -58,6 +59,8 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
   const pendres_lyapunov_options *o = options != NULL ? options : &defaults;
   if (n > 0 && (p == NULL || x == NULL || v == NULL || out == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, x, v and out");
+  if (PENDRES_SIZED_REFUSES(o) != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", PENDRES_SIZED_REFUSES(o));
   if (o->transient < 0 || o->periods < 0 || o->transient > LONG_MAX / 64 ||
       o->periods > LONG_MAX / 64)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,

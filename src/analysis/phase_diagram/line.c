@@ -9,6 +9,7 @@
 #include "analysis/phase_diagram/door.h"
 #include "model/model.h"
 #include "analysis/resonance/response_members.h"
+#include "base/sized.h"
 #include "continuation/parameter.h"
 #include "continuation/sets.h"
 #include "orbits/label.h"
@@ -158,6 +159,7 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
 {
   const pendres_ensemble *e = &o->ensemble;
   const char *why = NULL;
+  if (PENDRES_SIZED_REFUSES(o) != NULL) return PENDRES_SIZED_REFUSES(o);
   if (!(o->spacing >= 0.0)) return "the spacing must not be negative";
   if ((unsigned)o->parameter >= PENDRES_PARAMETER_FOLLOWED) return "unknown parameter";
   if (pendres_ensemble_check(e, &why) != PENDRES_OK) return why;

@@ -8,6 +8,7 @@
 #include "engine/context_internal.h"
 #include "model/parameter.h"
 #include "analysis/phase_diagram/line.h"
+#include "base/sized.h"
 
 /* ---- diagrams and marks ---- */
 
@@ -22,6 +23,7 @@ static int ascends(size_t n, const double *value)
    computed. */
 static const char *refused(const pendres_phase_grid *g)
 {
+  if (PENDRES_SIZED_REFUSES(&g->options) != NULL) return PENDRES_SIZED_REFUSES(&g->options);
   const pendres_parameter along = g->options.parameter;
   if (pendres_parameter_refuses(along, g->pendulum.force) != NULL)
     return "lines go along a parameter";
