@@ -88,7 +88,7 @@ static void errors_of_small_orbits_are_small(void **state)
   pendres_status outcome;
   pendres_branch *b = NULL;
   (void)state;
-  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
   assert_int_equal(outcome, PENDRES_OK);
   check_ok(pendres_branch_follow(ctx, &start, &options, &b));
   assert_true(pendres_branch_count(b) > 10);
