@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A line for each scene_NAME.c. */
+/* A line for each kind. */
 #define SCENES(X)          \
   X(free_oscillation)      \
   X(resonance_curve)       \

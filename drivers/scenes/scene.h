@@ -1,10 +1,10 @@
 /*
  * scene.h -- a scene: a list of pendulums and a question about them.
  *
- * Owns: the face that every scene shows to the driver. One file a kind: scene_NAME.c, which
- * defines `const scene_kind scene_NAME` and is listed in scene.c. A scene takes a checked deck,
- * hands tasks to the farm, and defines and writes its results; it never reads text, prints
- * progress or handles signals.
+ * Owns: the face that every scene shows to the driver, and how a run goes on until something fails.
+ * One file a kind: NAME.c, which defines `const scene_kind scene_NAME` and is listed in scene.c. A
+ * scene takes a checked deck, computes points (points.h), and defines and writes its results; it
+ * never reads text, prints progress or handles signals.
  */
 #ifndef SCENE_H
 #define SCENE_H
