@@ -4,6 +4,7 @@
  */
 #include "scene_fixture.h"
 
+#include "scenes/columns.h"
 #include "scenes/failed.h"
 
 /* Codes of a variable. */
@@ -58,6 +59,38 @@ static void reasons_of_statuses(void **state)
   assert_int_equal(f.reason[1], SCENE_FAILURE_NOT_FOUND);
   assert_string_equal(f.words[1], "nothing there");
   scene_end(&run);
+}
+
+static const char *colours(int value)
+{
+  static const char *const names[] = { "red", "green", "blue" };
+  return value >= 0 && value < 3 ? names[value] : NULL;
+}
+
+/* The codes of a row from elsewhere are those that its columns name; a blank row is NaN where it
+   has doubles, and stays as it is elsewhere. */
+static void rows_from_elsewhere(void **state)
+{
+  static const int8_t bits[] = { 0, 1, 4 };
+  typedef struct row {
+    double x, x_error;
+    int colour, sum, yes;
+  } row;
+  static const scene_column columns[] = {
+    SCENE_COLUMN(row, x, "x", "1"), SCENE_CODE(row, colour, "colour", colours),
+    { .name = "sum", .type = SCENE_FLAG, .value = offsetof(row, sum), .names = colours,
+      .codes = bits },
+    { .name = "yes", .type = SCENE_FLAG, .value = offsetof(row, yes) } };
+  static const struct { row row; int fits; } rows[] = {
+    { { NAN, 0.0, 2, 5, 1 }, 1 }, { { 0.0, 0.0, 3, 0, 0 }, 0 }, { { 0.0, 0.0, -1, 0, 0 }, 0 },
+    { { 0.0, 0.0, 0, 2, 0 }, 0 }, { { 0.0, 0.0, 0, 0, 2 }, 0 } };
+  (void)state;
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+    assert_int_equal(scene_columns_fit(4, columns, &rows[i].row), rows[i].fits);
+  row blank = { 1.0, 2.0, 2, 5, 1 };
+  scene_columns_blank(4, columns, &blank);
+  assert_true(isnan(blank.x) && isnan(blank.x_error));
+  assert_true(blank.colour == 2 && blank.sum == 5 && blank.yes == 1);
 }
 
 /* Steps go with one over a weak damping, and with the square of a strong one. */
@@ -223,6 +256,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(reasons_of_statuses),
+    cmocka_unit_test(rows_from_elsewhere),
     cmocka_unit_test(what_takes_too_long),
     cmocka_unit_test(response_keeps_the_others),
     cmocka_unit_test(lines_keep_the_others),

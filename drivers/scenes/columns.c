@@ -50,25 +50,27 @@ static int meanings_of(scene_names names, const char *meanings[MOST_NAMES])
   return n;
 }
 
-/* All codes that a column can have: their number or, of sums of bits, the sum of all. */
-static int most_of(const scene_column *c)
+/* Is it one of the codes that a column names or, of sums of bits, made of these? */
+static int is_code(const scene_column *c, int code)
 {
   const char *unused[MOST_NAMES];
-  int n = c->names != NULL ? meanings_of(c->names, unused) : 2, sum = 0;
-  if (c->codes == NULL) return n - 1;
-  while (n-- > 0) sum |= c->codes[n];
-  return sum;
+  const int n = c->names != NULL ? meanings_of(c->names, unused) : 2;
+  int all = 0;
+  if (c->codes == NULL) return code >= 0 && code < n;
+  for (int k = 0; k < n; k++) all |= c->codes[k];
+  return (code & ~all) == 0;
 }
 
 int scene_columns_fit(size_t count, const scene_column *columns, const void *row)
 {
-  for (size_t k = 0; k < count; k++) {
+  int good = 1;
+  for (size_t k = 0; good && k < count; k++) {
     int code = 0;
     if (columns[k].type != SCENE_FLAG) continue;
     memcpy(&code, (const char *)row + columns[k].value, sizeof code);
-    if (code < 0 || code > most_of(&columns[k])) return 0;
+    good = is_code(&columns[k], code);
   }
-  return 1;
+  return good;
 }
 
 static int is_real(scene_column_type type)
