@@ -46,8 +46,7 @@ version_part = $(shell sed -n 's/^.define PENDRES_VERSION_$(1) //p' $(VERSION_H)
 MAJOR := $(call version_part,MAJOR)
 MINOR := $(call version_part,MINOR)
 VERSION := $(MAJOR).$(MINOR).$(call version_part,PATCH)
-# Before 1.0 a minor version may change the interface: each has a name of its own.
-SOVERSION := $(if $(filter 0,$(MAJOR)),0.$(MINOR),$(MAJOR))
+SOVERSION := $(MAJOR)
 
 # ---- What a user may set ---------------------------------------------------------------------
 

@@ -28,7 +28,7 @@ top=$PWD
 stage="$scratch/the stage" # whose name the shell must not take apart
 # The variables of an outer command line come along in MAKEFLAGS; these are the later ones.
 quiet $MAKE install DESTDIR="$stage" PREFIX=/opt/pendres LDCONFIG=:
-for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.0.1 lib/pkgconfig/pendres.pc \
+for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.1 lib/pkgconfig/pendres.pc \
   lib/cmake/pendres/pendres-config.cmake lib/cmake/pendres/pendres-config-version.cmake \
   include/pendres/pendres.h share/man/man1/resonance.1 share/man/man3/pendres.3 \
   share/pendres/input/f02.nml share/pendres/plots/plot.py share/pendres/docs/decks.md \
@@ -112,7 +112,7 @@ cd "$scratch" || exit 1
 strict="-std=c11 -Wall -Wextra -Wpedantic -Werror"
 quiet $CC $strict stranger.c $($PKG_CONFIG --cflags --libs pendres) -o shared
 quiet ./shared
-readelf -d shared | grep -q 'NEEDED.*\[libpendres\.so\.0\.1\]' || fail "shared: no soname"
+readelf -d shared | grep -q 'NEEDED.*\[libpendres\.so\.1\]' || fail "shared: no soname"
 for other in hdf5 sundials gsl; do
   readelf -d shared | grep -q "NEEDED.*$other" && fail "shared: must not name $other itself"
 done
@@ -159,7 +159,7 @@ if command -v cmake >/dev/null; then
   mkdir cmake
   echo 'cmake_minimum_required(VERSION 3.13)
 project(stranger C)
-find_package(pendres 0.1 REQUIRED)
+find_package(pendres 1.0 REQUIRED)
 add_executable(shared ../stranger.c)
 target_link_libraries(shared PRIVATE pendres::pendres)
 add_executable(static ../stranger.c)
@@ -171,7 +171,7 @@ endif()' >cmake/CMakeLists.txt
   quiet cmake -S cmake -B cmake/build -DCMAKE_C_COMPILER="$CC" -DCMAKE_PREFIX_PATH="$prefix"
   quiet cmake --build cmake/build
   (unset LD_LIBRARY_PATH && quiet cmake/build/shared && quiet cmake/build/static) || exit 1
-  readelf -d cmake/build/shared | grep -q 'NEEDED.*\[libpendres\.so\.0\.1\]' ||
+  readelf -d cmake/build/shared | grep -q 'NEEDED.*\[libpendres\.so\.1\]' ||
     fail "CMake: pendres::pendres is not the shared library"
   readelf -d cmake/build/static | grep -q 'NEEDED.*pendres' &&
     fail "CMake: pendres::static still wants the shared library"

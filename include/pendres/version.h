@@ -11,13 +11,13 @@ extern "C" {
 #endif
 
 /** Grows when the interface breaks; the number in the soname. See pendres.h. */
-#define PENDRES_VERSION_MAJOR 0
-/** Grows when something is added; before 1.0, also when the interface breaks. */
-#define PENDRES_VERSION_MINOR 1
+#define PENDRES_VERSION_MAJOR 1
+/** Grows when something is added. */
+#define PENDRES_VERSION_MINOR 0
 /** Grows when something is mended and nothing is added. */
 #define PENDRES_VERSION_PATCH 0
 /** Version of the headers, "MAJOR.MINOR.PATCH". */
-#define PENDRES_VERSION "0.1.0"
+#define PENDRES_VERSION "1.0.0"
 
 /** Version of the library that was linked, "MAJOR.MINOR.PATCH". Static string. */
 const char *pendres_version(void);

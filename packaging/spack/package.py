@@ -1,5 +1,5 @@
 # Spack recipe: put this folder as packages/pendres into a repository of your own
-# (`spack repo create`), then `spack dev-build -d FOLDER pendres@0.1.0` builds what is in FOLDER, the
+# (`spack repo create`), then `spack dev-build -d FOLDER pendres@1.0.0` builds what is in FOLDER, the
 # source tree.
 from spack.package import *
 
@@ -12,10 +12,10 @@ except ImportError:
 class Pendres(MakefilePackage):
     """Resonance of driven, damped and noisy pendulums: a C library and a batch program."""
 
-    url = "https://localhost/pendres-0.1.0.tar.gz"
+    url = "https://localhost/pendres-1.0.0.tar.gz"
     license("GPL-3.0-or-later")
 
-    version("0.1.0")
+    version("1.0.0")
 
     depends_on("c", type="build")
     depends_on("pkgconfig", type="build")

@@ -45,8 +45,7 @@ def headers():
 
 def _candidates(constants):
     """Where the library may be, the likeliest first."""
-    major, minor = constants["PENDRES_VERSION_MAJOR"], constants["PENDRES_VERSION_MINOR"]
-    name = f"libpendres.so.{major if major else f'0.{minor}'}"  # as the Makefile's SOVERSION
+    name = f"libpendres.so.{constants['PENDRES_VERSION_MAJOR']}"
     yield os.environ.get("PENDRES_LIBRARY")
     if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
         yield os.path.join(TREE, "build", "libpendres.so")
