@@ -108,8 +108,8 @@ static void work_that_is_counted(void **state)
   pendres_search_budget budget = pendres_search_budget_of(ctx, 9.0);
   pendres_search *const one = &s;
   check_ok(pendres_search_create(&budget, &p, &twelve, &s));
-  s.wishes = 1;
-  s.wish[0] = omega;
+  s.requests = 1;
+  s.request[0] = omega;
   check_ok(pendres_search_add(1, &one));
   const double slopes = pendres_context_slopes(ctx);
   pendres_cost cost;
