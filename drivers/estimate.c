@@ -7,7 +7,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include "scenes/scene.h"
+#include "terminal/safe_text.h"
+#include "together.h"
 
 /* What every run has in memory, and what a thread adds. */
 static const double program_memory = 19e6, thread_memory = 9e6;
@@ -131,7 +132,8 @@ static void print_time(const deck *d, const farm_trial *t, double outside, int t
   print_basis(t, seconds > seen, out);
 }
 
-void estimate_print(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)
+static void print_estimate(const deck *d, const farm_trial *t, double outside, int threads,
+                           FILE *out)
 {
   print_time(d, t, outside, threads, out);
   if (t->cost.settled_pendulums > 0.0)
@@ -165,7 +167,7 @@ static double space_beside(const char *path)
   return (double)info.f_bavail * (double)info.f_frsize;
 }
 
-void estimate_print_space(const char *path, FILE *out)
+static void print_space(const char *path, FILE *out)
 {
   const double space = space_beside(path);
   if (isnan(space)) return;
@@ -192,4 +194,49 @@ int estimate_fits(const deck *d, const farm *f, progress *p)
   progress_error(p, "the run will take about %.2g GB of memory, and this machine has %.2g GB",
                  1e-9 * memory, 1e-9 * memory_there());
   return 0;
+}
+
+/* ---- --dry-run ----------------------------------------------------------------------------- */
+
+/* Processor seconds: no new task is begun after the first, and after the second nothing goes on. */
+static const double few_seconds = 1.0, most_seconds = 5.0;
+
+/* Costs of tasks differ by ten and more: a mean of two would not do. */
+enum { least_tasks = 6 };
+
+static void print_line(const char *name, const char *text)
+{
+  printf("%-9s ", name);
+  safe_text_write(stdout, text);
+  putchar('\n');
+}
+
+static void print_description(const scene_run *run, const scene_kind *scene)
+{
+  const deck *d = run->deck;
+  print_line("deck", d->name);
+  if (d->title[0] != '\0') print_line("title", d->title);
+  print_line("scene", deck_kind_name(d->kind));
+  print_line("output", d->output);
+  printf("tolerance %g\n", d->precision.tolerance);
+  printf("threads   %d\n\n", farm_threads(run->farm));
+  scene->describe(d, stdout);
+}
+
+void estimate_dry_run(scene_run *run, const scene_kind *scene)
+{
+  char path[DECK_PATH];
+  farm_trial trial = { .few = few_seconds, .most = most_seconds, .least = least_tasks };
+  print_description(run, scene);
+  (void)fflush(stdout);
+  together_output(path, sizeof path);
+  if (pendres_store_create(path, NULL, &run->store) != PENDRES_OK) return;
+  farm_set_trial(run->farm, &trial);
+  const pendres_status status = scene->run(run);
+  if (status != PENDRES_OK && trial.what == NULL && trial.spent > 0.0) return; /* it fails early */
+  /* Interrupted before there were tasks, or between them. */
+  if (status == PENDRES_INTERRUPTED && trial.what == NULL) trial.cut = 1;
+  putchar('\n');
+  print_estimate(run->deck, &trial, farm_trial_outside(&trial), farm_threads(run->farm), stdout);
+  print_space(run->deck->output, stdout);
 }

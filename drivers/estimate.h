@@ -12,17 +12,12 @@
 #ifndef ESTIMATE_H
 #define ESTIMATE_H
 
-#include <stdio.h>
+#include "scenes/scene.h"
 
-#include "deck/deck.h"
-#include "farm/trial.h"
-#include "terminal/progress.h"
-
-/* What a trial has shown of a deck, in lines. `threads` of the run to come. */
-void estimate_print(const deck *d, const farm_trial *t, double outside, int threads, FILE *out);
-
-/* A line on free space in the folder of `path`. */
-void estimate_print_space(const char *path, FILE *out);
+/* Print on standard output what a deck would compute, and what that would take: a little of it is
+   computed, into a file in TMPDIR. run->deck and run->farm are set; the file, in run->store, is the
+   caller's to free. Where nothing can be tried the time is left out. */
+void estimate_dry_run(scene_run *run, const scene_kind *scene);
 
 /* Warn if the output will not fit on the disk; the run continues, since this is only an estimate.
    0, after an error message, if the machine has less memory than the rules say that the run needs;

@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "csv.h"
-#include "dry_run.h"
 #include "ending.h"
 #include "estimate.h"
 #include "farm/ranks.h"
@@ -187,7 +186,7 @@ static int look_ahead(job *j)
   const int code = files_writable(&j->deck, &j->progress);
   if (code != DONE || watch(j) != DONE || !estimate_fits(&j->deck, j->farm, &j->progress))
     return FAILED;
-  dry_run(&j->run, j->scene);
+  estimate_dry_run(&j->run, j->scene);
   return signals_stop(NULL) ? STOPPED : check_stdout(j);
 }
 
