@@ -46,7 +46,7 @@ typedef struct item {
 static pendres_pendulum model(accuracy_random *r)
 {
   pendres_pendulum p = {.damping = accuracy_logarithmic(r, 0.05, 0.3),
-                        .drive_amplitude = accuracy_uniform(r, 0.1, 0.5),
+                        .drive_amplitude = accuracy_uniform(r, 0.05, 0.25),
                         .drive_frequency = accuracy_uniform(r, 0.5, 1.0)};
   const int which = accuracy_choice(r, 4);
   if (which < 2) return p;
@@ -80,7 +80,7 @@ static int plain(const pendres_hysteresis *h, size_t k)
 /* A sweep finds an end; the ramp goes from before it to behind it. */
 static void lay(accuracy_random *r, pendres_context *ctx, item *t)
 {
-  static const double range[][2] = {{0.5, 1.3}, {0.05, 0.3}, {0.05, 0.6}, {-0.4, 0.4}};
+  static const double range[][2] = {{0.5, 1.3}, {0.05, 0.3}, {0.05, 0.3}, {-0.4, 0.4}};
   const pendres_pendulum p = model(r);
   const pendres_parameter parameter = (pendres_parameter)accuracy_choice(r, PENDRES_TORQUE + 1);
   const pendres_state start = {accuracy_uniform(r, -1.0, 2.0), 0.0};
