@@ -46,7 +46,7 @@ typedef struct item {
 static pendres_pendulum model(accuracy_random *r)
 {
   pendres_pendulum p = {.damping = accuracy_logarithmic(r, 0.05, 0.3),
-                        .drive_amplitude = accuracy_uniform(r, 0.05, 0.25),
+                        .drive_amplitude = accuracy_uniform(r, 0.1, 0.3),
                         .drive_frequency = accuracy_uniform(r, 0.5, 1.0)};
   const int which = accuracy_choice(r, 4);
   if (which < 2) return p;
@@ -248,14 +248,16 @@ static void note(accuracy *a, const void *of, long number, void *counts)
   if (!isnan(t->own) && !isnan(t->jump.value))
     accuracy_note(a, "where it leaves", t->jump.value, t->jump.value_error + read * t->window,
                   t->own, how);
+  if (n->count == NOISY && o->count == NOISY) {
+    accuracy_note(a, "mean with noise, 4 sigma", n->mean,
+                  t->window + sigmas * hypot(n->mean_error, o->mean_error), o->mean, how);
+    accuracy_note(a, "deviation, 4 sigma", n->deviation,
+                  t->window + sigmas * hypot(n->deviation_error, o->deviation_error),
+                  o->deviation, how);
+    return;
+  }
   accuracy_note(a, "share that leaves, 4 sigma", (double)n->count / NOISY,
                 sigmas * sqrt(0.5 / NOISY), (double)o->count / NOISY, how);
-  if (n->count < NOISY || o->count < NOISY) return;
-  accuracy_note(a, "mean with noise, 4 sigma", n->mean,
-                t->window + sigmas * hypot(n->mean_error, o->mean_error), o->mean, how);
-  accuracy_note(a, "deviation, 4 sigma", n->deviation,
-                t->window + sigmas * hypot(n->deviation_error, o->deviation_error), o->deviation,
-                how);
 }
 
 void accuracy_ramps(accuracy *a)
