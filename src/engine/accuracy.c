@@ -39,7 +39,7 @@ double pendres_accuracy_to_average(const pendres_context *ctx)
   return fmax(1e-7, ctx->options.tolerance);
 }
 
-double pendres_accuracy_of_circles(const pendres_context *ctx)
+double pendres_accuracy_of_means(const pendres_context *ctx)
 {
   return fmax(1e-11, ctx->options.tolerance);
 }

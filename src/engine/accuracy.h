@@ -46,8 +46,8 @@ double pendres_accuracy_to_sample(void);
    the errors of single trajectories (chaos_replicas.c). */
 double pendres_accuracy_to_average(const pendres_context *ctx);
 
-/* For the map on an invariant circle, which is interpolated: averages over it are as exact. */
-double pendres_accuracy_of_circles(const pendres_context *ctx);
+/* For means over rotations that are not locked to the drive, which are averaged twice. */
+double pendres_accuracy_of_means(const pendres_context *ctx);
 
 /* For noisy trajectories, whose scatter hides errors far larger than rounding. */
 double pendres_accuracy_with_noise(const pendres_context *ctx);

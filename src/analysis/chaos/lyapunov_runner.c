@@ -29,8 +29,8 @@ typedef pendres_runner runner;
 /* One block's averages. */
 typedef struct average_job {
   pendres_block *block;
-  long batch;    /* periods */
-  int neighbour; /* beside each runner */
+  long batch; /* periods */
+  pendres_runner_beside beside;
 } average_job;
 
 /* ---- coming back --------------------------------------------------------------------------- */
@@ -116,7 +116,7 @@ static void put(const average_job *a, size_t lane, const runner *r)
 {
   const pendres_strobe_lane *l = &r->lane;
   pendres_block_put_state(a->block, lane, l->y, l->w);
-  if (a->neighbour)
+  if (a->beside == PENDRES_BESIDE_NEIGHBOUR)
     pendres_block_put_state(a->block, lane + 1, l->y + apart * r->u[0][0],
                             l->w + apart * r->u[0][1]);
 }
@@ -125,42 +125,41 @@ static void load(const average_job *a, size_t lane, runner *r)
 {
   for (int b = 0; b < BATCHES; b++)
     r->growth[0][b] = r->growth[1][b] = r->turned[b] = r->square[b] = 0.0;
-  r->smooth = (pendres_smooth){.length = 0.0};
+  r->turns = r->squares = (pendres_mean){.sum = {0.0}};
   pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
-  if (a->neighbour)
+  if (a->beside == PENDRES_BESIDE_NEIGHBOUR)
     pendres_block_load(a->block, lane + 1, r->lane.pendulum, r->lane.y, r->lane.w);
-  else
+  else if (a->beside == PENDRES_BESIDE_TANGENTS)
     for (int i = 0; i < 2; i++) pendres_block_put_tangent(a->block, lane, i, r->u[i]);
   put(a, lane, r);
 }
 
 /* Add the growth of the tangent vectors to a batch, if there is one, and put them back to length
-   one. Returns the growth of the second one. */
-static double shorten(runner *r, long in)
+   one. */
+static void shorten(runner *r, long in)
 {
-  double growth = 0.0;
   for (int i = 0; i < 2; i++) {
     double *u = r->u[i];
     const double length = fmax(hypot(u[0], u[1]), DBL_MIN);
-    growth = log(length);
-    if (in >= 0) r->growth[i][in] += growth;
+    if (in >= 0) r->growth[i][in] += log(length);
     u[0] /= length;
     u[1] /= length;
   }
-  return growth;
 }
 
 /* Tangent vectors after a period, put back to length one at the end of a batch and where they must
-   be; the distance of a neighbour always, and what it has grown by is returned. */
-static double turn(const average_job *a, size_t lane, long step, runner *r)
+   be; the distance of a neighbour always. */
+static void turn(const average_job *a, size_t lane, long step, runner *r)
 {
   const long in = step >= 0 ? step / a->batch : -1;
-  if (a->neighbour) {
+  if (a->beside == PENDRES_BESIDE_NOTHING) return;
+  if (a->beside == PENDRES_BESIDE_NEIGHBOUR) {
     const pendres_rows rows = pendres_block_rows(a->block);
     for (int k = 0; k < 2; k++)
       r->u[0][k] = r->u[1][k] = (pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane + 1) -
                                  pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane)) / apart;
-    return shorten(r, in);
+    shorten(r, in);
+    return;
   }
   double size[2];
   for (int i = 0; i < 2; i++) {
@@ -169,27 +168,29 @@ static double turn(const average_job *a, size_t lane, long step, runner *r)
   }
   if ((step + 1) % a->batch != 0 && fmax(size[0], size[1]) < longest &&
       fmin(size[0], size[1]) > 1.0 / longest)
-    return 0.0;
-  (void)shorten(r, in);
+    return;
+  shorten(r, in);
   for (int i = 0; i < 2; i++) pendres_block_put_tangent(a->block, lane, i, r->u[i]);
-  return 0.0;
 }
 
 /* Take over the end of a period. step is its number in the batches; negative ones are the
    warm-up. */
-static void arrive(const average_job *a, size_t lane, long step, runner *r)
+static void arrive(const average_job *a, size_t lane, long step, const pendres_mean_weights *weights,
+                   runner *r)
 {
   const pendres_rows rows = pendres_block_rows(a->block);
   pendres_strobe_lane *l = &r->lane;
   const double before = l->y;
-  const double growth = turn(a, lane, step, r);
+  turn(a, lane, step, r);
   l->y = pendres_rows_get(&rows, PENDRES_ROW_Y, lane);
   l->w = pendres_rows_get(&rows, PENDRES_ROW_W, lane);
   const double turned = (l->y - before) / pendres_model_turn(l->pendulum);
   if (step >= 0) r->turned[step / a->batch] += turned;
   if (step >= 0) r->square[step / a->batch] += l->w * l->w;
-  if (step >= 0 && r->rotates)
-    pendres_smooth_add(&r->smooth, step, a->batch * BATCHES, growth, turned);
+  if (step >= 0 && r->rotates) {
+    pendres_mean_add(&r->turns, weights, turned);
+    pendres_mean_add(&r->squares, weights, l->w * l->w);
+  }
   pendres_coordinates_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   l->period++;
   put(a, lane, r);
@@ -204,13 +205,14 @@ static pendres_status average_block(const average_job *a, size_t n, const pendre
                                     runner *runners)
 {
   pendres_status status = PENDRES_OK;
-  const size_t each = a->neighbour ? 2 : 1;
+  const size_t each = a->beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1;
   pendres_block_resize(a->block, each * n);
   for (size_t i = 0; i < n; i++) load(a, each * i, &runners[rank[i].index]);
   for (long k = -WARM_UP; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
+    const pendres_mean_weights weights = pendres_mean_weights_at(k, a->batch * BATCHES);
     status = pendres_block_period(a->block);
     for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-      arrive(a, each * i, k, &runners[rank[i].index]);
+      arrive(a, each * i, k, &weights, &runners[rank[i].index]);
   }
   return status;
 }
@@ -220,21 +222,23 @@ static pendres_status average_class(pendres_context *ctx, runner *runners, long 
                                     const pendres_rank *rank, size_t *n)
 {
   pendres_block block;
-  const int neighbour = runners[rank[0].index].neighbour;
-  const average_job a = {.block = &block, .batch = batch, .neighbour = neighbour};
+  const pendres_runner_beside beside = runners[rank[0].index].beside;
+  const int tangents = beside == PENDRES_BESIDE_TANGENTS;
+  const average_job a = {.block = &block, .batch = batch, .beside = beside};
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, rank[0].steps, &block);
   if (status != PENDRES_OK) return status;
-  const size_t most = pendres_block_capacity(&block) / (neighbour ? 2 : 1);
+  const size_t most =
+    pendres_block_capacity(&block) / (beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1);
   if (*n > most) *n = most;
-  if (!neighbour) status = pendres_block_carry_tangents(&block, 1);
+  if (tangents) status = pendres_block_carry_tangents(&block, 1);
   if (status == PENDRES_OK) status = average_block(&a, *n, rank, runners);
-  if (!neighbour) (void)pendres_block_carry_tangents(&block, 0);
+  if (tangents) (void)pendres_block_carry_tangents(&block, 0);
   return status;
 }
 
-/* Those with neighbours, or those without. */
+/* Those with one thing beside them. */
 static pendres_status average(pendres_context *ctx, size_t n, runner *runners, long batch,
-                              int neighbour)
+                              pendres_runner_beside beside)
 {
   size_t count = 0;
   pendres_status status = PENDRES_OK;
@@ -242,7 +246,7 @@ static pendres_status average(pendres_context *ctx, size_t n, runner *runners, l
   if (rank == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
   for (size_t i = 0; i < n; i++)
-    if (runners[i].state == PENDRES_RUNNER_MOVING && runners[i].neighbour == neighbour)
+    if (runners[i].state == PENDRES_RUNNER_MOVING && runners[i].beside == beside)
       rank[count++] = (pendres_rank){.steps = runners[i].lane.steps,
                                      .model = pendres_model_kind(runners[i].lane.pendulum),
                                      .index = i};
@@ -259,8 +263,10 @@ static pendres_status average(pendres_context *ctx, size_t n, runner *runners, l
 pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_runner *runners,
                                        long batch)
 {
-  const pendres_status status = average(ctx, n, runners, batch, 0);
-  return status == PENDRES_OK ? average(ctx, n, runners, batch, 1) : status;
+  pendres_status status = PENDRES_OK;
+  for (int k = PENDRES_BESIDE_NOTHING; k <= PENDRES_BESIDE_NEIGHBOUR && status == PENDRES_OK; k++)
+    status = average(ctx, n, runners, batch, (pendres_runner_beside)k);
+  return status;
 }
 
 double pendres_runner_extrapolate(pendres_runner *r, long batch)

@@ -2,7 +2,7 @@
  * lyapunov_runner.h -- pendulums that run until their strobe points repeat, or averages are known.
  *
  * Owns: whether strobe points have repeated; the growth of tangent vectors and of distances to
- * neighbours, and its averages, batch by batch, and with the smooth weights that rotations need.
+ * neighbours, and its averages, batch by batch; the means over time that tell rotations.
  */
 #ifndef PENDRES_LYAPUNOV_RUNNER_H
 #define PENDRES_LYAPUNOV_RUNNER_H
@@ -10,7 +10,7 @@
 #include <pendres/context.h>
 
 #include "engine/strobe_run.h"
-#include "orbits/smooth.h"
+#include "orbits/mean.h"
 
 enum { PENDRES_RUNNER_BATCHES = 16 };
 
@@ -21,6 +21,13 @@ typedef enum pendres_runner_state {
   PENDRES_RUNNER_LOST,   /* ... or is beyond all numbers: its last period tells then */
   PENDRES_RUNNER_DONE
 } pendres_runner_state;
+
+/* What is carried along beside a runner in averages, to see how errors grow. */
+typedef enum pendres_runner_beside {
+  PENDRES_BESIDE_NOTHING,
+  PENDRES_BESIDE_TANGENTS,
+  PENDRES_BESIDE_NEIGHBOUR /* in place of tangent vectors: exact, at twice the cost */
+} pendres_runner_beside;
 
 typedef struct pendres_runner {
   pendres_strobe_lane lane;
@@ -37,14 +44,14 @@ typedef struct pendres_runner {
   int open;            /* it may escape, */
   double before_y, before_w; /* and was here a period ago */
   int rotates;         /* it may be on a rotation that is not locked to the drive */
-  int neighbour;       /* it runs beside a neighbour, which takes the place of the tangent vectors:
-                          exact, at twice the cost */
+  pendres_runner_beside beside;
+  int rough;           /* its mean turns are known, and are to be averaged again with more steps */
   double u[2][2];      /* tangent vectors by steps, and by steps twice as long; with a neighbour
                           both are the direction to it */
   /* Sums over the periods of each batch. */
   double growth[2][PENDRES_RUNNER_BATCHES], turned[PENDRES_RUNNER_BATCHES];
   double square[PENDRES_RUNNER_BATCHES]; /* of w */
-  pendres_smooth smooth; /* of rotations */
+  pendres_mean turns, squares; /* of rotations: turns a period, and w at its end, squared */
 } pendres_runner;
 
 /* A runner at its start, lane and steps, of which there must be an even number a period; points
@@ -71,7 +78,7 @@ pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_r
 /*
  * Growth found with steps twice as long has 16 times the error: a fifteenth of the difference is
  * subtracted from r->growth[0]. Returns this correction for one period, which exceeds the error
- * that is left; 0 for runners with neighbours.
+ * that is left; 0 for runners without tangent vectors.
  */
 double pendres_runner_extrapolate(pendres_runner *r, long batch);
 

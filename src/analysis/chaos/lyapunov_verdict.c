@@ -16,13 +16,12 @@
 #include "orbits/linear.h"
 #include "orbits/orbit_prime.h"
 #include "orbits/settle_lanes.h"
+#include "analysis/chaos/lyapunov_means.h"
 #include "analysis/chaos/lyapunov_watch.h"
 
 enum {
   BATCHES = PENDRES_RUNNER_BATCHES,
-  TRANSIENT = 200, /* drive periods, where damping is not weak */
-  LONG = 512,      /* an average of so many periods is not short */
-  SLIPS = 3        /* of a rotation by where a lock has ended, for its mean to be known */
+  TRANSIENT = 200 /* drive periods, where damping is not weak */
 };
 
 /* A pendulum whose strobe point comes back this closely is taken to be next to an orbit: at first.
@@ -42,9 +41,6 @@ static const double carried_in_doubt = 15.0;
    much there as it will shrink it again. The logarithm stays below this; in chaos it goes
    beyond. */
 static const double passing = 30.0;
-/* In a quasi-periodic motion averages over the two halves agree to this, a period, and distances to
-   neighbours grow or shrink by less than this. */
-static const double same_mean = 1e-5;
 
 /* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more:
    half a minute's where it is alone. */
@@ -245,38 +241,8 @@ static pendres_status tell_linear(pendres_context *ctx, const job *j)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/*
- * Whether a runner is on a rotation that is not locked to the drive, and then its mean. An error of
- * a period moves y by itself, and an error of the velocity moves y by omega/gamma times itself
- * until friction has damped it. What that does to the mean velocity depends on where on the
- * invariant curve it happens: in the coordinate h in which the motion is uniform it is h' times as
- * much, and the length of the tangent vector goes as 1/h'.
- */
-static int quasi_periodic(const pendres_runner *r, long periods, double accuracy,
-                          pendres_lyapunov *out)
-{
-  const pendres_pendulum *p = r->lane.pendulum;
-  if (!r->rotates) return 0;
-  const pendres_smooth_means m = pendres_smooth_take(&r->smooth);
-  if (!(m.growth_apart < same_mean && m.turned_apart < same_mean && fabs(m.growth) < same_mean))
-    return 0;
-  /* Averages shorter than usual have to agree as well as the integration allows. */
-  if (periods < LONG && !(m.turned_apart < accuracy)) return 0;
-  /* A rotation that came back to where there is no orbit is slow there: what it does between slips
-     is not its mean. */
-  const double slips = fabs(m.turned * r->period - r->winding) * (double)periods;
-  if (r->near < close_by && slips < SLIPS) return 0;
-  const double rate = p->drive_frequency / two_pi;
-  const double period_error = accuracy * (1.0 + p->drive_frequency / p->damping) / two_pi;
-  *out = (pendres_lyapunov){
-    .label = PENDRES_LABEL_QUASI_PERIODIC,
-    .exponent_error = (fabs(m.growth) + m.growth_apart) * rate,
-    .rotation = m.turned, .rotation_error = m.turned_apart + m.uneven * period_error};
-  return 1;
-}
-
 /* Judge runners by their averages; those on chaos or on rotations that are not locked are done. */
-static void judge(const job *j, long batch, double accuracy)
+static void judge(const job *j, long batch, double enough)
 {
   for (size_t i = 0; i < j->n; i++) {
     pendres_runner *r = &j->runner[i];
@@ -286,7 +252,7 @@ static void judge(const job *j, long batch, double accuracy)
     const double off = pendres_runner_extrapolate(r, batch);
     const double growth = pendres_batches_mean(r->growth[0], batch, &error);
     const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
-    double least = r->neighbour ? least_growth : least_carried;
+    double least = r->beside == PENDRES_BESIDE_NEIGHBOUR ? least_growth : least_carried;
     if (r->rotates) least = fmax(least, passing / (double)(batch * BATCHES));
     const int chaotic = growth > significance * error + carried_in_doubt * off &&
                         growth > least && !pendres_batches_change(r->growth[0]) &&
@@ -295,9 +261,14 @@ static void judge(const job *j, long batch, double accuracy)
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
       .rotation = turned, .rotation_error = turned_error};
-    if (chaotic || quasi_periodic(r, batch * BATCHES, accuracy, &j->out[i]))
+    if (r->beside == PENDRES_BESIDE_NOTHING) j->out[i].exponent = j->out[i].exponent_error = NAN;
+    const long periods = batch * BATCHES;
+    if (!chaotic && r->rotates) r->rough = pendres_means_tell(r, periods, enough, &j->out[i]);
+    if (chaotic || r->rough ||
+        (j->care == PENDRES_CARE_CLOSE && pendres_means_scatter(r, periods)))
       r->state = PENDRES_RUNNER_DONE;
-    r->neighbour = 1; /* those that are left run beside a neighbour from here on */
+    /* Those that are left run beside a neighbour from here on. */
+    if (j->care != PENDRES_CARE_CLOSE) r->beside = PENDRES_BESIDE_NEIGHBOUR;
   }
 }
 
@@ -327,7 +298,10 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   const double speed =
     fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
   *r = pendres_runner_at(&lane, close_by);
-  r->rotates = r->neighbour = pendres_lyapunov_may_rotate(p);
+  r->rotates = pendres_lyapunov_may_rotate(p);
+  r->beside = j->care == PENDRES_CARE_CLOSE ? PENDRES_BESIDE_NOTHING
+              : r->rotates                  ? PENDRES_BESIDE_NEIGHBOUR
+                                            : PENDRES_BESIDE_TANGENTS;
   double accuracy = usual;
   pendres_status status = pendres_steps_choose(ctx, p, speed, usual, &r->steps);
   r->lane.steps = r->steps;
@@ -413,6 +387,7 @@ static pendres_status watch(pendres_context *ctx, const job *j, long batch)
 
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
 {
+  const double wanted = pendres_means_wanted(ctx), least = pendres_means_least();
   long batch = (j->periods + BATCHES - 1) / BATCHES;
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) status = load(ctx, j, i);
@@ -428,7 +403,9 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
     if (status == PENDRES_OK) status = tell_away(ctx, j);
     if (status == PENDRES_OK) status = settle_caught(ctx, j);
     /* Runners whose orbit was not stable have averages of this round, and no result yet. */
-    if (status == PENDRES_OK) judge(j, batch, pendres_accuracy_to_average(ctx));
+    if (status == PENDRES_OK) judge(j, batch, round + 1 < j->rounds ? wanted : least);
+    if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE)
+      status = pendres_means_refine(ctx, j->n, j->runner, batch, j->out);
     if (status == PENDRES_OK && round == 0 && j->longer > 0) status = watch(ctx, j, batch);
   }
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++)

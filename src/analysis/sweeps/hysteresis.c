@@ -8,19 +8,16 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "analysis/sweeps/hysteresis_chaos.h"
-#include "analysis/sweeps/hysteresis_circle.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_orbit.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
+#include "analysis/sweeps/hysteresis_unlocked.h"
 #include "analysis/chaos/lyapunov_move.h"
 #include "model/model.h"
 #include "model/parameter.h"
 
 enum { MOST_TRIES = 4 /* to come from chaos to an orbit on the way from one value to the next */ };
 
-/* Rotations without a lock are computed side by side at values this close, in the parameter's
-   scale. */
-static const double close_by = 0.1;
 
 void pendres_hysteresis_free(pendres_hysteresis *h)
 {
@@ -85,31 +82,6 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
   return status == PENDRES_OK ? pendres_path_note(w, &j) : status;
 }
 
-/*
- * A pendulum on a rotation that is not locked to the drive: the close values from number *i on are
- * computed side by side, as long as it stays on such a rotation. There is at most one at each
- * value, so that a start on one leads to the next.
- */
-static pendres_status follow_rotation(path *w, size_t *i)
-{
-  const double most = close_by * pendres_parameter_scale(w->parameter);
-  pendres_settled s[PENDRES_HYSTERESIS_TRIALS];
-  size_t n = 0;
-  for (; n < PENDRES_HYSTERESIS_TRIALS && *i + n < w->n; n++) {
-    if (n > 0 && fabs(w->value[*i + n] - w->at) > most) break;
-    const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i + n]);
-    s[n] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
-  }
-  const pendres_status status = pendres_settled_rotations(w->ctx, n, s);
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++, (*i)++) {
-    if (s[k].attractor.label != PENDRES_LABEL_QUASI_PERIODIC) break;
-    w->state = s[k];
-    w->at = w->value[*i];
-    pendres_path_put(w, *i, &s[k].attractor);
-  }
-  return status;
-}
-
 /* A pendulum that has escaped does not return, whatever the parameter does. */
 static void stay_away(path *w, size_t *i)
 {
@@ -139,13 +111,15 @@ static pendres_status begin_path(path *w, double x, double v)
   return status;
 }
 
-/* Find what the pendulum settles on at value number *i, from its present state, or the orbit that
-   it goes to on the way there, which is to be followed first. */
-static pendres_status settle_at(path *w, size_t *i)
+/* Find what the pendulum settles on at value number *i, from its present state, unless it is known,
+   or the orbit that it goes to on the way there, which is to be followed first. */
+static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
   const pendres_settled old = w->state;
-  pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
+  pendres_status status = PENDRES_OK;
+  if (known->attractor.label != PENDRES_LABEL_UNRESOLVED) w->state = *known;
+  else status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
   if (status == PENDRES_OK) status = begin_path(w, old.x, old.v);
   if (status == PENDRES_OK && w->settled &&
       pendres_chaos_ends(&old.attractor, &w->state.attractor)) {
@@ -166,8 +140,10 @@ static pendres_status settle_at(path *w, size_t *i)
 static pendres_status go_on(path *w, size_t *i)
 {
   const size_t before = *i;
+  pendres_settled known = {.attractor = {.label = PENDRES_LABEL_UNRESOLVED}};
   pendres_status status = pendres_context_poll(w->ctx);
-  if (status != PENDRES_OK || !w->settled) return status == PENDRES_OK ? settle_at(w, i) : status;
+  if (status != PENDRES_OK || !w->settled)
+    return status == PENDRES_OK ? settle_at(w, i, &known) : status;
   if (w->value[*i] == w->value[*i - 1]) {
     pendres_path_put(w, *i, &w->h->point[*i - 1].attractor);
     ++*i;
@@ -175,16 +151,14 @@ static pendres_status go_on(path *w, size_t *i)
   }
   const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
   if (rotates_freely(&w->state.attractor)) return pendres_path_rotation(w, i);
-  if (w->on_circle || rotates) status = pendres_path_circle(w, i);
-  if (status != PENDRES_OK || *i > before) return status;
   if (w->state.attractor.label == PENDRES_LABEL_ESCAPE) {
     stay_away(w, i);
     return PENDRES_OK;
   }
   if (pendres_path_short(&w->state.attractor)) status = pendres_path_orbit(w, i);
-  else if (rotates) status = follow_rotation(w, i);
+  else if (rotates) status = pendres_path_unlocked(w, i, &known);
   if (status != PENDRES_OK || *i > before || rotates_freely(&w->state.attractor)) return status;
-  return settle_at(w, i);
+  return settle_at(w, i, &known);
 }
 
 static pendres_status follow_path(path *w, pendres_path_left *left)
@@ -205,7 +179,7 @@ static pendres_status follow_path(path *w, pendres_path_left *left)
   }
   pendres_path_allow_all(w);
   pendres_stretch_free(&w->stretch);
-  pendres_circles_free(w->circles);
+  pendres_path_unlocked_free(w);
   pendres_rotation_table_free(w->rotations);
   return status;
 }

@@ -16,6 +16,7 @@
 
 enum {
   TRIALS = PENDRES_HYSTERESIS_TRIALS,
+  ABREAST = PENDRES_SETTLED_ABREAST,
   ROUNDS = 3,      /* of trials, each further beyond the end than the one before */
   ON_THE_WAY = 500 /* periods after which a pendulum on no closed orbit is on its attractor */
 };
@@ -106,10 +107,10 @@ static void take_verdict(const pendres_lyapunov *l, const pendres_orbit *orbit, 
 static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const size_t *which,
                                          pendres_lyapunov_care care, pendres_settled *s)
 {
-  pendres_pendulum p[TRIALS] = {{0}};
-  pendres_lyapunov l[TRIALS];
-  pendres_orbit orbit[TRIALS];
-  double x[TRIALS] = {0.0}, v[TRIALS] = {0.0};
+  pendres_pendulum p[ABREAST] = {{0}};
+  pendres_lyapunov l[ABREAST];
+  pendres_orbit orbit[ABREAST];
+  double x[ABREAST] = {0.0}, v[ABREAST] = {0.0};
   for (size_t k = 0; k < n; k++) {
     p[k] = s[which[k]].pendulum;
     x[k] = s[which[k]].x;
@@ -176,7 +177,7 @@ static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapuno
 
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s)
 {
-  size_t all[TRIALS];
+  size_t all[ABREAST];
   for (size_t i = 0; i < n; i++) all[i] = i;
   return settle_by_averages(ctx, n, all, PENDRES_CARE_CLOSE, s);
 }

@@ -60,14 +60,15 @@ pendres_path_mark pendres_path_mark_here(const pendres_path *w)
 /* Go back to the mark, where nothing is followed. */
 static void go_back(pendres_path *w, const pendres_path_mark *mark)
 {
-  pendres_circles *circles = w->circles;
+  pendres_unlocked *unlocked = w->unlocked;
+  const size_t values = w->values;
   pendres_rotation_table *rotations = w->rotations;
   pendres_stretch_free(&w->stretch);
   *w = mark->path;
   w->stretch = pendres_stretch_none;
-  w->circles = circles;
+  w->unlocked = unlocked;
+  w->values = values;
   w->rotations = rotations;
-  w->on_circle = 0;
   w->h->jumps = mark->jumps;
   w->h->stretches = mark->stretches;
 }

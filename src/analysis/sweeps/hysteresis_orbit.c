@@ -7,7 +7,6 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
-#include "analysis/sweeps/hysteresis_circle.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
 
@@ -129,8 +128,7 @@ static pendres_status end_stretch(pendres_path *w, size_t step, double limit)
     int done = 0;
     pendres_path_into_rotation(w, &end, &j, &done);
     status = PENDRES_OK;
-    if (!done) status = pendres_path_onto_circle(w, &end, s->direction, &j, &done);
-    if (status == PENDRES_OK && !done)
+    if (!done)
       status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
     w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
     if (status == PENDRES_OK) status = same_state(w, &old, &goes_on);

@@ -6,11 +6,13 @@
 #ifndef PENDRES_HYSTERESIS_PATH_H
 #define PENDRES_HYSTERESIS_PATH_H
 
-#include "analysis/sweeps/circles.h"
 #include "analysis/sweeps/hysteresis_jump.h"
 #include "analysis/sweeps/hysteresis_names.h"
 #include "analysis/sweeps/rotation_table.h"
 #include "analysis/sweeps/stretch.h"
+
+/* A rotation without a lock to the drive that was met on the way. */
+typedef struct pendres_unlocked pendres_unlocked;
 
 typedef struct pendres_path {
   pendres_context *ctx;
@@ -30,9 +32,8 @@ typedef struct pendres_path {
   size_t tried;            /* number of the value to which a way out of chaos was last tried, ... */
   int tries;               /* ... and how often */
   pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
-  pendres_circles *circles; /* NULL: not met yet */
-  int on_circle;            /* whether it is on one of them, locked or not, ... */
-  pendres_circles_verdict last; /* ... and the last verdict on it */
+  pendres_unlocked *unlocked; /* at each of so many different values; NULL: none met yet */
+  size_t values;
 } pendres_path;
 
 pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value);

@@ -1,0 +1,114 @@
+/* hysteresis_unlocked.c -- a pendulum on rotations without a lock; see hysteresis_unlocked.h. */
+#include "analysis/sweeps/hysteresis_unlocked.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "continuation/parameter.h"
+#include "engine/context_internal.h"
+
+enum { ABREAST = PENDRES_SETTLED_ABREAST };
+
+/* In the parameter's scale: values this close are averaged side by side; what is found so close is
+   what the pendulum comes to, whatever it is. */
+static const double within = 2.0, close_by = 0.1;
+
+/* A rotation that is known. */
+struct pendres_unlocked {
+  double value;
+  int tried, found;
+  double x, v, turns, turns_error;
+};
+
+static int ascending(const void *a, const void *b)
+{
+  const pendres_unlocked *p = a, *q = b;
+  return (p->value > q->value) - (p->value < q->value);
+}
+
+static pendres_unlocked *at(const pendres_path *w, double value)
+{
+  const pendres_unlocked key = {.value = value};
+  return bsearch(&key, w->unlocked, w->values, sizeof key, ascending);
+}
+
+static pendres_status make_table(pendres_path *w)
+{
+  size_t count = 0;
+  if (w->unlocked != NULL) return PENDRES_OK;
+  w->unlocked = calloc(w->n + 1, sizeof *w->unlocked);
+  if (w->unlocked == NULL)
+    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu rotations",
+                                w->n);
+  for (size_t i = 0; i < w->n; i++) w->unlocked[i].value = w->value[i];
+  qsort(w->unlocked, w->n, sizeof *w->unlocked, ascending);
+  for (size_t i = 0; i < w->n; i++)
+    if (count == 0 || w->unlocked[i].value != w->unlocked[count - 1].value)
+      w->unlocked[count++] = w->unlocked[i];
+  w->values = count;
+  return PENDRES_OK;
+}
+
+void pendres_path_unlocked_free(pendres_path *w)
+{
+  free(w->unlocked);
+  w->unlocked = NULL;
+}
+
+/* Average the rotations at values from number i on that are not known yet, side by side. *next
+   receives what is found at value number i. */
+static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
+{
+  const double scale = pendres_parameter_scale(w->parameter);
+  pendres_settled s[ABREAST];
+  pendres_unlocked *known[ABREAST];
+  size_t n = 0;
+  for (size_t k = i; k < w->n && n < ABREAST; k++) {
+    if (fabs(w->value[k] - w->at) > within * scale && k > i) break;
+    pendres_unlocked *u = at(w, w->value[k]);
+    if (u->tried && k > i) continue;
+    const pendres_pendulum p = pendres_path_pendulum(w, u->value);
+    u->tried = 1;
+    known[n] = u;
+    s[n++] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  }
+  const pendres_status status = pendres_settled_rotations(w->ctx, n, s);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    const pendres_attractor *a = &s[k].attractor;
+    known[k]->found = a->label == PENDRES_LABEL_QUASI_PERIODIC;
+    known[k]->x = s[k].x;
+    known[k]->v = s[k].v;
+    known[k]->turns = a->drift;
+    known[k]->turns_error = a->drift_error;
+  }
+  *next = s[0];
+  return status;
+}
+
+static void take(pendres_path *w, size_t i, const pendres_unlocked *u)
+{
+  const pendres_pendulum p = pendres_path_pendulum(w, u->value);
+  w->state = pendres_settled_nothing_at(&p, u->x, u->v);
+  w->state.attractor.label = PENDRES_LABEL_QUASI_PERIODIC;
+  w->state.attractor.lyapunov = w->state.attractor.lyapunov_error = 0.0;
+  w->state.attractor.drift = u->turns;
+  w->state.attractor.drift_error = u->turns_error;
+  w->at = u->value;
+  pendres_path_put(w, i, &w->state.attractor);
+}
+
+pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled *next)
+{
+  const double close = close_by * pendres_parameter_scale(w->parameter);
+  pendres_status status = make_table(w);
+  next->attractor.label = PENDRES_LABEL_UNRESOLVED;
+  while (*i < w->n && status == PENDRES_OK) {
+    const pendres_unlocked *u = at(w, w->value[*i]);
+    if (!u->found) status = average(w, *i, next);
+    if (status != PENDRES_OK || !u->found) break;
+    take(w, (*i)++, u);
+  }
+  if (*i < w->n && fabs(w->value[*i] - w->at) > close)
+    next->attractor.label = PENDRES_LABEL_UNRESOLVED;
+  return status;
+}
