@@ -5,7 +5,8 @@
 
 /* Where the parts begin and end. */
 static const double part[PENDRES_MEAN_PARTS][2] = {
-  {0.0, 1.0}, {0.0, 0.9375}, {0.0625, 1.0}, {0.0, 0.875}, {0.125, 1.0}};
+  {0.0, 1.0}, {0.0, 0.9375}, {0.0625, 1.0}, {0.0, 0.875}, {0.125, 1.0}, {0.0, 0.5}, {0.5, 1.0}};
+enum { LONGER = PENDRES_MEAN_PARTS - 2 };
 static const double careful = 3.0;
 
 pendres_mean_weights pendres_mean_weights_at(long k, long n)
@@ -31,10 +32,15 @@ double pendres_mean_take(const pendres_mean *m, double *error)
 {
   const double all = m->sum[0] / m->weight[0];
   double low = all, high = all;
-  for (int i = 1; i < PENDRES_MEAN_PARTS; i++) {
+  for (int i = 1; i < LONGER; i++) {
     low = fmin(low, m->sum[i] / m->weight[i]);
     high = fmax(high, m->sum[i] / m->weight[i]);
   }
   *error = careful * (high - low);
   return all;
+}
+
+double pendres_mean_halves(const pendres_mean *m)
+{
+  return fabs(m->sum[LONGER + 1] / m->weight[LONGER + 1] - m->sum[LONGER] / m->weight[LONGER]);
 }

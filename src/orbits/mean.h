@@ -13,10 +13,10 @@
 #ifndef PENDRES_MEAN_H
 #define PENDRES_MEAN_H
 
-enum { PENDRES_MEAN_PARTS = 5 };
+enum { PENDRES_MEAN_PARTS = 7 };
 
-/* Weights of one time, those of all times and those of four parts of them, which leave out a
-   sixteenth or an eighth at either end. */
+/* Weights of one time, those of all times and those of parts of them, which leave out a sixteenth,
+   an eighth or a half at either end. */
 typedef struct pendres_mean_weights {
   double in[PENDRES_MEAN_PARTS];
 } pendres_mean_weights;
@@ -31,9 +31,12 @@ typedef struct pendres_mean {
 
 void pendres_mean_add(pendres_mean *m, const pendres_mean_weights *w, double value);
 
-/* The mean over all times. *error receives three times what it and those over the parts differ by:
-   of 830 rotations with random parameters in one of a hundred the mean was off by more, in one of
-   three by less than a thirtieth of it. */
+/* The mean over all times. *error receives three times what it and those over the longer parts differ
+   by: of 830 rotations with random parameters in one of a hundred the mean was off by more, in one
+   of three by less than a thirtieth of it. */
 double pendres_mean_take(const pendres_mean *m, double *error);
+
+/* What the means over both halves differ by: with most motions many times the error of the mean. */
+double pendres_mean_halves(const pendres_mean *m);
 
 #endif

@@ -18,7 +18,7 @@ enum {
   LONGER = 3,        /* so many times that chaos is followed afterwards */
   ROUNDS = 6,        /* of averages, each twice as long as the one before: next to the end of a lock
                         a rotation slips once in thousands of periods */
-  FEW_PERIODS = 128  /* of the first average of what is known to be close to a rotation */
+  FEW_PERIODS = 256  /* of the first average of what is known to be close to a rotation */
 };
 
 static const char *refuses(const pendres_pendulum *p, double x, double v)
@@ -34,7 +34,7 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
 {
   static const struct { long periods; int rounds; } looks[] = {
     [PENDRES_CARE_FULL] = {PERIODS, ROUNDS}, [PENDRES_CARE_ONCE] = {PERIODS, 1},
-    [PENDRES_CARE_CLOSE] = {FEW_PERIODS, ROUNDS}};
+    [PENDRES_CARE_CLOSE] = {FEW_PERIODS, ROUNDS + 1}};
   const size_t n = m->n;
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = m->pendulum, .x = m->x, .v = m->v, .out = m->out, .orbit = m->orbit,

@@ -10,7 +10,9 @@
 
 enum {
   SLIPS = 3,   /* of a rotation by where a lock has ended, for its mean to be known */
-  SHOWS = 1024 /* periods after which chaos shows in means */
+  SHOWS = 1024, /* periods after which chaos shows in means */
+  SHORT_ORBIT = 16,    /* drive periods of one beside which a rotation may be slow, ... */
+  LONGEST_ORBIT = 128  /* ... and of one that is looked for */
 };
 
 /* Mean turns a period are known to this, and the mean square of the velocity to ten times this share
@@ -18,10 +20,14 @@ enum {
 static const double least = 1e-6;
 /* A rotation that slips once in n periods is known to a few slips in n periods. */
 static const double few_slips = 5.0;
+/* In less than that of a slip nothing is seen of how the rotation becomes slower and faster. */
+static const double half_slip = 0.5;
 /* With this factor more steps errors are seen; they fall by its fourth power at least. */
 static const double more_steps = 1.4, order = 4.0;
 /* The last digits of a mean are lost to rounding. */
 static const double rounding = 2.2e-14;
+/* A mean so many errors from a fraction is taken for it. By chance one in a thousand is. */
+static const double as_near = 10.0;
 
 double pendres_means_least(void)
 {
@@ -30,20 +36,51 @@ double pendres_means_least(void)
 
 double pendres_means_wanted(const pendres_context *ctx)
 {
-  return 0.1 * pendres_accuracy_of_means(ctx);
+  return pendres_accuracy_of_means(ctx);
 }
 
-int pendres_means_tell(const pendres_runner *r, long periods, double enough,
-                       pendres_lyapunov *out)
+/* The fraction p/q nearest to a mean, relative to its denominator of `most` at most: one of its
+   continued fraction's convergents. Returns by how much q times the mean misses p. */
+static double nearest(double mean, int most, int *q, int *p)
+{
+  double x = mean, q0 = 0.0, q1 = 1.0, p0 = 1.0, p1 = floor(x), misses = INFINITY;
+  while (q1 <= most) {
+    if (fabs(mean * q1 - p1) < misses) {
+      misses = fabs(mean * q1 - p1);
+      *q = (int)q1;
+      *p = (int)p1;
+    }
+    x = 1.0 / (x - floor(x));
+    const double q2 = floor(x) * q1 + q0, p2 = floor(x) * p1 + p0;
+    q0 = q1;
+    p0 = p1;
+    q1 = q2;
+    p1 = p2;
+  }
+  return misses;
+}
+
+int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_lyapunov *out)
 {
   double off = 0.0, square_off = 0.0;
+  int q = 0, p = 0;
   const double turned = pendres_mean_take(&r->turns, &off);
   const double square = pendres_mean_take(&r->squares, &square_off);
   if (!(off < enough && square_off < 10.0 * least * square)) return 0;
   /* What has come back to where there is no stable orbit is slow there: what it does between slips
-     is not its mean. */
+     is not its mean. Elsewhere it may be a little slower in one place than in another. */
   const double slips = fabs(turned * r->period - r->winding) * (double)periods;
   if (r->period > 0 && slips < SLIPS) return 0;
+  const double passed = nearest(turned, SHORT_ORBIT, &q, &p) * (double)periods;
+  if (passed < SLIPS)
+    off = fmax(off, pendres_mean_halves(&r->turns) * SLIPS / fmin(1.0, passed));
+  if (passed > rounding * q * (double)periods && (passed < half_slip || !(off < enough))) return 0;
+  if (nearest(turned, LONGEST_ORBIT, &q, &p) < q * (as_near * off + rounding)) {
+    r->period = q;
+    r->winding = p;
+    r->state = PENDRES_RUNNER_CAUGHT;
+    return 0;
+  }
   *out = (pendres_lyapunov){.label = PENDRES_LABEL_QUASI_PERIODIC, .rotation = turned,
                             .rotation_error = off};
   return 1;

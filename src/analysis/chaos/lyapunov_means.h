@@ -17,9 +17,9 @@ double pendres_means_least(void);
 double pendres_means_wanted(const pendres_context *ctx);
 
 /* Whether a runner that has been averaged over so many periods is on such a rotation: its mean
-   turns are known to `enough`. */
-int pendres_means_tell(const pendres_runner *r, long periods, double enough,
-                       pendres_lyapunov *out);
+   turns are known to `enough`. One whose mean is a fraction of small numbers is caught: it may be
+   on its slow way to an orbit. */
+int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_lyapunov *out);
 
 /* Whether one that may be next to such a rotation is certainly on none: it is on chaos. */
 int pendres_means_scatter(const pendres_runner *r, long periods);

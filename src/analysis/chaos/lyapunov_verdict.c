@@ -299,9 +299,9 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
     fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
   *r = pendres_runner_at(&lane, close_by);
   r->rotates = pendres_lyapunov_may_rotate(p);
-  r->beside = j->care == PENDRES_CARE_CLOSE ? PENDRES_BESIDE_NOTHING
-              : r->rotates                  ? PENDRES_BESIDE_NEIGHBOUR
-                                            : PENDRES_BESIDE_TANGENTS;
+  r->beside = j->care == PENDRES_CARE_CLOSE               ? PENDRES_BESIDE_NOTHING
+              : j->care == PENDRES_CARE_FULL && r->rotates ? PENDRES_BESIDE_NEIGHBOUR
+                                                           : PENDRES_BESIDE_TANGENTS;
   double accuracy = usual;
   pendres_status status = pendres_steps_choose(ctx, p, speed, usual, &r->steps);
   r->lane.steps = r->steps;
@@ -404,6 +404,7 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
     if (status == PENDRES_OK) status = settle_caught(ctx, j);
     /* Runners whose orbit was not stable have averages of this round, and no result yet. */
     if (status == PENDRES_OK) judge(j, batch, round + 1 < j->rounds ? wanted : least);
+    if (status == PENDRES_OK) status = settle_caught(ctx, j);
     if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE)
       status = pendres_means_refine(ctx, j->n, j->runner, batch, j->out);
     if (status == PENDRES_OK && round == 0 && j->longer > 0) status = watch(ctx, j, batch);

@@ -19,8 +19,9 @@ enum {
                       halving has left of the interval */
 };
 
-/* The distance of trials from the birth of an orbit, in the parameter's scale. */
-static const double beside = 1e-4;
+/* The distance of trials from the birth of an orbit, in the parameter's scale, and from that of a
+   lock, to which a rotation goes the more slowly the closer it is. */
+static const double beside = 1e-4, beside_lock = 1e-3;
 /* Lives in chaos grow as a power of the distance from its end, of at least this (Grebogi, Ott and
    Yorke, Physical Review Letters 57 (1986) 1284). */
 static const double least_power = 0.5;
@@ -99,15 +100,23 @@ static pendres_settled settled_on(const pendres_orbit *o)
                            .x = o->x, .v = o->v};
 }
 
+/* Whether the old state is a rotation that is not locked to the drive. */
+static int rotates(const search *w)
+{
+  return w->old->attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
+}
+
 /* Whether the pendulum stays in the old state just before an orbit's birth, and most trials from
    there go to that orbit just behind it. Sets the jump, and w->state, if it is born there. */
 static pendres_status try_beside(search *w, const place *at, pendres_jump *jump, int *born)
 {
   const pendres_pendulum p = pendulum_at(w, at->before), q = pendulum_at(w, at->behind);
-  pendres_settled before, behind;
-  pendres_jump there = {.share = NAN};
+  pendres_settled before = *w->old, behind;
+  pendres_jump there = {.from = w->old->attractor.label, .share = NAN};
   double x[PENDRES_HYSTERESIS_TRIALS], v[PENDRES_HYSTERESIS_TRIALS];
-  pendres_status status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, &before);
+  pendres_status status = PENDRES_OK;
+  /* A rotation lasts up to a lock that is born on it. */
+  if (!rotates(w)) status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, &before);
   *born = 0;
   if (status != PENDRES_OK || pendres_settled_closed(&before.attractor) ||
       before.attractor.label == PENDRES_LABEL_ESCAPE)
@@ -131,7 +140,8 @@ static pendres_status try_beside(search *w, const place *at, pendres_jump *jump,
    not between them. */
 static double room(const search *w, double value)
 {
-  const double to = value_of(w), small = beside * pendres_parameter_scale(w->parameter);
+  const double near = rotates(w) ? beside_lock : beside;
+  const double to = value_of(w), small = near * pendres_parameter_scale(w->parameter);
   if (!((value - w->from) * (to - value) > 0.0)) return 0.0;
   return fmin(small, 0.5 * fmin(fabs(value - w->from), fabs(to - value)));
 }

@@ -30,6 +30,8 @@ static const double further = 10.0;
 static const double away = 0.03;
 /* Amplitudes of the same state at adjacent parameters differ by less than this. */
 static const double same_amplitude = 0.02;
+/* The mean turns of chaos that was taken for a rotation are known no better than this. */
+static const double scatter = 1e-3;
 /* Student's t for sixteen batches, at 99.9 %. */
 static const double batches_sure = 4.073;
 
@@ -123,6 +125,8 @@ static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const s
     s[which[k]].x = x[k];
     s[which[k]].v = v[k];
     s[which[k]].certain = l[k].certain;
+    s[which[k]].slips = care == PENDRES_CARE_CLOSE && l[k].label == PENDRES_LABEL_UNRESOLVED &&
+                        l[k].rotation_error < scatter;
     take_verdict(&l[k], &orbit[k], &s[which[k]]);
   }
   return status;
@@ -292,11 +296,12 @@ pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation 
 }
 
 pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
-                                     const double *x, const double *v, pendres_settled *to,
-                                     pendres_jump *jump)
+                                     const double *x, const double *v, int rotates,
+                                     pendres_settled *to, pendres_jump *jump)
 {
   pendres_settled went[TRIALS];
   for (int i = 0; i < TRIALS; i++) went[i] = pendres_settled_nothing_at(p, x[i], v[i]);
-  const pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_FULL, went);
+  const pendres_status status =
+    settle_all(ctx, TRIALS, rotates ? PENDRES_CARE_CLOSE : PENDRES_CARE_FULL, went);
   return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
 }

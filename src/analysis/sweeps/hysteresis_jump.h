@@ -17,6 +17,8 @@ typedef struct pendres_settled {
   pendres_attractor attractor; /* its label is UNRESOLVED if nothing is known of it */
   double x, v;                 /* a state on it, or on the way to it */
   int certain;                 /* no error of the integration can have chosen it */
+  int slips;                   /* unresolved next to a rotation: too seldom does it turn past the
+                                  end of a lock for its mean to be known */
 } pendres_settled;
 
 /* Whether an attractor is an orbit that closes in drive periods. */
@@ -54,9 +56,10 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
 pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
                                 pendres_settled *to, pendres_jump *jump);
 
-/* The same of one pendulum from as many states as a jump has trials. */
+/* The same of one pendulum from as many states as a jump has trials, of a rotation that is not
+   locked to the drive or of something else. */
 pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
-                                     const double *x, const double *v, pendres_settled *to,
-                                     pendres_jump *jump);
+                                     const double *x, const double *v, int rotates,
+                                     pendres_settled *to, pendres_jump *jump);
 
 #endif

@@ -17,6 +17,7 @@ static const double within = 2.0, close_by = 0.1;
 struct pendres_unlocked {
   double value;
   int tried, found;
+  int slips; /* not found: it turns past the end of a lock too seldom */
   double x, v, turns, turns_error;
 };
 
@@ -76,6 +77,7 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
     const pendres_attractor *a = &s[k].attractor;
     known[k]->found = a->label == PENDRES_LABEL_QUASI_PERIODIC;
+    known[k]->slips = s[k].slips;
     known[k]->x = s[k].x;
     known[k]->v = s[k].v;
     known[k]->turns = a->drift;
@@ -97,6 +99,14 @@ static void take(pendres_path *w, size_t i, const pendres_unlocked *u)
   pendres_path_put(w, i, &w->state.attractor);
 }
 
+/* The rotation goes on beyond a value at which its mean is not known. */
+static void leave_open(pendres_path *w, size_t i)
+{
+  const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
+  const pendres_attractor nothing = pendres_settled_nothing(&p);
+  pendres_path_put(w, i, &nothing);
+}
+
 pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled *next)
 {
   const double close = close_by * pendres_parameter_scale(w->parameter);
@@ -104,9 +114,10 @@ pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled
   next->attractor.label = PENDRES_LABEL_UNRESOLVED;
   while (*i < w->n && status == PENDRES_OK) {
     const pendres_unlocked *u = at(w, w->value[*i]);
-    if (!u->found) status = average(w, *i, next);
-    if (status != PENDRES_OK || !u->found) break;
-    take(w, (*i)++, u);
+    if (!u->found && !u->slips) status = average(w, *i, next);
+    if (status != PENDRES_OK || !(u->found || u->slips)) break;
+    if (u->found) take(w, (*i)++, u);
+    else leave_open(w, (*i)++);
   }
   if (*i < w->n && fabs(w->value[*i] - w->at) > close)
     next->attractor.label = PENDRES_LABEL_UNRESOLVED;
