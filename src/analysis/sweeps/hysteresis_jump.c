@@ -16,7 +16,6 @@
 
 enum {
   TRIALS = PENDRES_HYSTERESIS_TRIALS,
-  ABREAST = PENDRES_SETTLED_ABREAST,
   ROUNDS = 3,      /* of trials, each further beyond the end than the one before */
   ON_THE_WAY = 500 /* periods after which a pendulum on no closed orbit is on its attractor */
 };
@@ -106,29 +105,59 @@ static void take_verdict(const pendres_lyapunov *l, const pendres_orbit *orbit, 
     l->label == PENDRES_LABEL_CHAOTIC ? batches_sure * l->rotation_error : l->rotation_error;
 }
 
+/* Pendulums that are averaged side by side. */
+typedef struct averaged {
+  pendres_pendulum *pendulum;
+  double *x, *v;
+  pendres_lyapunov *told;
+  pendres_orbit *orbit;
+} averaged;
+
+static void free_averaged(averaged *a)
+{
+  free(a->pendulum);
+  free(a->x);
+  free(a->told);
+  free(a->orbit);
+}
+
+static pendres_status make_averaged(pendres_context *ctx, size_t n, averaged *a)
+{
+  *a = (averaged){.pendulum = malloc((n + 1) * sizeof *a->pendulum),
+                  .x = malloc((2 * n + 1) * sizeof *a->x),
+                  .told = malloc((n + 1) * sizeof *a->told),
+                  .orbit = malloc((n + 1) * sizeof *a->orbit)};
+  if (a->pendulum == NULL || a->x == NULL || a->told == NULL || a->orbit == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+  a->v = a->x + n;
+  return PENDRES_OK;
+}
+
+/* Those of s that have the numbers `which`; NULL: the first n. */
 static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const size_t *which,
                                          pendres_lyapunov_care care, pendres_settled *s)
 {
-  pendres_pendulum p[ABREAST] = {{0}};
-  pendres_lyapunov l[ABREAST];
-  pendres_orbit orbit[ABREAST];
-  double x[ABREAST] = {0.0}, v[ABREAST] = {0.0};
-  for (size_t k = 0; k < n; k++) {
-    p[k] = s[which[k]].pendulum;
-    x[k] = s[which[k]].x;
-    v[k] = s[which[k]].v;
-  }
-  const pendres_lyapunov_motion motion = {
-    .n = n, .pendulum = p, .x = x, .v = v, .out = l, .orbit = orbit};
-  const pendres_status status = pendres_lyapunov_move(ctx, &motion, care);
+  averaged a;
+  pendres_status status = make_averaged(ctx, n, &a);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    s[which[k]].x = x[k];
-    s[which[k]].v = v[k];
-    s[which[k]].certain = l[k].certain;
-    s[which[k]].slips = care == PENDRES_CARE_CLOSE && l[k].label == PENDRES_LABEL_UNRESOLVED &&
-                        l[k].rotation_error < scatter;
-    take_verdict(&l[k], &orbit[k], &s[which[k]]);
+    const pendres_settled *from = &s[which != NULL ? which[k] : k];
+    a.pendulum[k] = from->pendulum;
+    a.x[k] = from->x;
+    a.v[k] = from->v;
   }
+  const pendres_lyapunov_motion motion = {.n = n, .pendulum = a.pendulum, .x = a.x, .v = a.v,
+                                          .out = a.told, .orbit = a.orbit};
+  if (status == PENDRES_OK) status = pendres_lyapunov_move(ctx, &motion, care);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    pendres_settled *to = &s[which != NULL ? which[k] : k];
+    to->x = a.x[k];
+    to->v = a.v[k];
+    to->certain = a.told[k].certain;
+    to->slips = care == PENDRES_CARE_CLOSE && a.told[k].label == PENDRES_LABEL_UNRESOLVED &&
+                a.told[k].rotation_error < scatter;
+    take_verdict(&a.told[k], &a.orbit[k], to);
+  }
+  free_averaged(&a);
   return status;
 }
 
@@ -181,9 +210,7 @@ static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapuno
 
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s)
 {
-  size_t all[ABREAST];
-  for (size_t i = 0; i < n; i++) all[i] = i;
-  return settle_by_averages(ctx, n, all, PENDRES_CARE_CLOSE, s);
+  return settle_by_averages(ctx, n, NULL, PENDRES_CARE_CLOSE, s);
 }
 
 /* Advance a pendulum until it is on its attractor. */

@@ -9,8 +9,6 @@
 #include <pendres/hysteresis.h>
 #include <pendres/rotation.h>
 
-enum { PENDRES_SETTLED_ABREAST = 64 };
-
 /* What a pendulum settled on, and its state then. */
 typedef struct pendres_settled {
   pendres_pendulum pendulum;
@@ -41,7 +39,7 @@ pendres_attractor pendres_settled_orbit(const pendres_orbit *o);
 void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r,
                             pendres_settled *out);
 
-/* Find what n pendulums settle on, at most PENDRES_SETTLED_ABREAST, which may rotate without a
+/* Find what n pendulums settle on, which may rotate without a
    lock to the drive and start close to such rotations. */
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s);
 

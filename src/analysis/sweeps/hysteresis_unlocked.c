@@ -7,7 +7,7 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 
-enum { ABREAST = PENDRES_SETTLED_ABREAST };
+enum { ABREAST = 512 };
 
 /* In the parameter's scale: values this close are averaged side by side; what is found so close is
    what the pendulum comes to, whatever it is. */
@@ -61,9 +61,11 @@ void pendres_path_unlocked_free(pendres_path *w)
 static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
 {
   const double scale = pendres_parameter_scale(w->parameter);
-  pendres_settled s[ABREAST];
   pendres_unlocked *known[ABREAST];
+  pendres_settled *s = malloc(ABREAST * sizeof *s);
   size_t n = 0;
+  if (s == NULL)
+    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for rotations");
   for (size_t k = i; k < w->n && n < ABREAST; k++) {
     if (fabs(w->value[k] - w->at) > within * scale && k > i) break;
     pendres_unlocked *u = at(w, w->value[k]);
@@ -84,6 +86,7 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
     known[k]->turns_error = a->drift_error;
   }
   *next = s[0];
+  free(s);
   return status;
 }
 
