@@ -31,7 +31,7 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/limit
   orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
   orbits/orbit_reading.h orbits/orbit_series.h
-  orbits/settle.h orbits/settle_lanes.h orbits/smooth.h
+  orbits/settle.h orbits/settle_lanes.h orbits/mean.h
   noise/langevin_moving.h noise/noise_common.h continuation/equations.h continuation/parameter.h
   continuation/branch.h continuation/follow.h
   continuation/sets.h continuation/units.h

@@ -8,16 +8,15 @@
  *
  * A stable periodic orbit is followed by continuation to the bifurcation that ends it, which is
  * located to the tolerance; PENDRES_HYSTERESIS_TRIALS pendulums just beyond it decide where a
- * pendulum jumps to. From chaos the pendulum is settled again at each value, and a rotation that is
- * not locked to the drive is followed on its invariant circle. docs/sweeps.md describes the method.
+ * pendulum jumps to. From chaos the pendulum is settled again at each value, and rotations that are
+ * not locked to the drive are averaged side by side. docs/sweeps.md describes the method.
  *
  * A value that cannot be computed is left out, and the path continues as if it had not been given.
  * A pendulum that has escaped to infinity does not return on the rest of the path.
  *
- * Sources: Calleja, Celletti and de la Llave, Journal of Differential Equations 255 (2013) 978;
- * Hirsch, Pugh and Shub, Invariant Manifolds (Springer, 1977), for circles. Kuznetsov, Elements of
- * Applied Bifurcation Theory, chapter 4; Thompson and Soliman, Proceedings of the Royal Society A
- * 432 (1991) 101, for jumps whose outcome is uncertain.
+ * Sources: Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111, for averages. Kuznetsov,
+ * Elements of Applied Bifurcation Theory, chapter 4; Thompson and Soliman, Proceedings of the Royal
+ * Society A 432 (1991) 101, for jumps whose outcome is uncertain.
  */
 #ifndef PENDRES_HYSTERESIS_H
 #define PENDRES_HYSTERESIS_H
@@ -69,7 +68,7 @@ typedef struct pendres_hysteresis_point {
 
 /**
  * How a state ends. PENDRES_JUMP_FOLD: the orbit meets an unstable one, and both vanish, or such a
- * pair is born and takes the state's place: a rotation on a circle locks to the drive, chaos ends
+ * pair is born and takes the state's place: a rotation locks to the drive, chaos ends
  * in a window;
  * PENDRES_JUMP_FLIP: period doubling or, of chaos, the place where doublings accumulate;
  * PENDRES_JUMP_SYMMETRY: loss of mirror symmetry;

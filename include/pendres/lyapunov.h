@@ -43,7 +43,7 @@ typedef struct pendres_lyapunov {
   double exponent;       /**< largest Lyapunov exponent per unit time */
   double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,
                               the exponent is the mean so far; of quasi-periodic rotations, whose
-                              exponent is 0, what was found instead */
+                              exponent is exactly 0, this is 0, too */
   double rotation;       /**< mean whole turns a drive period */
   double rotation_error; /**< its error, likewise; of quasi-periodic rotations a bound */
   int period;            /**< q, drive periods until an orbit closes; 0 of others */

@@ -15,8 +15,8 @@ enum {
   LONGEST_ORBIT = 128  /* ... and of one that is looked for */
 };
 
-/* Mean turns a period are known to this, and the mean square of the velocity to ten times this share
-   of it: in chaos that would take 1e10 periods. */
+/* Mean turns a period are known to this, and the mean square of the velocity to ten times this
+   share of it: in chaos that would take 1e10 periods. */
 static const double least = 1e-6;
 /* A rotation that slips once in n periods is known to a few slips in n periods. */
 static const double few_slips = 5.0;

@@ -175,8 +175,8 @@ static void turn(const average_job *a, size_t lane, long step, runner *r)
 
 /* Take over the end of a period. step is its number in the batches; negative ones are the
    warm-up. */
-static void arrive(const average_job *a, size_t lane, long step, const pendres_mean_weights *weights,
-                   runner *r)
+static void arrive(const average_job *a, size_t lane, long step,
+                   const pendres_mean_weights *weights, runner *r)
 {
   const pendres_rows rows = pendres_block_rows(a->block);
   pendres_strobe_lane *l = &r->lane;

@@ -323,11 +323,12 @@ pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation 
 }
 
 pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
-                                     const double *x, const double *v, int rotates,
-                                     pendres_settled *to, pendres_jump *jump)
+                                     const double *x, const double *v, pendres_settled *to,
+                                     pendres_jump *jump)
 {
   pendres_settled went[TRIALS];
   for (int i = 0; i < TRIALS; i++) went[i] = pendres_settled_nothing_at(p, x[i], v[i]);
+  const int rotates = jump->from == PENDRES_LABEL_QUASI_PERIODIC;
   const pendres_status status =
     settle_all(ctx, TRIALS, rotates ? PENDRES_CARE_CLOSE : PENDRES_CARE_FULL, went);
   return status == PENDRES_OK ? count(ctx, went, to, jump) : status;

@@ -54,10 +54,9 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
 pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
                                 pendres_settled *to, pendres_jump *jump);
 
-/* The same of one pendulum from as many states as a jump has trials, of a rotation that is not
-   locked to the drive or of something else. */
+/* The same of one pendulum from as many states as a jump has trials, of what jump->from says. */
 pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
-                                     const double *x, const double *v, int rotates,
-                                     pendres_settled *to, pendres_jump *jump);
+                                     const double *x, const double *v, pendres_settled *to,
+                                     pendres_jump *jump);
 
 #endif

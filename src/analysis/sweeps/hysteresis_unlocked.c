@@ -7,11 +7,11 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 
-enum { ABREAST = 512 };
+enum { ABREAST = 1024 };
 
 /* In the parameter's scale: values this close are averaged side by side; what is found so close is
    what the pendulum comes to, whatever it is. */
-static const double within = 2.0, close_by = 0.1;
+static const double within = 20.0, close_by = 0.1;
 
 /* A rotation that is known. */
 struct pendres_unlocked {
