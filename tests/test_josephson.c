@@ -139,7 +139,7 @@ static void slow_sweep(void **state)
   pendres_lyapunov l[N];
   int locked = 0, told = 0;
   for (int i = 0; i < N; i++) value[i] = value[2 * N - 1 - i] = 2.2787 - 0.0091 * i;
-  check_ok(pendres_hysteresis_follow(*state, &junction, &(pendres_state){0.0, 7.5},
+  check_ok(pendres_hysteresis_find(*state, &junction, &(pendres_state){0.0, 7.5},
                                      &(pendres_hysteresis_path){PENDRES_TORQUE, 2 * N, value}, &h));
   for (int i = 0; i < N; i++) {
     const pendres_hysteresis_point *point = pendres_hysteresis_get(h, (size_t)i);
@@ -165,7 +165,7 @@ static void slow_sweep(void **state)
   }
   /* Of two steps that the sweep goes over, one has values on it: it begins and ends once. */
   assert_true(told > N / 2 && locked > 0 && locked < 4);
-  assert_true(pendres_hysteresis_jumps(h) > 0);
+  assert_true(pendres_hysteresis_jump_count(h) > 0);
   pendres_hysteresis_free(h);
 }
 
