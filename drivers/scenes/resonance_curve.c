@@ -129,27 +129,25 @@ static const struct {
 } printed_turns[] = {{0.2, 0.38, 0.165}, {0.1, 0.28, 0.099}};
 
 /* The damping of the largest resonance frequency, from the point of the smooth part of the curve
-   that has it; *there: 0 if there is none. */
-static pendres_status turning_point(scene_run *run, const curve *c, pendres_resonance_turn *turn,
-                                    int *there)
+   that has it; 0 if there is none. */
+static int turning_point(scene_run *run, const curve *c, pendres_resonance_turn *turn)
 {
-  const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
+  const double *damping = c->d->axis[DECK_AXIS_DAMPING].value;
   const scene_peak *points = c->points.rows;
   size_t top = 0;
-  *there = 0;
-  for (size_t i = 1; i + 1 < axis->count; i++)
-    if (points[i].outcome == PENDRES_OK && (top == 0 || points[i].resonance_frequency >
-                                         points[top].resonance_frequency))
+  for (size_t i = 1; i + 1 < c->points.n; i++)
+    if (points[i].outcome == PENDRES_OK &&
+        (top == 0 || points[i].resonance_frequency > points[top].resonance_frequency))
       top = i;
-  if (top == 0 || points[top].kind != PENDRES_PEAK_SMOOTH) return PENDRES_OK;
+  if (top == 0 || points[top].kind != PENDRES_PEAK_SMOOTH) return 0;
   pendres_context *ctx = scene_context(run);
-  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
-  const pendres_pendulum near = {.damping = axis->value[top],
+  if (ctx == NULL) return 0;
+  const pendres_pendulum near = {.damping = damping[top],
                                  .drive_amplitude = c->d->pendulum.drive_amplitude};
   const pendres_status status = pendres_resonance_turn_find(
     ctx, &near, c->d->search[0], c->d->search[1], &c->ensemble, turn);
-  *there = status == PENDRES_OK;
-  return scene_failure_of(status) == SCENE_FAILURE_NONE ? scene_asked(run, status) : PENDRES_OK;
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) scene_asked(run, status);
+  return status == PENDRES_OK;
 }
 
 /* Middle of the gap in damping where the peak turns from an edge to smooth. */
@@ -166,22 +164,18 @@ static int break_off(const curve *c, double *damping, double *error)
   return 0;
 }
 
-static pendres_status write_paper(scene_run *run, const curve *c)
+static void write_paper(scene_run *run, const curve *c)
 {
   enum { MOST = SCENE_PRINTED_PERIODS + 2 };
   scene_printed values[MOST];
   size_t n = 0;
   const double f0 = c->d->pendulum.drive_amplitude;
-  if (!scene_going(run) || c->axis != DECK_AXIS_DAMPING || !deck_is_plain(c->d))
-    return run->status;
+  if (!scene_going(run) || c->axis != DECK_AXIS_DAMPING || !deck_is_plain(c->d)) return;
   for (size_t k = 0; k < sizeof printed_turns / sizeof printed_turns[0]; k++) {
     double damping, error;
-    if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
-    int there = 0;
     pendres_resonance_turn turn;
-    const pendres_status status = turning_point(run, c, &turn, &there);
-    if (status != PENDRES_OK) return status;
-    if (there)
+    if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
+    if (turning_point(run, c, &turn))
       values[n++] = (scene_printed){.name = "damping_of_largest_frequency",
                                     .printed = printed_turns[k].top, .computed = turn.damping,
                                     .error = turn.damping_error};
@@ -192,7 +186,6 @@ static pendres_status write_paper(scene_run *run, const curve *c)
   }
   n += scene_peak_printed(c->d, c->points.n, c->points.rows, values + n);
   scene_write_paper(run, n, values);
-  return run->status;
 }
 
 static pendres_status run_scene(scene_run *run)
