@@ -42,7 +42,8 @@ static void no_end_of_the_drive_frequency(void **state)
   /* The second range is one of several thousand points between two values: it is resumed. */
   static const double highest[] = {60.0, 2e4};
   for (int k = 0; k < 2; k++) {
-    const pendres_branch_options range = {PENDRES_DRIVE_FREQUENCY, 2.0, highest[k], 0, 0, 0};
+    const pendres_branch_options range = {
+    .parameter = PENDRES_DRIVE_FREQUENCY, .low = 2.0, .high = highest[k]};
     pendres_hysteresis *h = sweep(*state, &p, &range, N, 1.6);
     assert_int_equal(pendres_hysteresis_jump_count(h), 0);
     for (size_t i = 0; i < N; i++) {
@@ -63,7 +64,8 @@ static void no_end_of_the_torque(void **state)
   enum { N = 4 };
   const pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 0.1, .drive_frequency = 1.0,
                               .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0}};
-  const pendres_branch_options range = {PENDRES_TORQUE, 0.0, 12.0, 0, 0, 0};
+  const pendres_branch_options range = {
+    .parameter = PENDRES_TORQUE, .low = 0.0, .high = 12.0};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.1);
   assert_int_equal(pendres_hysteresis_jump_count(h), 0);
   for (size_t i = 0; i < 2 * N; i++) {
@@ -80,7 +82,8 @@ static void no_end_of_rest(void **state)
 {
   enum { N = 6 };
   const pendres_pendulum p = {.damping = 0.2, .drive_frequency = 10.0};
-  const pendres_branch_options range = {PENDRES_PARAMETRIC_AMPLITUDE, -30.0, -5.0, 0, 0, 0};
+  const pendres_branch_options range = {
+    .parameter = PENDRES_PARAMETRIC_AMPLITUDE, .low = -30.0, .high = -5.0};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 1.6);
   assert_int_equal(pendres_hysteresis_jump_count(h), 0);
   for (size_t i = 0; i < 2 * N; i++)
@@ -114,7 +117,8 @@ static void only_bifurcations(void **state)
   const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 1.0,
                               .force = PENDRES_FORCE_POLYNOMIAL,
                               .force_coefficients = {0.0, 0.0, 1.0}};
-  const pendres_branch_options range = {PENDRES_DRIVE_AMPLITUDE, 0.5, 30.0, 0, 0, 0};
+  const pendres_branch_options range = {
+    .parameter = PENDRES_DRIVE_AMPLITUDE, .low = 0.5, .high = 30.0};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.1);
   assert_int_equal(pendres_hysteresis_jump_count(h), JUMPS);
   for (size_t k = 0; k < JUMPS; k++) {
@@ -145,7 +149,8 @@ static void doublings_of_a_short_branch(void **state)
   static const int to[JUMPS] = {4, 8, 4, 8, 4, 2};
   const pendres_pendulum p = {.damping = 0.57395788975562456, .torque = 0.46123985610058271,
                               .drive_frequency = 0.47158924700965588};
-  const pendres_branch_options range = {PENDRES_DRIVE_AMPLITUDE, 2.58, 2.6793, 0, 0, 0};
+  const pendres_branch_options range = {
+    .parameter = PENDRES_DRIVE_AMPLITUDE, .low = 2.58, .high = 2.6793};
   pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.65);
   assert_int_equal(pendres_hysteresis_jump_count(h), JUMPS);
   for (size_t k = 0; k < JUMPS; k++) {
@@ -219,7 +224,8 @@ static pendres_orbit orbit_at(pendres_context *ctx, const pendres_pendulum *p, d
 /* Orbits at both ends of a wide range lie on one branch, which reaches from end to end. */
 static void one_branch(void **state)
 {
-  const pendres_branch_options range = {PENDRES_DRIVE_FREQUENCY, 2.0, 60.0, 0, 0, 0};
+  const pendres_branch_options range = {
+    .parameter = PENDRES_DRIVE_FREQUENCY, .low = 2.0, .high = 60.0};
   pendres_orbit orbit[2];
   pendres_branches *set = NULL;
   for (int i = 0; i < 2; i++) {
@@ -239,7 +245,8 @@ static void one_branch(void **state)
 static void upright(void **state)
 {
   const double up = 4.71238898038468986;
-  const pendres_branch_options range = {PENDRES_PARAMETRIC_AMPLITUDE, 0.4, 25.0, 0, 0, 0};
+  const pendres_branch_options range = {
+    .parameter = PENDRES_PARAMETRIC_AMPLITUDE, .low = 0.4, .high = 25.0};
   pendres_pendulum p = {.damping = 0.1, .drive_frequency = 14.0, .parametric_amplitude = 0.5};
   const pendres_orbit start = orbit_at(*state, &p, up);
   pendres_branch *b = NULL;
