@@ -285,14 +285,12 @@ static void plans(void **state)
   INVALID(pendres_basin_sums_result(NULL, &statistics, fraction, error));
   INVALID(pendres_basin_sums_counts(NULL, &n));
   INVALID(pendres_basin_sums_wells(NULL, &n, &wells));
-  INVALID(pendres_basin_sums_well_shares(NULL, fraction, error));
   check_ok(pendres_basin_sums_create(&grid, 1, &sums));
   INVALID(pendres_basin_sums_add(sums, 1, NULL));
   INVALID(pendres_basin_sums_add(sums, 3, s));
   INVALID(pendres_basin_sums_suspect(sums, NAN));
   INVALID(pendres_basin_sums_suspect(sums, -1.0));
   INVALID(pendres_basin_sums_result(sums, &statistics, fraction, error)); /* rows are missing */
-  INVALID(pendres_basin_sums_well_shares(sums, fraction, error));
   check_ok(pendres_basin_sums_add(sums, 2, s));
   INVALID(pendres_basin_sums_result(sums, NULL, fraction, error));
   INVALID(pendres_basin_sums_counts(sums, NULL));

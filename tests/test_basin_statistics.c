@@ -272,8 +272,7 @@ static pendres_basin_statistics strip(pendres_basin_end by, int names, double *f
                                       double *error)
 {
   double *x = spaced(STRIP_ROWS, 0.0, 1.0), *v = spaced(STRIP_COLUMNS, 0.0, 1.0);
-  const pendres_basin_grid grid = {
-    .nx = STRIP_ROWS, .nv = STRIP_COLUMNS, .x = x, .v = v, .by = by};
+  const pendres_basin_grid grid = {.nx = STRIP_ROWS, .nv = STRIP_COLUMNS, .x = x, .v = v, .by = by};
   pendres_basin_sums *sums = NULL;
   pendres_basin_statistics s;
   const pendres_basin_well *wells = NULL;
@@ -292,7 +291,8 @@ static pendres_basin_statistics strip(pendres_basin_end by, int names, double *f
   check_ok(pendres_basin_sums_wells(sums, &n, &wells));
   assert_int_equal(n, 2);
   assert_int_equal(wells[0].states, STRIP_EDGE * (STRIP_ROWS - PENDRES_BASIN_BOX));
-  if (!names) check_ok(pendres_basin_sums_well_shares(sums, fraction, error));
+  for (size_t i = 0; i < n && !names; i++)
+    fraction[i] = wells[i].fraction, error[i] = wells[i].fraction_error;
   pendres_basin_sums_free(sums);
   free(x);
   free(v);

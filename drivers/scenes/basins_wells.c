@@ -55,15 +55,13 @@ static const scene_column of_wells[] = {
 
 static void write_each(basins *b, size_t n, const pendres_basin_well *wells)
 {
-  double *share = scene_array(b->run, 2 * n, sizeof *share);
   well *rows = scene_array(b->run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
                              .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return;
-  scene_asked(b->run, pendres_basin_sums_well_shares(b->sums, share, share + n));
   for (size_t i = 0; i < n; i++)
-    rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states, share[i],
-                     share[n + i]};
+    rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states, wells[i].fraction,
+                     wells[i].fraction_error};
   scene_numbering(b->run, "basin_well", n, "well of an attractor, by attractor, then by well");
   SCENE_WRITE(b->run, &table, of_wells);
 }

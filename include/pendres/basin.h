@@ -199,6 +199,8 @@ typedef struct pendres_basin_well {
   long well;     /**< number of the well, at x = pi/2 + 2 pi well; 0 alone for running and chaotic
                       attractors */
   size_t states; /**< how many states of the grid settle in it */
+  double fraction;       /**< their share of the area, as of an attractor */
+  double fraction_error; /**< its error; only uncertain states of the well itself count in it */
 } pendres_basin_well;
 
 /**
@@ -250,14 +252,6 @@ pendres_status pendres_basin_sums_counts(const pendres_basin_sums *sums, size_t 
  */
 pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
                                         const pendres_basin_well **wells);
-/**
- * fraction[n] and error[n] (either may be NULL): shares of the area by well, in the order and
- * number of pendres_basin_sums_wells(), with errors like those of attractors' shares; only
- * uncertain states of a well itself count in its error.
- * PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY: nothing is written.
- */
-pendres_status pendres_basin_sums_well_shares(const pendres_basin_sums *sums, double *fraction,
-                                              double *error);
 
 /** A window of initial states. */
 typedef struct pendres_basin_window {

@@ -421,28 +421,18 @@ pendres_status pendres_basin_sums_wells(pendres_basin_sums *s, size_t *n,
     free(list);
     return PENDRES_OUT_OF_MEMORY;
   }
-  for (size_t i = 0; i < s->tally.used; i++) list[i] = entry[i].well;
+  for (size_t i = 0; i < s->tally.used; i++) {
+    /* As many come to a well as leave it, but for their scatter: one more, if there are any. */
+    const member *m = &entry[i].sums;
+    const double lost = s->uncertain > 0 ? cancelled((double)m->uncertain + 1.0) : 0.0;
+    list[i] = entry[i].well;
+    list[i].fraction = m->share;
+    list[i].fraction_error = fraction_error(s, m, lost);
+  }
   free(entry);
   free(s->wells);
   s->wells = list;
   *n = s->tally.used;
   *wells = list;
-  return PENDRES_OK;
-}
-
-pendres_status pendres_basin_sums_well_shares(const pendres_basin_sums *s, double *fraction,
-                                              double *error)
-{
-  if (s == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
-  pendres_basin_entry *entry = pendres_basin_tally_list(&s->tally);
-  if (entry == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < s->tally.used; i++) {
-    if (fraction != NULL) fraction[i] = entry[i].sums.share;
-    /* As many come to a well as leave it, but for their scatter: one more, if there are any. */
-    const member *m = &entry[i].sums;
-    const double lost = s->uncertain > 0 ? cancelled((double)m->uncertain + 1.0) : 0.0;
-    if (error != NULL) error[i] = fraction_error(s, m, lost);
-  }
-  free(entry);
   return PENDRES_OK;
 }
