@@ -100,19 +100,23 @@ static pendres_branch_end branch_end(const pendres_stretch *s)
   return pendres_branch_end_get(s->branch, s->step > 0);
 }
 
-/* The bifurcation that is the point after number k; NULL: it is none. */
-static const pendres_bifurcation *coming(const pendres_stretch *s, size_t k)
-{
-  const pendres_branch_point *p = point_of(s, k + 1);
-  if (p == NULL || p->bifurcation < 0) return NULL;
-  return pendres_branch_bifurcation_get(s->branch, (size_t)p->bifurcation);
-}
-
 /* Whether a point is so close to a bifurcation that its stability is a matter of rounding. */
 static int beside(const pendres_stretch *s, const pendres_branch_point *p,
                   const pendres_bifurcation *at)
 {
   return at != NULL && distance(p, s->parameter, at->value, &at->orbit) < next_to / p->orbit.period;
+}
+
+/* Whether a point has such a bifurcation before it, with nothing in between but points as close. */
+static int before_bifurcation(const pendres_stretch *s, size_t k)
+{
+  const pendres_branch_point *p = point_of(s, k), *q;
+  const double value = pendres_parameter_get(s->parameter, &p->orbit.pendulum);
+  const double near = next_to / p->orbit.period;
+  while ((q = point_of(s, ++k)) != NULL && q->bifurcation < 0)
+    if (distance(q, s->parameter, value, &p->orbit) >= near) return 0;
+  return q != NULL &&
+         beside(s, p, pendres_branch_bifurcation_get(s->branch, (size_t)q->bifurcation));
 }
 
 /* How far a stretch that ends before point number k may reach beyond its last point: as far as the
@@ -144,7 +148,7 @@ static size_t take_stable(pendres_stretch *s, double limit)
     /* Next to a bifurcation, at the beginning or on the way, stability is a matter of rounding. */
     const double before = met != NULL ? met->value : value_of(s, s->points - 1);
     if ((s->points == 1 || met != NULL) && fabs(value_of(s, k) - before) <= same) continue;
-    if (beside(s, p, met) || beside(s, p, coming(s, k))) continue;
+    if (beside(s, p, met) || before_bifurcation(s, k)) continue;
     turned = ahead(s, value_of(s, k), before) < -same;
     if (!p->orbit.stable || turned) break;
     met = NULL;
