@@ -18,7 +18,6 @@
 
 enum { MOST_TRIES = 4 /* to come from chaos to an orbit on the way from one value to the next */ };
 
-
 void pendres_hysteresis_free(pendres_hysteresis *h)
 {
   if (h == NULL) return;
