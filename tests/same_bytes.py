@@ -4,7 +4,8 @@
     same_bytes.py BEFORE NOW
 
 Both may be folders: then each file of BEFORE that ends in .h5 is compared with that of its name.
-Datasets and attributes of all groups but `provenance`, without what tells a run's date or time.
+Datasets and attributes of all groups but `provenance`, without what tells a run's date or time, or
+the version of the program.
 Prints a line a difference. Exit code 0: the same; 1: not.
 """
 import os
@@ -14,7 +15,7 @@ import h5py
 import numpy
 
 LEFT_OUT_GROUPS = {"provenance"}
-LEFT_OUT_ATTRIBUTES = {"history"}
+LEFT_OUT_ATTRIBUTES = {"history", "source"}
 # Object references are addresses in the file, not results.
 SCALES = {"DIMENSION_LIST", "REFERENCE_LIST"}
 TIMINGS = {"seconds", "throughput"}

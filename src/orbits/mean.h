@@ -32,7 +32,7 @@ typedef struct pendres_mean {
 void pendres_mean_add(pendres_mean *m, const pendres_mean_weights *w, double value);
 
 /* The mean over all times. *error receives three times what it and those over the longer parts
-   differ by: of 830 rotations with random parameters in one of a hundred the mean was off by more,
+   differ by: of 446 rotations with random parameters in one of a hundred the mean was off by more,
    in one of three by less than a thirtieth of it. */
 double pendres_mean_take(const pendres_mean *m, double *error);
 
