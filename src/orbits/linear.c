@@ -44,7 +44,7 @@ static pendres_status refine(pendres_context *ctx, size_t n, const pendres_pendu
 {
   size_t count = 0;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_orbit_guess *guess = malloc((n + 1) * sizeof *guess);
+  pendres_orbit_guess *guess = calloc(n + 1, sizeof *guess);
   pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
   pendres_status *outcome = malloc((n + 1) * sizeof *outcome);
   pendres_linear **of = malloc((n + 1) * sizeof *of);
