@@ -37,6 +37,7 @@ static pendres_status run_until(stopper *s)
   scene_path("stopped", path);
   check_ok(pendres_store_create(path, NULL, &run.store));
   const pendres_status status = scene_find(d.kind)->run(&run);
+  scene_end(&run);
   check_ok(pendres_store_close(run.store));
   pendres_store_free(run.store);
   farm_free(run.farm);

@@ -76,7 +76,7 @@ void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, 
   f->reason[point] = (int8_t)reason;
   f->words[point] = NULL;
   if (words == NULL || words[0] == '\0') return;
-  f->words[point] = scene_array(f->run, strlen(words), 1);
+  f->words[point] = scene_array(f->run, strlen(words) + 1, 1);
   if (f->words[point] != NULL) strcpy(f->words[point], words);
 }
 
