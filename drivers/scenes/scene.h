@@ -48,7 +48,7 @@ typedef struct scene_size {
   /* Values beside the points', as strobe points: how many there are, and bytes of each. */
   double (*values)(const deck *d);
   double value;
-  /* Bytes that output and memory have beside those, at so many points. trial: what a trial has
+  /* Bytes that output and memory have beside those, at this many points. trial: what a trial has
      shown; NULL: none. */
   double (*more_output)(const deck *d, const farm_trial *trial, double points);
   double (*more_memory)(const deck *d, const farm_trial *trial, double points);

@@ -286,7 +286,7 @@ pendres_status pendres_curve_make(pendres_context *ctx, const pendres_curve_star
 
 /* ---- special points ---- */
 
-/* A curve is back at a place only after more than so many of its longest steps. */
+/* A curve is back at a place only after more than this many of its longest steps. */
 static const double another_pass = 4.0;
 
 /* Whether two special points of a curve are one. A curve that passes a place twice, as the two ways

@@ -15,7 +15,7 @@
 
 enum {
   PERIODS = 512,     /* of a first average, unless the caller says so */
-  LONGER = 3,        /* so many times that chaos is followed afterwards */
+  LONGER = 3,        /* times as long chaos is followed afterwards */
   ROUNDS = 6,        /* of averages, each twice as long as the one before: next to the end of a lock
                         a rotation slips once in thousands of periods */
   FEW_PERIODS = 256  /* of the first average of what is known to be close to a rotation */

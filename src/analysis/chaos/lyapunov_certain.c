@@ -15,7 +15,7 @@ enum {
   AT_A_TIME = 1024 /* pendulums with copies: they need memory */
 };
 
-/* Verdicts of copies agree within so many times their errors. */
+/* Verdicts of copies agree within this many times their errors. */
 static const double agreement = 5.0;
 
 typedef pendres_lyapunov verdict;

@@ -26,7 +26,7 @@ static const double half_slip = 0.5;
 static const double more_steps = 1.4, order = 4.0;
 /* The last digits of a mean are lost to rounding. */
 static const double rounding = 2.2e-14;
-/* A mean so many errors from a fraction is taken for it. By chance one in a thousand is. */
+/* A mean this many errors from a fraction is taken for it. By chance one in a thousand is. */
 static const double as_near = 10.0;
 
 double pendres_means_least(void)

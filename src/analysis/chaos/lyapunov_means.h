@@ -16,7 +16,7 @@ double pendres_means_least(void);
 /* As exactly as is wanted: no more than what errors of the integration leave of them. */
 double pendres_means_wanted(const pendres_context *ctx);
 
-/* Whether a runner that has been averaged over so many periods is on such a rotation: its mean
+/* Whether a runner that has been averaged over this many periods is on such a rotation: its mean
    turns are known to `enough`. One whose mean is a fraction of small numbers is caught: it may be
    on its slow way to an orbit. */
 int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_lyapunov *out);

@@ -70,8 +70,8 @@ int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l);
 /* Whether the latest strobe point shows that a runner escapes, or is lost: its state says which. */
 int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l);
 
-/* Averages of all of n runners that are moving, over so many periods a batch. Those that come back
-   meanwhile are caught, and run to the end all the same. */
+/* Averages of all of n runners that are moving, over this many periods a batch. Those that come
+   back meanwhile are caught, and run to the end all the same. */
 pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_runner *runners,
                                        long batch);
 

@@ -30,9 +30,9 @@ enum {
 static const double close_by = 1e-4, closer = 0.1;
 /* An orbit found further from the point that came back is another one. */
 static const double same_orbit = 0.02;
-/* An exponent of chaos is above zero by so many standard errors, and by so much growth a period. Up
-   to a growth of least_carried tangent vectors are not trusted without a neighbour: next to orbits
-   that are all but superstable they were seen to be off by 5e-3. */
+/* An exponent of chaos is above zero by this many standard errors, and by so much growth a period.
+   Up to a growth of least_carried tangent vectors are not trusted without a neighbour: next to
+   orbits that are all but superstable they were seen to be off by 5e-3. */
 static const double significance = 5.0, least_growth = 1e-3, least_carried = 0.02;
 /* Chaos must stretch tangent vectors with steps twice as long, too. Their growth differs by this
    times what extrapolation takes off. */

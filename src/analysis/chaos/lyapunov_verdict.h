@@ -18,12 +18,12 @@ typedef struct pendres_lyapunov_job {
   double accuracy;                  /* error a period on the way from the start */
   long transient, periods;          /* 0: as is best; of the first average */
   long longer;                      /* chaos is followed without tangent vectors after its first
-                                       average, for so many times its periods */
-  int asked;                        /* so many periods, by the caller */
+                                       average, for this many times its periods */
+  int asked;                        /* number of periods, by the caller */
   int rounds;
   pendres_lyapunov_care care;
   pendres_runner *runner;           /* room; they stay where they are in the end */
-  pendres_orbit *orbit;             /* that runners are on; NULL where nobody asks */
+  pendres_orbit *orbit;             /* that runners are on; NULL: not wanted */
   pendres_lyapunov *out;            /* certain where the error of the integration stayed small */
 } pendres_lyapunov_job;
 

@@ -25,8 +25,8 @@ static const double beside = 1e-4, beside_lock = 1e-3;
 /* Lives in chaos grow as a power of the distance from its end, of at least this (Grebogi, Ott and
    Yorke, Physical Review Letters 57 (1986) 1284). */
 static const double least_power = 0.5;
-/* Chaos that was watched for so many lives without an end has been seen to end, but for one case in
-   twenty: e^-3. */
+/* Chaos that was watched for this many lives without an end has been seen to end, but for one case
+   in twenty: e^-3. */
 static const double lives_watched = 3.0;
 
 int pendres_chaos_ends(const pendres_attractor *old, const pendres_attractor *there)

@@ -32,7 +32,7 @@ typedef struct pendres_path {
   size_t tried;            /* number of the value to which a way out of chaos was last tried, ... */
   int tries;               /* ... and how often */
   pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
-  pendres_unlocked *unlocked; /* at each of so many different values; NULL: none met yet */
+  pendres_unlocked *unlocked; /* at each of this many different values; NULL: none met yet */
   size_t values;
 } pendres_path;
 

@@ -40,7 +40,7 @@ double pendres_ramp_value(const pendres_ramp *ramp, double time)
 }
 
 /* What moves, at which temperature, and in how many parts drive periods are divided: one each is
-   a period of a pendulum that has so many times the frequency of a drive that is none. */
+   a period of a pendulum that has this many times the frequency of a drive that is none. */
 typedef struct motion {
   const pendres_ramp *ramp;
   double temperature;

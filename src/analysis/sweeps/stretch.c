@@ -210,7 +210,7 @@ static int choose_way(pendres_stretch *s)
 
 /* ---- following ---- */
 
-/* Go on with the branch to so many points each way. */
+/* Go on with the branch to this many points each way. */
 static pendres_status extend(pendres_context *ctx, pendres_stretch *s, double limit, size_t points)
 {
   const double here = pendres_parameter_get(s->parameter, &s->start.pendulum);
@@ -232,7 +232,7 @@ static size_t most_points(const pendres_orbit *orbit)
   return share > FEW_POINTS ? share : FEW_POINTS;
 }
 
-/* Follow the branch until that tells how the stretch ends, or has at most so many points each
+/* Follow the branch until that tells how the stretch ends, or has at most this many points each
    way. */
 static pendres_status find_end(pendres_context *ctx, pendres_stretch *s, double limit, size_t first,
                                size_t most)
