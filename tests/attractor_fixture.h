@@ -26,7 +26,7 @@ typedef struct ensemble {
 /* The paper's ensemble, or any other row of starts at rest. */
 static inline void settle_row(pendres_context *ctx, const pendres_pendulum *p, double first,
                               double last,
-                       ensemble *e)
+                              ensemble *e)
 {
   for (int i = 0; i < MEMBERS; i++) {
     e->p[i] = *p;

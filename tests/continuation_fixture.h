@@ -29,7 +29,7 @@ static inline pendres_context *context_of(double tolerance, pendres_table table)
 /* The attractors of a pendulum; `which` by amplitude. */
 static inline pendres_orbit orbit_of(pendres_context *ctx, double damping, double drive,
                                      double frequency,
-                              size_t which)
+                                     size_t which)
 {
   const pendres_pendulum p = {
     .damping = damping, .drive_amplitude = drive, .drive_frequency = frequency};

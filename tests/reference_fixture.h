@@ -21,7 +21,7 @@ static const long double pi = 3.14159265358979323846264338327950288L;
   check_long_at((got), (want), (tolerance), #got, __FILE__, __LINE__)
 
 static inline void check_long_at(long double got, long double want, long double tolerance,
-                          const char *what, const char *file, int line)
+                                 const char *what, const char *file, int line)
 {
   if (fabsl(got - want) <= tolerance) return;
   print_error("%s:%d: %s = %.21Lg, wanted %.21Lg +- %.3Lg (off by %.3Lg)\n", file, line, what,

@@ -80,6 +80,7 @@ static void no_handles(void **state)
   int wrong = 0;
   (void)state;
   INVALID(pendres_context_create(NULL, NULL));
+  assert_in_range(pendres_parts_threads(), 1, 4096);
   INVALID(pendres_parts_run(NULL, no_work, NULL, NULL, 0));
   INVALID(pendres_parts_run(&parts, NULL, NULL, NULL, 0));
   INVALID(pendres_parts_run(&parts, no_work, NULL, NULL, 1));

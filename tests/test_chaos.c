@@ -13,7 +13,6 @@
 #include "orbits/recurrence.h"
 #include "states_fixture.h"
 
-
 enum { SIDE = 8, STATES = SIDE * SIDE };
 
 /* A grid of starts, and what became of them. */

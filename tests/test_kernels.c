@@ -4,7 +4,6 @@
 
 static const equation plain = {PENDRES_ROWS_STATE, PENDRES_MODEL_PLAIN};
 
-
 static void test_same_bytes_on_every_instruction_set(void **state)
 {
   const pendres_kernels *list[3];

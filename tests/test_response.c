@@ -10,10 +10,8 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-
 #include "analysis/resonance/response_loop.h"
 #include "states_fixture.h"
-
 
 enum {
   MEMBERS = 20,

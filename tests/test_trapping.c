@@ -15,7 +15,6 @@
 #include "golden.h"
 #include "orbits/trapping_ring.h"
 
-
 static int setup(void **state)
 {
   pendres_context *ctx = NULL;

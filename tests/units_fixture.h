@@ -188,7 +188,7 @@ static inline void compare(const char *model, units u)
 
 /* Ask the same in all units. */
 static inline void in_all_units(const char *name, const pendres_pendulum *p, double tolerance,
-                         void (*ask)(const problem *q))
+                                void (*ask)(const problem *q))
 {
   const units one = {1.0, 1.0};
   problem q = {.p = *p, .u = one, .to = &plain};

@@ -232,7 +232,7 @@ static pendres_status open_context(runner *r, const pendres_options *o)
 }
 
 pendres_status benchmark_run(const work_unit *unit, const char *name, const benchmark_rules *rules,
-                           benchmark *c)
+                             benchmark *c)
 {
   runner r = { .unit = unit, .rules = rules, .n = pendulums_of(unit, name) };
   pendres_options o = options_named(name);

@@ -81,6 +81,6 @@ typedef struct benchmark_rules {
  * PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED (asked by stop(stop_arg)) and nothing else.
  */
 pendres_status benchmark_run(const work_unit *unit, const char *name, const benchmark_rules *rules,
-                           benchmark *c);
+                             benchmark *c);
 
 #endif

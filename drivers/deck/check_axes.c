@@ -229,7 +229,6 @@ static void check_noise(deck_builder *b)
                   "this force has no wells that are alike: 'from' needs 'to'");
 }
 
-
 void deck_check_axes(deck_builder *b)
 {
   static void (*const checks[])(deck_builder *b) = { check_axes, check_ramp, check_force,

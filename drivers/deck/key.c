@@ -204,7 +204,7 @@ static int apply_numbers(deck_builder *b, const deck_key *key, const namelist_ar
 
 /* Take all numbers of an array, in place of those that the field has. */
 static int read_numbers(deck_builder *b, const deck_key *key, const namelist_array *array,
-                         double **numbers, size_t *count)
+                        double **numbers, size_t *count)
 {
   int good = 1;
   double *read = malloc(array->count * sizeof *read);

@@ -1,11 +1,8 @@
 /* contexts.c -- a farm, its contexts and costs; see farm.h. pool.c runs its tasks. */
-#define _GNU_SOURCE /* sched_getaffinity */
 #include <pthread.h>
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "farm/internal.h"
 
@@ -20,23 +17,6 @@ int farm_stopped(void *f)
   return farm_stop(f);
 }
 
-/* The processors that this process may use. */
-static int processors(void)
-{
-  enum { MOST_PROCESSORS = 1 << 20 };
-  /* A set of the usual size has room for 1024. The system tells that a set is too small for it. */
-  for (size_t room = CPU_SETSIZE; room <= MOST_PROCESSORS; room *= 2) {
-    cpu_set_t *set = CPU_ALLOC(room);
-    if (set == NULL) break;
-    const size_t size = CPU_ALLOC_SIZE(room);
-    const int told = sched_getaffinity(0, size, set) == 0;
-    const int count = told ? CPU_COUNT_S(size, set) : 0;
-    CPU_FREE(set);
-    if (told) return count < FARM_MOST_THREADS ? count : FARM_MOST_THREADS;
-  }
-  return 1;
-}
-
 pendres_status farm_create(const farm_options *options, farm **out)
 {
   farm *f = calloc(1, sizeof *f);
@@ -44,7 +24,7 @@ pendres_status farm_create(const farm_options *options, farm **out)
   if (f == NULL) return PENDRES_OUT_OF_MEMORY;
   f->options = *options;
   f->run = options->run;
-  f->threads = options->threads > 0 ? options->threads : processors();
+  f->threads = options->threads > 0 ? options->threads : pendres_parts_threads();
   f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
   if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {
     free(f->context);

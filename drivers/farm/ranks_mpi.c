@@ -16,7 +16,6 @@
 #include <stdlib.h>
 #include <time.h>
 
-
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static int own = 0, all = 1, started = 0;
 

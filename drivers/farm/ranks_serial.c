@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-
 int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS])
 {
   const long n = ranks_started();

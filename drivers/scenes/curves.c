@@ -67,7 +67,7 @@ static row row_of(const scene_lines *l, const pendres_orbit *o, const double err
 }
 
 static void write_table(const scene_lines *l, const char *dimension, size_t n,
-                                  const row *rows)
+                        const row *rows)
 {
   const scene_table table = {.dimensions = {dimension}, .prefix = dimension, .n = n,
                              .stride = sizeof *rows, .rows = rows};

@@ -321,7 +321,7 @@ scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
 }
 
 static void write_place(const scene_lines *l, const scene_table *table,
-                                  pendres_parameter parameter)
+                        pendres_parameter parameter)
 {
   const size_t at = (size_t)parameter * sizeof(double);
   const scene_column column = {.name = scene_column_name(parameter),

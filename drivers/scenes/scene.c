@@ -193,7 +193,7 @@ static const char *words_of(deck_axis_id axis)
 }
 
 static void write_dimension(scene_run *run, const char *group, deck_axis_id axis,
-                                      const char *words)
+                            const char *words)
 {
   const deck_axis *a = &run->deck->axis[axis];
   scene_put_dimension(

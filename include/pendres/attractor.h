@@ -79,8 +79,7 @@ typedef struct pendres_attractor {
                                  orbits */
   double drift_error;       /**< its error, which holds with a confidence of 99.9 % */
   double watched_periods;   /**< drive periods, summed over replicas, for which a chaotic attractor
-                                 was followed without any of them leaving it; NaN of closed orbits
-                                 */
+                                 was followed with none of them leaving it; NaN of closed orbits */
   double escape_rate_bound; /**< a chaotic motion that ended at a larger rate, a drive period, would
                                  have been seen to end with a probability of 95 %; smaller rates
                                  are not excluded; NaN of closed orbits */

@@ -57,7 +57,6 @@ typedef enum pendres_table {
   PENDRES_TABLE_COUNT   /**< how many there are; not a table */
 } pendres_table;
 
-
 /** What a caller may choose. Zero in any field means the default. */
 typedef struct pendres_options {
   size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */

@@ -60,8 +60,8 @@ void pendres_free_get(double amplitude, pendres_free *out);
  * Thread safety: as the context.
  */
 pendres_status pendres_free_find(pendres_context *ctx, size_t n,
-                                                const double *amplitude, double *frequency,
-                                                double *error);
+                                 const double *amplitude, double *frequency,
+                                 double *error);
 
 #ifdef __cplusplus
 }

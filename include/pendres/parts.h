@@ -45,6 +45,12 @@ typedef struct pendres_parts {
 } pendres_parts;
 
 /**
+ * How many threads pendres_parts_run() has unless told: one for each processor that the process may
+ * use, at most 4096. At least 1. Thread safe.
+ */
+int pendres_parts_threads(void);
+
+/**
  * Do work for items 0 .. n - 1, in parts on several threads, and return when all are done.
  *
  * work(ctx, first, count, arg) does items first .. first + count - 1 with a context that no other
@@ -57,9 +63,8 @@ typedef struct pendres_parts {
  * @param how     read
  * @param work    what to do with a part; a status other than PENDRES_OK ends the run
  * @param arg     passed to work; kept by the caller
- * @param message [size] receives why it failed, truncated to fit, "" after success; may be NULL if
- * size
- *                is 0
+ * @param message [size] receives why it failed, truncated to fit, "" after success; may be NULL
+ *                if size is 0
  * @param size    bytes of message
  * @return PENDRES_OK; PENDRES_INVALID_ARGUMENT: how or work is NULL, threads negative or above
  *         4096, or invalid options; PENDRES_OUT_OF_MEMORY; else what work returned

@@ -139,7 +139,7 @@ typedef struct pendres_phase_diagram pendres_phase_diagram;
  *         PENDRES_INTERRUPTED
  */
 pendres_status pendres_phase_diagram_find(pendres_context *ctx, const pendres_phase_grid *grid,
-                                             pendres_phase_diagram **out);
+                                          pendres_phase_diagram **out);
 
 /** Make a diagram of which nothing is computed yet. Arguments and errors are those of
     pendres_phase_diagram_find(); there is no context, and so no message. */

@@ -87,8 +87,7 @@ enum { PENDRES_RESONANCE_MESSAGE = 512 /**< bytes of a search's message */ };
 
 /** One of several searches. */
 typedef struct pendres_resonance_search {
-  pendres_pendulum pendulum;   /**< its resonance is searched for; its drive frequency is not read
-                                  */
+  pendres_pendulum pendulum;   /**< of the resonance; its drive frequency is not read */
   double lowest;               /**< lower end of the range of drive frequencies */
   double highest;              /**< upper end of the range */
   pendres_status outcome;      /**< written: what pendres_resonance_find_ensemble() would return */

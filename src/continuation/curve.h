@@ -142,7 +142,7 @@ pendres_status pendres_curve_extend(pendres_context *ctx, pendres_curve *curve,
 
 /* The curve of bifurcations in two parameters that one lies on, and its place there. */
 pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_parameter second,
-                                         double spacing, double u[PENDRES_U_COUNT]);
+                                     double spacing, double u[PENDRES_U_COUNT]);
 
 /* ---- special points ---- */
 

@@ -11,15 +11,15 @@
 #include "engine/context_internal.h"
 
 pendres_followed pendres_followed_of(const pendres_orbit *orbit,
-                                         pendres_condition condition,
-                                         const pendres_parameter *parameter, double spacing,
-                                         double u[PENDRES_U_COUNT])
+                                     pendres_condition condition,
+                                     const pendres_parameter *parameter, double spacing,
+                                     double u[PENDRES_U_COUNT])
 {
   pendres_followed kind = {.tolerance = pendres_accuracy_of_arcs(), .spacing = spacing};
   pendres_system *s = &kind.system;
   *s = (pendres_system){.condition = condition,
-                                     .unknowns = condition == PENDRES_CONDITION_NONE ? 3 : 4,
-                                     .unknown = {PENDRES_U_Y, PENDRES_U_W}};
+                        .unknowns = condition == PENDRES_CONDITION_NONE ? 3 : 4,
+                        .unknown = {PENDRES_U_Y, PENDRES_U_W}};
   for (int k = 2; k < s->unknowns; k++) s->unknown[k] = PENDRES_U_OMEGA + (int)parameter[k - 2];
   s->map = pendres_map_of(orbit, s->unknowns, s->unknown, u);
   return kind;

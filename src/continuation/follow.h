@@ -55,9 +55,9 @@ typedef struct pendres_follower {
  * an orbit lies on, and its place there.
  */
 pendres_followed pendres_followed_of(const pendres_orbit *orbit,
-                                         pendres_condition condition,
-                                         const pendres_parameter *parameter, double spacing,
-                                         double u[PENDRES_U_COUNT]);
+                                     pendres_condition condition,
+                                     const pendres_parameter *parameter, double spacing,
+                                     double u[PENDRES_U_COUNT]);
 
 /*
  * Begin at u, corrected to the curve across its tangent, towards growing (direction > 0) or

@@ -81,8 +81,7 @@ static void *hand(void *arg)
   return NULL;
 }
 
-/* The processors that this process may use. */
-static size_t processors(void)
+int pendres_parts_threads(void)
 {
   enum { MOST_PROCESSORS = 1 << 20 };
   /* A set of the usual size has room for 1024. The system tells that a set is too small for it. */
@@ -91,18 +90,17 @@ static size_t processors(void)
     if (set == NULL) break;
     const size_t size = CPU_ALLOC_SIZE(room);
     const int told = sched_getaffinity(0, size, set) == 0;
-    const size_t count = told ? (size_t)CPU_COUNT_S(size, set) : 0;
+    const int count = told ? CPU_COUNT_S(size, set) : 0;
     CPU_FREE(set);
-    if (told) return count;
+    if (told) return count < PARTS_MOST_THREADS ? count : PARTS_MOST_THREADS;
   }
   return 1;
 }
 
 static size_t threads_of(const pool *c)
 {
-  size_t threads = (size_t)c->how->threads;
-  if (threads == 0) threads = processors();
-  if (threads > PARTS_MOST_THREADS) threads = PARTS_MOST_THREADS;
+  const size_t threads =
+    (size_t)(c->how->threads > 0 ? c->how->threads : pendres_parts_threads());
   return threads < c->parts ? threads : c->parts;
 }
 

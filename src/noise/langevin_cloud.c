@@ -41,7 +41,7 @@ pendres_sums pendres_sums_total(const pendres_sums *all, size_t n)
 }
 
 void pendres_sums_statistics(const pendres_sums *t,
-                              double out[PENDRES_LANGEVIN_STATISTICS])
+                             double out[PENDRES_LANGEVIN_STATISTICS])
 {
   const double x = t->x / t->strobes, v = t->v / t->strobes;
   out[PENDRES_LANGEVIN_MEAN_X] = x;
@@ -94,7 +94,7 @@ void pendres_sums_run_clear(pendres_sums_run *r)
 }
 
 pendres_status pendres_sums_accept(pendres_context *ctx, const pendres_langevin_request *q,
-                                    int steps)
+                                   int steps)
 {
   const pendres_status status = pendres_langevin_accept(ctx, &q->pendulum, q->x, q->v, steps, 0);
   if (status != PENDRES_OK) return status;
@@ -175,7 +175,7 @@ static pendres_status follow_block(pendres_sums_run *r, pendres_langevin_block *
 }
 
 pendres_status pendres_sums_follow(pendres_sums_run *r, pendres_langevin_block *b,
-                                    pendres_langevin_block *coarse)
+                                   pendres_langevin_block *coarse)
 {
   pendres_status status = PENDRES_OK;
   for (size_t first = 0; first < r->trajectories && status == PENDRES_OK; first += b->count) {

@@ -32,7 +32,7 @@ typedef struct pendres_sums_run {
 
 /* Check a request that is to run with `steps` steps a period. */
 pendres_status pendres_sums_accept(pendres_context *ctx, const pendres_langevin_request *q,
-                                    int steps);
+                                   int steps);
 
 /* Memory for a run whose request, trajectories and first id are set. Clear it in any case. */
 pendres_status pendres_sums_run_make(pendres_sums_run *r, int pairs);
@@ -41,14 +41,14 @@ void pendres_sums_run_clear(pendres_sums_run *r);
 /* Follow all trajectories of a run in block b, with their partners in block coarse if that is not
  * NULL. */
 pendres_status pendres_sums_follow(pendres_sums_run *r, pendres_langevin_block *b,
-                                    pendres_langevin_block *coarse);
+                                   pendres_langevin_block *coarse);
 
 /* The sums over all n trajectories. */
 pendres_sums pendres_sums_total(const pendres_sums *all, size_t n);
 
 /* The statistics that follow from totals; means are relative to the starting point. */
 void pendres_sums_statistics(const pendres_sums *t,
-                              double out[PENDRES_LANGEVIN_STATISTICS]);
+                             double out[PENDRES_LANGEVIN_STATISTICS]);
 
 /* The statistics of a run with their standard errors or, if it has coarse partners, their
  * differences from those of the partners. */

@@ -9,7 +9,6 @@
 
 #include "noise/noise_common.h"
 
-
 /* Unknowns of the fit: ln rate at T0, energy / T0, the prefactor's power, two corrections. */
 enum { RATE, ENERGY, POWER, FIRST, SECOND, UNKNOWNS, PRIORS = UNKNOWNS - POWER };
 

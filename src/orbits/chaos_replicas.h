@@ -18,8 +18,7 @@ typedef enum pendres_replica_measure {
   PENDRES_REPLICA_WORK,      /* done by the drive: the loop area */
   PENDRES_REPLICA_OTHER,     /* work done by the torque and the parametric drive */
   PENDRES_REPLICA_LOSS,      /* of energy by friction */
-  PENDRES_REPLICA_AMPLITUDE, /* half peak to peak of the angle in a period, from phase 0 and pi on
-                                */
+  PENDRES_REPLICA_AMPLITUDE, /* half peak to peak of the angle, periods from phase 0 and pi on */
   PENDRES_REPLICA_TURNS,     /* advance of the angle over 2 pi */
   PENDRES_REPLICA_SPEED,     /* w at the period's end: mirror images differ in it */
   PENDRES_REPLICA_MEASURES

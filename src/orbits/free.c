@@ -217,8 +217,8 @@ static pendres_status free_frequency_integrate(pendres_context *ctx, size_t n,
 }
 
 pendres_status pendres_free_find(pendres_context *ctx, size_t n,
-                                                const double *amplitude, double *frequency,
-                                                double *error)
+                                 const double *amplitude, double *frequency,
+                                 double *error)
 {
   pendres_door d;
   pendres_door_open(&d, ctx, NULL);

@@ -4,7 +4,6 @@
 
 #include <math.h>
 
-
 enum { SHORT_PERIOD = 32, LONGEST_PERIOD = PENDRES_RECURRENCE_POINTS - 1 };
 
 /* Points that come back closer than these may be near an orbit of a short or a long period ... */

@@ -10,7 +10,6 @@
 #include "model/model.h"
 #include "orbits/trapping_ring.h"
 
-
 enum {
   BASE_POINTS = 12, /* of a base ring, which shows only whether the map is nearly linear */
   BASE_LOOKS = 8,   /* iterates that the map may take to contract a base ring */

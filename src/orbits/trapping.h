@@ -14,8 +14,7 @@
 
 /* How hard to look for large ellipses. */
 typedef enum pendres_trapping_effort {
-  PENDRES_TRAPPING_FEW = 0, /* for ensembles of hundreds: the largest radius within a factor of 1.4
-                               */
+  PENDRES_TRAPPING_FEW = 0, /* for ensembles of hundreds: the radius within a factor of 1.4 */
   PENDRES_TRAPPING_MANY = 1 /* for grids of millions: within a tenth */
 } pendres_trapping_effort;
 

@@ -14,7 +14,6 @@
 #include <math.h>
 #include <stddef.h>
 
-
 #include "reference/orbit.h"
 
 /* The unknowns in their order; a fold has the first three. */

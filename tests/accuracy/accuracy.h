@@ -32,7 +32,6 @@ typedef struct accuracy accuracy;
 
 const accuracy_options *accuracy_get_options(const accuracy *a);
 
-
 /* ---- draws ---- */
 
 typedef struct accuracy_random {

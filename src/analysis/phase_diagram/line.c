@@ -315,7 +315,7 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
   if (branches != NULL) *branches = NULL;
   pendres_door d;
   pendres_phase_open(&d, ctx, options, n, n > 0 ? pendulums : NULL,
-            n > 0 && pendulums != NULL ? &pendulums[n - 1] : NULL);
+                     n > 0 && pendulums != NULL ? &pendulums[n - 1] : NULL);
   pendulums = pendres_door_in(&d, &pendres_dim_pendulum, n, pendulums);
   pendres_phase_options inside;
   options = pendres_phase_options_inside(&d, options, &inside);
@@ -474,7 +474,7 @@ pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
 {
   pendres_door d;
   pendres_phase_open(&d, ctx, options, n, n > 0 && points != NULL ? &points[0].pendulum : NULL,
-            n > 0 && points != NULL ? &points[n - 1].pendulum : NULL);
+                     n > 0 && points != NULL ? &points[n - 1].pendulum : NULL);
   pendres_phase_options inside;
   curves = pendres_curves_inside(&d, curves);
   options = pendres_phase_options_inside(&d, options, &inside);

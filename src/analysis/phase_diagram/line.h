@@ -8,7 +8,6 @@
 
 #include "orbits/label.h"
 
-
 /* Whether an orbit, stable or not, lies on the sheets of SA, of LA, or of the unstable state
    between them: it has one drive period, no winding, and is its own mirror image where there is
    mirror symmetry. */

@@ -8,7 +8,6 @@
 
 #include "orbits/label.h"
 
-
 /* Whether a response has a state that could have a name and has none. */
 int pendres_response_nameless(const pendres_response *response);
 
