@@ -64,7 +64,7 @@ static pendres_status write_origin(const provenance *p, const deck *d, const far
     { .key = "system", .text = system, .long_name = "operating system and processor" },
     { .key = "date", .text = p->date, .long_name = "start of the run, UTC" },
     { .key = "threads", .integer = farm_threads(f), .is_integer = 1, .long_name = "threads" },
-    { .key = "seed", .integer = noise ? (int64_t)deck_seed(d) : 0, .is_integer = 1,
+    { .key = "seed", .integer = noise ? d->noise.seed : 0, .is_integer = 1,
       .long_name = noise ? "seed of the random numbers" : "no random numbers were used" },
   };
   return pendres_store_provenance(store, entries, sizeof entries / sizeof *entries);

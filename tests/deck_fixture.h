@@ -79,7 +79,6 @@ static inline void assert_deck_equal(const deck *a, const deck *b)
   assert_int_equal(a->basins.boundary, b->basins.boundary);
   assert_int_equal(a->basins.statistics, b->basins.statistics);
   assert_int_equal(a->basins.strobes, b->basins.strobes);
-  assert_int_equal(a->basins.seed, b->basins.seed);
   assert_int_equal(a->basins.trajectories, b->basins.trajectories);
   assert_string_equal(a->basins.by, b->basins.by);
   assert_true(a->ramp.rate == b->ramp.rate || (isnan(a->ramp.rate) && isnan(b->ramp.rate)));

@@ -98,7 +98,7 @@ static void other_values(void **state)
 
   d = read_good(good[9]);
   assert_int_equal(d.axis[DECK_AXIS_TEMPERATURE].count, 2);
-  assert_true(d.basins.strobes == 10 && d.basins.seed == 7 && d.basins.trajectories == 8);
+  assert_true(d.basins.strobes == 10 && d.noise.seed == 7 && d.basins.trajectories == 8);
   deck_free(&d);
 
   d = read_good(good[12]);
@@ -113,6 +113,22 @@ static void other_values(void **state)
   assert_int_equal(d.cases.count, 2);
   assert_string_equal(d.cases.name[0], "separatrix");
   deck_free(&d);
+}
+
+/* One field may have several rows, with a default for each scene: what --explain says is taken. */
+static void defaults_of_scenes(void **state)
+{
+  static const struct { const char *text; int64_t trajectories; } cases[] = {
+    {"&scene kind='response' /\n&pendulum drive_amplitude=0.2 temperature=0.01 /\n"
+     "&sweep damping=0.2 drive_period=8 /\n", 1920},
+    {"&scene kind='hysteresis' /\n&pendulum drive_amplitude=0.2 damping=0.1 temperature=0.01 /\n"
+     "&sweep drive_frequency=0.7,0.8 /\n&hysteresis start='sa' rate=0.01 /\n", 384}};
+  (void)state;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    deck d = read_good(cases[i].text);
+    assert_int_equal(d.noise.trajectories, cases[i].trajectories);
+    deck_free(&d);
+  }
 }
 
 /* Forces: the plain pendulum where nothing is said, coefficients in their order, the rest zero. */
@@ -312,6 +328,7 @@ int main(void)
     cmocka_unit_test(every_kind_is_read),
     cmocka_unit_test(resonance_curve_values),
     cmocka_unit_test(other_values),
+    cmocka_unit_test(defaults_of_scenes),
     cmocka_unit_test(forces),
     cmocka_unit_test(names_of_kinds_and_axes),
     cmocka_unit_test(axes),

@@ -2,7 +2,7 @@
  * axes.c -- which parameters a deck varies, and what it holds fixed: all from the list of
  * <pendres/parameter.h>.
  */
-#include "deck/deck.h"
+#include "deck/table.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,7 +57,7 @@ static int find_moving(const deck *d, deck_axis_id *axis)
 static int find_plane(const deck *d, deck_axis_id *axis)
 {
   const deck_axis_id clock = clock_of(d);
-  const int curve = d->kind == DECK_RESONANCE_CURVE;
+  const int curve = deck_kind_of(d->kind)->layout == DECK_RESONANCES;
   int n = 0;
   for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++)
     if (i != DECK_AXIS_DAMPING && !deck_is_clock((deck_axis_id)i) && d->axis[i].count > 0)
@@ -71,18 +71,11 @@ static int find_plane(const deck *d, deck_axis_id *axis)
 
 int deck_axes(const deck *d, deck_axis_id axis[DECK_AXES])
 {
+  const deck_layout layout = deck_kind_of(d->kind)->layout;
   deck_axis_id all[DECK_AXIS_COUNT];
   int n = 0;
-  switch (d->kind) {
-  case DECK_HYSTERESIS:
-  case DECK_BIFURCATION_DIAGRAM:
-  case DECK_LYAPUNOV_MAP: n = find_moving(d, all); break;
-  case DECK_RESONANCE_CURVE:
-  case DECK_RESPONSE:
-  case DECK_PHASE_DIAGRAM:
-  case DECK_BRANCHES: n = find_plane(d, all); break;
-  default: break;
-  }
+  if (layout == DECK_MOVING) n = find_moving(d, all);
+  else if (layout != DECK_NO_AXES) n = find_plane(d, all);
   for (int i = 0; i < n && i < DECK_AXES; i++) axis[i] = all[i];
   return n;
 }
@@ -99,8 +92,11 @@ int deck_has_axis(const deck *d, deck_axis_id axis)
 int deck_searches(const deck *d)
 {
   deck_axis_id axis[DECK_AXES];
-  if (d->kind != DECK_RESPONSE) return d->kind == DECK_RESONANCE_CURVE;
   const int n = deck_axes(d, axis);
+  int range = 0;
+  if (deck_kind_of(d->kind)->layout == DECK_RESONANCES) return 1;
+  const size_t key = deck_table_find("sweep", "resonance_range", 1u << d->kind, &range);
+  if (key == deck_table_size) return 0;
   return (deck_is_plain(d) || d->search_given) && (n > DECK_AXES || deck_is_clock(axis[n - 1]));
 }
 

@@ -47,7 +47,7 @@ int deck_is_there(const deck_given *g)
   return g->line > 0 && (g->given || g->broken);
 }
 
-static int in_scene(const deck_builder *b, const char *group, const char *name)
+int deck_in_scene(const deck_builder *b, const char *group, const char *name)
 {
   int range = 0;
   return deck_table_find(group, name, b->scene, &range) < deck_table_size;
@@ -138,11 +138,11 @@ static void check_drive(deck_builder *b, const char *group)
 static void resolve_drive(deck_builder *b)
 {
   deck *d = b->d;
-  if (in_scene(b, "sweep", "drive_period")) {
+  if (deck_in_scene(b, "sweep", "drive_period")) {
     check_drive(b, "sweep");
     return;
   }
-  if (!in_scene(b, "pendulum", "drive_period")) return;
+  if (!deck_in_scene(b, "pendulum", "drive_period")) return;
   check_drive(b, "pendulum");
   d->by_period = deck_given_of(b, "pendulum", "drive_period")->given;
   const double turn = 2.0 * PENDRES_PI;
@@ -164,6 +164,15 @@ static void check_axis_sources(deck_builder *b)
   }
 }
 
+/* The group that has a key in this scene; "" if there is none. */
+static const char *group_of(const deck_builder *b, const char *name)
+{
+  for (size_t i = 0; i < deck_table_size; i++)
+    if ((deck_table[i].scenes & b->scene) != 0 && strcmp(deck_table[i].name, name) == 0)
+      return deck_table[i].group;
+  return "";
+}
+
 /* Check keys that have an effect only together with others. */
 static void check_idle_keys(deck_builder *b)
 {
@@ -177,9 +186,7 @@ static void check_idle_keys(deck_builder *b)
     [DECK_WITH_SEARCH] = "no resonance is looked for: that takes lines along the drive's "
                          "frequency or period",
   };
-  const char *group = b->scene == 1u << DECK_HYSTERESIS            ? "hysteresis"
-                      : b->scene == 1u << DECK_BIFURCATION_DIAGRAM ? "bifurcation_diagram"
-                                                                   : "orbit";
+  const char *group = group_of(b, "start");
   const deck_given *start = deck_given_of(b, group, "start");
   const deck_given *x = deck_given_of(b, group, "x");
   for (size_t i = 0; i < deck_table_size; i++) {
@@ -193,7 +200,7 @@ static void check_idle_keys(deck_builder *b)
     namelist_error_at(b->given[i].nl, place_of(&b->given[i], key->name),
                       b->errors, "'%s' is not used: %s", key->name, why[key->when]);
   }
-  if (in_scene(b, group, "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
+  if (deck_in_scene(b, group, "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
       !x->given && !x->broken && (x->group == NULL || !x->group->broken)) {
     char message[200];
     snprintf(message, sizeof message,
@@ -208,7 +215,7 @@ static void check_idle_keys(deck_builder *b)
 static void check_size(deck_builder *b)
 {
   const deck *d = b->d;
-  const int with_members = in_scene(b, "ensemble", "members");
+  const int with_members = deck_in_scene(b, "ensemble", "members");
   double points = with_members ? (double)d->ensemble.members : 1.0;
   for (int i = 0; i < DECK_AXIS_COUNT; i++)
     if (d->axis[i].count > 0) points *= (double)d->axis[i].count;
@@ -216,8 +223,9 @@ static void check_size(deck_builder *b)
     namelist_error_at(b->kind_nl, (namelist_place){ b->kind_line, b->kind_column, 1 }, b->errors,
                       "the axes%s multiply to %.4g pendulums; at most 2^32 are possible%s",
                       with_members ? " and members" : "", points,
-                      b->scene == 1u << DECK_BASINS ? " without refine = .true." : "");
-  if (in_scene(b, "orbit", "samples") && (double)d->orbit.periods * (double)d->orbit.samples > 1e8)
+                      deck_in_scene(b, "basins", "refine") ? " without refine = .true." : "");
+  if (deck_in_scene(b, "orbit", "samples") &&
+      (double)d->orbit.periods * (double)d->orbit.samples > 1e8)
     deck_complain(b, deck_given_of(b, "orbit", "periods"), "periods",
                   "'periods' times 'samples' must not exceed 1e8: give fewer of one of them");
   if (d->switching.from == 0 && d->switching.to != 0)
@@ -239,7 +247,7 @@ static void check_spectrum(deck_builder *b)
   const char *name = d->orbit.periods < least ? "periods" : "segment";
   const deck_given *at = deck_given_of(b, "orbit", name);
   const int there = deck_is_there(at);
-  if (!in_scene(b, "orbit", "spectrum") || !d->orbit.spectrum) return;
+  if (!deck_in_scene(b, "orbit", "spectrum") || !d->orbit.spectrum) return;
   if (d->orbit.periods >= least && (d->orbit.segment == 0 || d->orbit.segment >= least)) return;
   deck_complain(b, there ? at : deck_given_of(b, "orbit", "spectrum"), there ? name : "spectrum",
                 "a spectrum takes 4 samples or more, an even number: with samples = %lld give '%s' "
@@ -250,7 +258,7 @@ static void check_ensemble(deck_builder *b)
 {
   const deck *d = b->d;
   const deck_given *shape = deck_given_of(b, "ensemble", "shape");
-  if (!in_scene(b, "ensemble", "members") || shape->broken) return;
+  if (!deck_in_scene(b, "ensemble", "members") || shape->broken) return;
   if (!(d->ensemble.x_first < d->ensemble.x_last)) {
     const deck_given *last = deck_given_of(b, "ensemble", "x_last");
     deck_complain(b, last->given ? last : deck_given_of(b, "ensemble", "x_first"), "x_last",
@@ -291,7 +299,7 @@ void deck_check(deck_builder *b)
   check_axis_sources(b);
   resolve_drive(b);
   deck_expand_axes(b);
-  d->search_given = in_scene(b, "sweep", "resonance_range") &&
+  d->search_given = deck_in_scene(b, "sweep", "resonance_range") &&
                     deck_given_of(b, "sweep", "resonance_range")->given;
   check_idle_keys(b);
   check_size(b);

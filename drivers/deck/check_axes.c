@@ -45,22 +45,6 @@ void deck_expand_axes(deck_builder *b)
   }
 }
 
-/* How many axes each kind of scene has for its results, and whether orbits are followed along
-   them. */
-static const struct {
-  deck_kind kind;
-  int least, most, followed;
-  const char *words;
-} axes_of[] = {
-  { DECK_HYSTERESIS, 1, 1, 1, "one parameter is swept" },
-  { DECK_BIFURCATION_DIAGRAM, 1, 1, 1, "one parameter moves" },
-  { DECK_LYAPUNOV_MAP, 2, 2, 0, "a map has two axes" },
-  { DECK_RESONANCE_CURVE, 1, 1, 0, "results have one axis" },
-  { DECK_PHASE_DIAGRAM, 2, 2, 1, "results have two axes" },
-  { DECK_BRANCHES, 2, 2, 1, "results have two axes" },
-  { DECK_RESPONSE, 2, DECK_AXES, 0, "results have three axes at most, with temperatures two" },
-};
-
 static void complain_of_axes(deck_builder *b, const char *words, int n, const deck_axis_id *axis)
 {
   static const char advice[] = "give several values of what is an axis in &sweep, and one value of "
@@ -94,16 +78,15 @@ static void check_axes(deck_builder *b)
 {
   const deck *d = b->d;
   deck_axis_id axis[DECK_AXES];
-  const int n = deck_axes(d, axis), noise = d->axis[DECK_AXIS_TEMPERATURE].count > 0;
-  size_t i = 0;
-  while (i < sizeof axes_of / sizeof *axes_of && axes_of[i].kind != d->kind) i++;
-  if (i == sizeof axes_of / sizeof *axes_of) return;
-  const int most = d->kind == DECK_RESPONSE && noise ? 2 : axes_of[i].most;
-  if (n < axes_of[i].least || n > most) {
-    complain_of_axes(b, axes_of[i].words, n, axis);
+  const deck_kind_info *of = deck_kind_of(d->kind);
+  const int n = deck_axes(d, axis);
+  const int temperatures = of->steady && d->axis[DECK_AXIS_TEMPERATURE].count > 0;
+  if (of->layout == DECK_NO_AXES) return;
+  if (n < of->least || n + temperatures > of->most) {
+    complain_of_axes(b, of->takes, n, axis);
     return;
   }
-  for (int k = 0; k < n && axes_of[i].followed; k++) {
+  for (int k = 0; k < n && of->followed; k++) {
     const pendres_parameter parameter = deck_axis_parameter(axis[k]);
     const char *name = deck_axis_name(axis[k]);
     if ((int)parameter >= PENDRES_PARAMETER_FOLLOWED)
@@ -133,7 +116,7 @@ static void check_ramp(deck_builder *b)
 {
   const deck *d = b->d;
   deck_axis_id axis[DECK_AXES];
-  if (d->kind != DECK_HYSTERESIS || deck_axes(d, axis) != 1) return;
+  if (!deck_in_scene(b, "hysteresis", "rate") || deck_axes(d, axis) != 1) return;
   const deck_given *rate = deck_given_of(b, "hysteresis", "rate");
   const deck_given *protocol = deck_given_of(b, "hysteresis", "protocol");
   const deck_given *temperature = deck_given_of(b, "pendulum", "temperature");
@@ -219,12 +202,12 @@ static void check_noise(deck_builder *b)
   const int leaves = leaves_somewhere(d);
   const deck_given *temperature = deck_given_of(b, "sweep", "temperature");
   if (!deck_is_there(temperature)) temperature = deck_given_of(b, "pendulum", "temperature");
-  if ((b->scene & (1u << DECK_RESPONSE | 1u << DECK_BASINS)) != 0 && leaves && deck_has_noise(d))
+  if (deck_kind_of(d->kind)->steady && leaves && deck_has_noise(d))
     deck_complain(b, temperature, "temperature",
              "under this force noise carries a pendulum to infinity in the end: there is no steady "
              "state with noise; scene 'switching' tells how soon");
-  if (b->scene == 1u << DECK_SWITCHING && d->switching.from > 0 && d->switching.to == 0 &&
-      !leaves && !(pendres_model_of(d->pendulum.force)->period > 0.0))
+  if (d->switching.from > 0 && d->switching.to == 0 && !leaves &&
+      !(pendres_model_of(d->pendulum.force)->period > 0.0))
     deck_complain(b, deck_given_of(b, "switching", "from"), "from",
                   "this force has no wells that are alike: 'from' needs 'to'");
 }

@@ -21,36 +21,52 @@
 #include "deck/namelist.h"
 
 /*
- * Kinds of scenes with their names in decks and what each computes, in words for --list; the table
- * and deck_kind_name() follow this list.
+ * Kinds of scenes, a row each: the name in decks, what is computed, in words for --list, and what
+ * of a deck_kind_info is not 0: which parameters its results are over.
  */
 #define DECK_KIND_LIST(ITEM)                                                                      \
   ITEM(FREE_OSCILLATION, "free_oscillation",                                                      \
-       "frequency of the free, undamped pendulum against its amplitude")                          \
+       "frequency of the free, undamped pendulum against its amplitude", .most = 0)               \
   ITEM(RESONANCE_CURVE, "resonance_curve",                                                        \
-       "resonance of an ensemble, found to the tolerance, against damping")                       \
+       "resonance of an ensemble, found to the tolerance, against damping",                       \
+       .layout = DECK_RESONANCES, .least = 1, .most = 1, .takes = "results have one axis")        \
   ITEM(RESPONSE, "response",                                                                      \
-       "amplitude, phase lag and loop area of an ensemble against drive period or frequency")     \
+       "amplitude, phase lag and loop area of an ensemble against drive period or frequency",     \
+       .layout = DECK_PLANE, .least = 2, .most = DECK_AXES, .steady = 1,                          \
+       .takes = "results have three axes at most, with temperatures two")                         \
   ITEM(ORBIT, "orbit",                                                                            \
-       "one pendulum in time: an attractor, or the way to it, with measures and multipliers")      \
+       "one pendulum in time: an attractor, or the way to it, with measures and multipliers",     \
+       .most = 0)                                                                                 \
   ITEM(BASINS, "basins",                                                                          \
-       "attractor on which each start of a window settles; with a temperature, thermal clouds")   \
+       "attractor on which each start of a window settles; with a temperature, thermal clouds",   \
+       .steady = 1)                                                                               \
   ITEM(PHASE_DIAGRAM, "phase_diagram",                                                            \
-       "where SA, LA, both or neither exist, over damping and drive frequency")                   \
+       "where SA, LA, both or neither exist, over damping and drive frequency",                   \
+       .layout = DECK_PLANE, .least = 2, .most = 2, .followed = 1,                                \
+       .takes = "results have two axes")                                                          \
   ITEM(BRANCHES, "branches",                                                                      \
-       "orbits followed over the drive frequency, unstable parts and bifurcations included")      \
+       "orbits followed over the drive frequency, unstable parts and bifurcations included",      \
+       .layout = DECK_PLANE, .least = 2, .most = 2, .followed = 1,                                \
+       .takes = "results have two axes")                                                          \
   ITEM(WORK_PRECISION, "work_precision",                                                          \
-       "methods compared: speed against error on the same pendulums")                             \
+       "methods compared: speed against error on the same pendulums", .most = 0)                  \
   ITEM(HARD_CASES, "hard_cases",                                                                  \
-       "cases that break pendulum programs, each with its bound and the figure measured")         \
+       "cases that break pendulum programs, each with its bound and the figure measured",         \
+       .most = 0)                                                                                 \
   ITEM(SWITCHING, "switching",                                                                    \
-       "rates at which noise drives a pendulum from one state to another, against temperature")   \
+       "rates at which noise drives a pendulum from one state to another, against temperature",   \
+       .most = 0)                                                                                 \
   ITEM(HYSTERESIS, "hysteresis",                                                                  \
-       "state of a pendulum while one parameter is swept slowly, up and then down; its jumps")    \
+       "state of a pendulum while one parameter is swept slowly, up and then down; its jumps",    \
+       .layout = DECK_MOVING, .least = 1, .most = 1, .followed = 1,                               \
+       .takes = "one parameter is swept")                                                         \
   ITEM(BIFURCATION_DIAGRAM, "bifurcation_diagram",                                                \
-       "strobe points against one parameter, bifurcations on the way, and a doubling cascade")    \
+       "strobe points against one parameter, bifurcations on the way, and a doubling cascade",    \
+       .layout = DECK_MOVING, .least = 1, .most = 1, .followed = 1,                               \
+       .takes = "one parameter moves")                                                            \
   ITEM(LYAPUNOV_MAP, "lyapunov_map",                                                              \
-       "largest Lyapunov exponent, period and winding over two parameters")
+       "largest Lyapunov exponent, period and winding over two parameters",                       \
+       .layout = DECK_MOVING, .least = 2, .most = 2, .takes = "a map has two axes")
 
 /* Hard cases by their names, in the order in which they are printed. */
 #define DECK_CASE_LIST(ITEM)                                                                      \
@@ -68,11 +84,28 @@
   ITEM(drive)
 
 typedef enum deck_kind {
-#define DECK_KIND_CODE(code, name, words) DECK_##code,
+#define DECK_KIND_CODE(code, ...) DECK_##code,
   DECK_KIND_LIST(DECK_KIND_CODE)
 #undef DECK_KIND_CODE
   DECK_KIND_COUNT
 } deck_kind;
+
+/* Over which parameters a kind has its results: deck_axes(). */
+typedef enum deck_layout {
+  DECK_NO_AXES = 0,
+  DECK_MOVING,    /* those that have several values */
+  DECK_PLANE,     /* damping and the drive's frequency or period, or what is given in &sweep */
+  DECK_RESONANCES /* one of these: the drive's frequency is what is searched for */
+} deck_layout;
+
+typedef struct deck_kind_info {
+  const char *name, *words;
+  deck_layout layout;
+  int least, most;   /* axes of the results, with that of temperatures where noise is steady */
+  int followed;      /* nonzero: orbits are followed along them */
+  int steady;        /* nonzero: with noise, results are those of the steady state */
+  const char *takes; /* the words where there are fewer or more */
+} deck_kind_info;
 
 /* Axes of &sweep: the parameters, in the order of their list, and two more. */
 typedef enum deck_axis_id {
@@ -185,7 +218,6 @@ typedef struct deck {
     int boundary;
     int statistics;
     int64_t strobes;        /* noisy strobes recorded for each attractor */
-    int64_t seed;
     int64_t trajectories;
     char by[DECK_NAME];     /* what counts as one end */
   } basins;
@@ -255,13 +287,8 @@ int deck_has_noise(const deck *d);
 /** Does a parameter move in real time? */
 int deck_has_ramp(const deck *d);
 
-/** The seed of the deck's random numbers. */
-uint64_t deck_seed(const deck *d);
-
 /** The axes of the parameters over which a scene has its results, slowest first, and how many there
- *  are, which is at most DECK_AXES in a deck that was checked: damping and the drive's frequency or
- *  period, or what is given in &sweep instead (of a resonance curve one of these), or those that
- *  have several values. 0 of scenes that vary none. */
+ *  are, which is at most DECK_AXES in a deck that was checked. */
 enum { DECK_AXES = 3 };
 int deck_axes(const deck *d, deck_axis_id axis[DECK_AXES]);
 
@@ -285,9 +312,9 @@ int64_t deck_spectrum_least(const deck *d);
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */
 int deck_is_plain(const deck *d);
 
-/** Names in decks, and what a kind computes in words; NULL if out of range. */
+/** The row of a kind, and names in decks; NULL if out of range. */
+const deck_kind_info *deck_kind_of(deck_kind kind);
 const char *deck_kind_name(deck_kind kind);
-const char *deck_kind_words(deck_kind kind);
 const char *deck_axis_name(deck_axis_id axis);
 
 #endif

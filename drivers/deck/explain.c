@@ -216,7 +216,7 @@ static void explain_key(FILE *out, const char *margin, const deck_key *key, unsi
 void deck_list(FILE *out)
 {
   for (int k = 0; k < DECK_KIND_COUNT; k++)
-    fprintf(out, "%-17s %s\n", deck_kind_name((deck_kind)k), deck_kind_words((deck_kind)k));
+    fprintf(out, "%-17s %s\n", deck_kind_name((deck_kind)k), deck_kind_of((deck_kind)k)->words);
 }
 
 static int find_kind(const char *word)
@@ -230,7 +230,7 @@ static void explain_kind(FILE *out, int kind)
 {
   const unsigned scene = 1u << kind;
   const char *group = NULL;
-  fprintf(out, "%s: %s\n", deck_kind_name((deck_kind)kind), deck_kind_words((deck_kind)kind));
+  fprintf(out, "%s: %s\n", deck_kind_name((deck_kind)kind), deck_kind_of((deck_kind)kind)->words);
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if ((key->scenes & scene) == 0) continue;
@@ -329,7 +329,7 @@ pendres_status deck_init(const char *word, FILE *out, char *why, size_t size)
   const char *group = NULL;
   if (kind < 0) return unknown_word(word, 1, why, size);
   fprintf(out, "! %s: %s.\n! Keys that are comments have the values that stand there by default.\n",
-          deck_kind_name((deck_kind)kind), deck_kind_words((deck_kind)kind));
+          deck_kind_name((deck_kind)kind), deck_kind_of((deck_kind)kind)->words);
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if ((key->scenes & 1u << kind) == 0) continue;
@@ -393,7 +393,7 @@ static void reference_kind(FILE *out, deck_kind kind)
     add(list, other_group(key, scene));
     add(list, "`)");
   }
-  fprintf(out, "\n### %s\n\nComputes: %s.\n\n", deck_kind_name(kind), deck_kind_words(kind));
+  fprintf(out, "\n### %s\n\nComputes: %s.\n\n", deck_kind_name(kind), deck_kind_of(kind)->words);
   if (needed[0] != '\0') fprintf(out, "Needs %s.\n\n", needed);
   fprintf(out, "Takes %s.\n", others);
 }

@@ -352,11 +352,12 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
   else given->broken = 1;
 }
 
-void deck_key_defaults(deck *d)
+void deck_key_defaults(deck_builder *b)
 {
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
-    void *f = field(d, key);
+    void *f = field(b->d, key);
+    if (b->given[i].given || (b->scene != 0 && (key->scenes & b->scene) == 0)) continue;
     switch (key->type) {
     case DECK_REAL:
       *(double *)f = key->number;
@@ -389,12 +390,7 @@ int deck_has_noise(const deck *d)
 
 int deck_has_ramp(const deck *d)
 {
-  return d->kind == DECK_HYSTERESIS && (d->ramp.rate > 0.0 || d->ramp.protocol.count > 0);
-}
-
-uint64_t deck_seed(const deck *d)
-{
-  return (uint64_t)(d->kind == DECK_BASINS ? d->basins.seed : d->noise.seed);
+  return d->ramp.rate > 0.0 || d->ramp.protocol.count > 0;
 }
 
 int deck_key_applies(const deck_key *key, const deck *d)

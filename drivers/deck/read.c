@@ -110,6 +110,7 @@ static void read_groups(deck_builder *b)
     }
     read_settings(b, scene);
     if (scene) check_kind(b, found);
+    if (scene && b->scene != 0) deck_key_defaults(b);
   }
 }
 
@@ -154,7 +155,7 @@ static pendres_status build(const namelist *nl, const namelist *settings, size_t
   deck_builder b = { .nl = nl, .settings = settings, .setting_count = count, .errors = errors,
                      .d = &d, .kind_nl = nl, .kind_line = 1, .kind_column = 1 };
 
-  deck_key_defaults(&d);
+  deck_key_defaults(&b);
   default_output(&d, nl->name);
   read_groups(&b);
   deck_check(&b);

@@ -77,7 +77,7 @@
     SAYS(unit, words "; one value may stand in &pendulum instead") },
 
 static const char *const kinds[] = {
-#define KIND_NAME(code, name, words) name,
+#define KIND_NAME(code, name, ...) name,
   DECK_KIND_LIST(KIND_NAME)
 #undef KIND_NAME
   NULL
@@ -323,7 +323,7 @@ const deck_key deck_table[] = {
     SAYS(NULL, "what statistics and picture tell apart: attractors, or their wells, too") },
   { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT),
     .number = 1000, .when = DECK_WITH_NOISE, SAYS(NULL, "strobe points recorded of each cloud") },
-  { INTEGER("basins", "seed", basins.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1,
+  { INTEGER("basins", "seed", noise.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1,
     .when = DECK_WITH_NOISE, SAYS(NULL, "seed of the random numbers") },
   { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS),
     RANGE(2, DECK_MAX_COUNT), .number = 192, .when = DECK_WITH_NOISE,
@@ -427,14 +427,14 @@ int64_t deck_spectrum_least(const deck *d)
   return samples == 1 ? 4 : samples == 2 || samples % 2 != 0 ? 2 : 1;
 }
 
-const char *deck_kind_words(deck_kind kind)
+const deck_kind_info *deck_kind_of(deck_kind kind)
 {
-  static const char *const words[] = {
-#define KIND_WORDS(code, name, text) text,
-    DECK_KIND_LIST(KIND_WORDS)
-#undef KIND_WORDS
+  static const deck_kind_info info[] = {
+#define KIND_INFO(code, name, words, ...) {name, words, __VA_ARGS__},
+    DECK_KIND_LIST(KIND_INFO)
+#undef KIND_INFO
   };
-  return (unsigned)kind < DECK_KIND_COUNT ? words[kind] : NULL;
+  return (unsigned)kind < DECK_KIND_COUNT ? &info[kind] : NULL;
 }
 
 const char *deck_kind_name(deck_kind kind)

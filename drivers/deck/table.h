@@ -120,8 +120,9 @@ void deck_report_unknown_key(deck_builder *b, const namelist_assignment *a, cons
 
 /* key.c: take the values of one key over into the deck; range: it came as NAME_range. */
 void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, int range);
-/* Set the defaults of all keys. */
-void deck_key_defaults(deck *d);
+/* Set the defaults of all keys or, as soon as the scene is known, of those that it has: rows of one
+   field may differ in them. */
+void deck_key_defaults(deck_builder *b);
 /* Does the key have an effect in this deck? */
 int deck_key_applies(const deck_key *key, const deck *d);
 
@@ -138,6 +139,8 @@ void deck_complain(deck_builder *b, const deck_given *at, const char *name, cons
 void deck_complain_of_group(deck_builder *b, const namelist_group *g, const char *message);
 /* The state of a key in this scene; never NULL, so that callers need not ask. */
 const deck_given *deck_given_of(const deck_builder *b, const char *group, const char *name);
+/* Whether the scene has the key. */
+int deck_in_scene(const deck_builder *b, const char *group, const char *name);
 /* Whether a key is in the deck under its own name, with a good value or a bad one. */
 int deck_is_there(const deck_given *at);
 

@@ -4,28 +4,27 @@
  */
 #include "deck/table.h"
 
-/* Bring a default into the deck's units; what was given is. */
+/* Bring a default, of `count` numbers, into the deck's units; what was given is. An axis of this
+   name has no default. */
 static void bring(const deck_builder *b, const char *group, const char *name, double unit,
-                  double *value)
+                  double *value, int count)
 {
   int range = 0;
-  const deck_given *at = deck_given_of(b, group, name);
-  const int taken = deck_table_find(group, name, b->scene, &range) < deck_table_size;
-  if (taken && !at->given && !at->broken) *value *= unit;
+  const size_t row = deck_table_find(group, name, b->scene, &range);
+  if (row == deck_table_size || range || b->given[row].given || b->given[row].broken) return;
+  for (int i = 0; i < count; i++) value[i] *= unit;
 }
 
 void deck_check_units(deck_builder *b)
 {
   deck *d = b->d;
   const pendres_units u = deck_pendulum_units(d);
-  bring(b, "ensemble", "x_first", u.length, &d->ensemble.x_first);
-  bring(b, "ensemble", "x_last", u.length, &d->ensemble.x_last);
-  bring(b, "lyapunov_map", "x", u.length, &d->orbit.x);
-  for (int i = 0; i < 2; i++) {
-    bring(b, "sweep", d->kind == DECK_RESONANCE_CURVE ? "drive_frequency_range" : "resonance_range",
-          1.0 / u.time, &d->search[i]);
-  }
-  bring(b, "precision", "tolerance", u.length, &d->precision.tolerance);
+  bring(b, "ensemble", "x_first", u.length, &d->ensemble.x_first, 1);
+  bring(b, "ensemble", "x_last", u.length, &d->ensemble.x_last, 1);
+  bring(b, "lyapunov_map", "x", u.length, &d->orbit.x, 1);
+  bring(b, "sweep", "drive_frequency_range", 1.0 / u.time, d->search, 2);
+  bring(b, "sweep", "resonance_range", 1.0 / u.time, d->search, 2);
+  bring(b, "precision", "tolerance", u.length, &d->precision.tolerance, 1);
   const deck_given *at = deck_given_of(b, "precision", "tolerance");
   const double tolerance = d->precision.tolerance / u.length;
   if (!at->given || (tolerance >= 1e-13 && tolerance <= 1e-2)) return;

@@ -45,7 +45,7 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
                             .steps_per_period = (int)d->precision.steps_per_period,
                             .block_lanes = (int)d->precision.block_lanes,
                             .period_budget = (long)d->precision.period_budget,
-                            .seed = deck_seed(d) };
+                            .seed = (uint64_t)d->noise.seed };
   const scene_kind *scene = scene_find(d->kind);
   if (scene != NULL && scene->options != NULL) scene->options(d, out);
   const char *method = d->precision.method, *table = d->precision.table;
