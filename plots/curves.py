@@ -28,14 +28,17 @@ def resonance_axes(ax, h, labels):
     `labels` of dampings, some of the others."""
     name = h.axis_of("mean_loop_amplitude", 0)
     amplitude, peak, values = h["mean_loop_amplitude"], h["peak"], h[name]
-    if name != "damping" or not np.isin(labels, values).any() or len(values) <= 8:
+    if name != "damping" or not np.isin(labels, values).all():
         labels = values[::-(-len(values) // 8)]
     omega, label = frequency(h, h["resonance_frequency"])
-    x = np.linspace(0, max(0.5, np.nanmax(amplitude, initial=0.5) * 1.12), 400)
-    x = x[x < np.pi]
-    ax.plot(x, frequency(h, free_frequency(x))[0], "--", color=FREE, label="free oscillation")
-    ax.axhline(frequency(h, 1.0)[0], color=FREE, ls="-.", label="harmonic oscillator")
-    for kind, style, colour, name in ((0, "o", SA, "smooth peak"), (1, "s", LA, "edge: SA ends"),
+    plain = "free_frequency" in h  # of another force no file has the free oscillation
+    right = np.nanmax(amplitude, initial=0) * 1.12 or 1
+    if plain:
+        x = np.linspace(0, min(max(0.5, right), np.pi), 400)[:-1]
+        right = x[-1]
+        ax.plot(x, frequency(h, free_frequency(x))[0], "--", color=FREE, label="free oscillation")
+        ax.axhline(frequency(h, 1.0)[0], color=FREE, ls="-.", label="harmonic oscillator")
+    for kind, style, colour, name in ((0, "o", SA, "smooth peak"), (1, "s", LA, "edge: SA ends" if plain else "edge: a state ends"),
                                       (2, "x", "black", "ragged")):
         if np.any(peak == kind):
             ax.plot(amplitude[peak == kind], omega[peak == kind], style, ms=3, color=colour,
@@ -43,8 +46,8 @@ def resonance_axes(ax, h, labels):
     # Numbers keep off the lines: they stand within the arch below the free pendulum's line, and to
     # the right of what is beyond that line.
     top = amplitude[np.nanargmax(omega)] if np.any(np.isfinite(omega)) else 0
-    free = frequency(h, free_frequency(amplitude))[0]
-    apart = 0.1 * x[-1], 0.05 * (np.nanmax(omega, initial=0) - np.nanmin(omega, initial=1))
+    free = frequency(h, free_frequency(amplitude))[0] if plain else omega
+    apart = 0.1 * right, 0.05 * (np.nanmax(omega, initial=0) - np.nanmin(omega, initial=1))
     numbered = np.empty((0, 2))
     for value in labels:
         i = np.argmin(abs(values - value))
@@ -59,14 +62,16 @@ def resonance_axes(ax, h, labels):
                     xytext=(-4 if left else 4, -6 if within else 1),
                     ha="right" if left else "left", va="top" if within else "bottom",
                     fontsize=plt.rcParams["legend.fontsize"] - 0.5)
-    ax.set(xlim=(0, x[-1]), ylim=around(np.append(omega, frequency(h, 1.0)[0]), 0.12))
+    seen = np.append(omega, frequency(h, 1.0)[0]) if plain else omega
+    ax.set(xlim=(0, right), ylim=around(seen, 0.12))
     return label
 
 
 def draw_resonance_curve(h, path):
     fig, ax = figure(h, 5.4, 4.0)
     label = resonance_axes(ax, h, [0.06, 0.1, 0.14, 0.2, 0.24, 0.32, 0.7, 1.0])
-    ax.set(xlabel=r"mean loop amplitude $\overline{x_0}$ (rad)", ylabel="resonance: " + label)
+    unit = " (rad)" if "free_frequency" in h else ""
+    ax.set(xlabel=r"mean loop amplitude $\overline{x_0}$" + unit, ylabel="resonance: " + label)
     beside = path[:-3] + "_inset.h5"
     inset = os.path.exists(beside)
     if inset:  # the free space is at the lower left, below the curve
