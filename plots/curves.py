@@ -38,7 +38,8 @@ def resonance_axes(ax, h, labels):
         right = x[-1]
         ax.plot(x, frequency(h, free_frequency(x))[0], "--", color=FREE, label="free oscillation")
         ax.axhline(frequency(h, 1.0)[0], color=FREE, ls="-.", label="harmonic oscillator")
-    for kind, style, colour, name in ((0, "o", SA, "smooth peak"), (1, "s", LA, "edge: SA ends" if plain else "edge: a state ends"),
+    edge = "edge: SA ends" if plain else "edge: a state ends"
+    for kind, style, colour, name in ((0, "o", SA, "smooth peak"), (1, "s", LA, edge),
                                       (2, "x", "black", "ragged")):
         if np.any(peak == kind):
             ax.plot(amplitude[peak == kind], omega[peak == kind], style, ms=3, color=colour,
