@@ -344,6 +344,15 @@ def test_functions():
     backbone, error, outcome = pendres.backbone(pendres.pendulum(
         damping=[0.3, 0.2], drive_amplitude=0.2, drive_frequency=1))
     assert np.allclose(backbone.phase_lag, np.pi / 2, atol=1e-7) and all(error < 1e-6)
+    weak = pendres.pendulum(damping=[0.3, 0.01], drive_amplitude=0.2, drive_frequency=1)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        assert np.isnan(pendres.backbone(weak)[1]).tolist() == [False, True] and len(told) == 1
+    try:
+        pendres.backbone(weak[1])
+        raise AssertionError("a backbone that there is not")
+    except pendres.NotFound as why:
+        assert "too weak a damping" in str(why)
     exact = pendres.free_frequency(1.0)
     assert abs(pendres.free_frequency_integrate(1.0)[0] - exact) < 1e-8
     hot = pendres.pendulum(damping=0.13, drive_amplitude=0.2, drive_frequency=0.8,

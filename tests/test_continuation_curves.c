@@ -325,6 +325,72 @@ static void backbone_lags_by_a_quarter(void **state)
   pendres_context_free(ctx);
 }
 
+/* The backbone of other forces: stiff, with no linear term, with two wells, and one-sided; beneath a
+   torque; by the reference, which has a code of its own. */
+static void backbone_of_any_force(void **state)
+{
+  (void)state;
+  const pendres_pendulum p[] = {
+    {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 1.0}},
+    {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {0.0, 0.0, 1.0}},
+    {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-1.0, 0.0, 1.0}},
+    {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 1.0}, .torque = 0.05},
+    {.torque = 0.5},
+    {.parametric_amplitude = 0.2}};
+  enum { COUNT = sizeof p / sizeof *p };
+  pendres_pendulum one[2 * COUNT];
+  pendres_orbit o[2 * COUNT];
+  double error[2 * COUNT];
+  pendres_status outcome[2 * COUNT];
+  pendres_context *ctx = context_of(1e-9, PENDRES_TABLE_DEFAULT);
+  for (size_t i = 0; i < 2 * COUNT; i++) { /* weaker dampings first, and lines mixed */
+    one[i] = p[i % COUNT];
+    one[i].damping = i < COUNT ? 0.3 : 0.6;
+    one[i].drive_amplitude = 0.1;
+  }
+  check_ok(pendres_backbone_find(ctx, 2 * COUNT, one, o, error, outcome));
+  for (size_t i = 0; i < 2 * COUNT; i++) {
+    pendres_reference_cycle want;
+    const double origin = one[i].force == PENDRES_FORCE_PENDULUM ? half_pi : 0.0;
+    check_ok(outcome[i]);
+    assert_true(error[i] <= 1e-9);
+    check_ok(pendres_reference_orbit(&o[i].pendulum, o[i].x - origin, o[i].v, 1, 0, &want));
+    /* The slope of the lag is below 20 at these dampings; the claims of x are not those of lags. */
+    check_near((double)want.phase_lag, half_pi, 20.0 * error[i] + o[i].phase_lag_error);
+    check_near((double)want.loop_area, o[i].loop_area, 2.0 * o[i].loop_area_error);
+  }
+  assert_true(o[2].x > 0.5); /* in the upper well */
+  pendres_context_free(ctx);
+}
+
+/* Of a linear force by its solution: x = F0 / (gamma omega) sin(omega t), omega^2 = a1. And nothing
+   where there is no well, with an orbit and an error that say so. */
+static void backbone_of_a_linear_force(void **state)
+{
+  (void)state;
+  const pendres_pendulum p[] = {
+    {0.01, 1.0, .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {2.0}},
+    {1.0, 1.0, .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {2.0}},
+    {0.1, 1.0, .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-2.0}},
+    {0.1, 1.0, .torque = 1.1}};
+  pendres_orbit o[4];
+  double error[4];
+  pendres_status outcome[4];
+  pendres_context *ctx = context_of(1e-9, PENDRES_TABLE_DEFAULT);
+  check_ok(pendres_backbone_find(ctx, 4, p, o, error, outcome));
+  for (int i = 0; i < 2; i++) {
+    check_ok(outcome[i]);
+    check_near(o[i].pendulum.drive_frequency, sqrt(2.0), error[i]);
+    check_near(o[i].amplitude, p[i].drive_amplitude / (p[i].damping * sqrt(2.0)),
+               o[i].amplitude_error);
+  }
+  for (int i = 2; i < 4; i++) {
+    assert_int_equal(outcome[i], PENDRES_NOT_FOUND);
+    assert_true(isnan(error[i]) && isnan(o[i].amplitude));
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -338,6 +404,8 @@ int main(void)
     cmocka_unit_test(symmetry_breakings_follow_parameters),
     cmocka_unit_test(other_parameters_lead_to_the_same_orbits),
     cmocka_unit_test(backbone_lags_by_a_quarter),
+    cmocka_unit_test(backbone_of_any_force),
+    cmocka_unit_test(backbone_of_a_linear_force),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

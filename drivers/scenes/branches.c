@@ -3,8 +3,8 @@
  *
  * The paper's Fig. 9. One task a damping. Beside the ensemble's means stand the branches
  * themselves, unstable parts included, the curves of folds that bound the coexistence region (the
- * figure's thick lines), and two backbones: the free pendulum's, and the driven one's at a lag of
- * pi/2.
+ * figure's thick lines), and two backbones: the driven one's at a lag of pi/2, and the free
+ * pendulum's.
  */
 #include <math.h>
 
@@ -144,8 +144,8 @@ static void backbone_dampings(const scene_lines *l, pendres_pendulum *p, double 
   const double high = fmax(fmax(1.0, 2.0 * first), fmin(2.0 * last, 100.0));
   for (int i = 0; i < BACKBONE; i++) {
     damping[i] = low * pow(high / low, i / (BACKBONE - 1.0));
-    p[i] = (pendres_pendulum){.damping = damping[i],
-                              .drive_amplitude = l->grid.pendulum.drive_amplitude};
+    p[i] = l->grid.pendulum;
+    p[i].damping = damping[i];
   }
 }
 
@@ -299,9 +299,9 @@ static void write_results(const scene_lines *l)
   write_branches(l);
   scene_lines_write_doubts(l);
   scene_curves_write(l);
-  /* The backbone is one over damping, at one drive amplitude, of the plain pendulum as is the free
-     one. */
-  if (plain && l->axis[0] == DECK_AXIS_DAMPING && l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
+  /* The backbone is one over damping, at one drive amplitude. */
+  if (l->axis[0] == DECK_AXIS_DAMPING && l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY &&
+      l->grid.pendulum.drive_amplitude > 0.0)
     write_backbone(l);
   if (plain) write_free(run);
   scene_curves_write_paper(l);

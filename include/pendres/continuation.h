@@ -232,13 +232,24 @@ const pendres_branch *pendres_branches_get(const pendres_branches *branches, siz
 size_t pendres_branches_skipped(const pendres_branches *branches);
 
 /**
- * The backbone of a damped pendulum: the drive frequency at which its orbit of period one lags
- * pi/2 behind the drive (in the first harmonic), where the drive works best against friction. For
- * each of n pendulums, whose drive_frequency is not read: damping and drive amplitude above 0.
- * out[n] are the orbits, outcome[n] PENDRES_OK, PENDRES_NOT_FOUND (as for weak damping, where such
- * an orbit would have to go over the top), or PENDRES_TOLERANCE_UNREACHABLE.
- * frequency_error[n] (may be NULL) is that of out[i].pendulum.drive_frequency.
- * The undamped, undriven backbone is pendres_free_frequency().
+ * The backbone of a damped pendulum of any force: the drive frequency at which its orbit of period
+ * one lags pi/2 behind the drive (in the first harmonic), where the drive works best against
+ * friction. As the damping falls these orbits form a curve, from small oscillations about the well
+ * into which the pendulum falls from y = 0 (of two wells with a barrier there, the upper one) to
+ * where the curve turns back, since friction cannot take out more: that curve is meant.
+ *
+ * @param ctx             belongs to one thread at a time
+ * @param n               how many pendulums
+ * @param pendulums       [n], read but for their drive_frequency; damping and drive amplitude
+ *                        above 0
+ * @param out             [n], written: the orbits; NaN where there is none
+ * @param frequency_error [n], written: that of out[i].pendulum.drive_frequency; may be NULL
+ * @param outcome         [n], written: PENDRES_OK, PENDRES_TOLERANCE_UNREACHABLE (the error tells),
+ *                        or PENDRES_NOT_FOUND: there is no well, or the damping is below that at
+ *                        which the curve turns back
+ * @return PENDRES_INVALID_ARGUMENT, or a failure of the integration; then out is not meaningful
+ *
+ * The undamped, undriven backbone of the pendulum is pendres_free_frequency().
  */
 pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
                                      const pendres_pendulum *pendulums, pendres_orbit *out,

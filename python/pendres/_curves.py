@@ -125,11 +125,19 @@ def cusp(near, second="damping", *, context=None):
 
 def backbone(p, *, context=None):
     """The drive frequency at which orbits lag pi/2 behind the drive: (orbits, frequency_error,
-    outcome), one for each pendulum, whose own frequency is not read."""
+    outcome), one for each pendulum, whose own frequency is not read. A RuntimeWarning tells that
+    some have none, with outcome NOT_FOUND and NaN, and NotFound that none has."""
     pendulums = np.ascontiguousarray(as_pendulums(p))
     found, outcome = (array(name, pendulums.shape) for name in ("pendres_orbit", "pendres_status"))
     error = np.empty(pendulums.shape)
     c.backbone_find(default_context(context), pendulums.size, pendulums, found, error, outcome)
+    none = np.count_nonzero(outcome == lib.PENDRES_NOT_FOUND)
+    if none:
+        why = (f"{none} of {outcome.size} pendulums have no orbit that lags pi/2 behind the drive: "
+               "no well, or too weak a damping for the drive")
+        if none == outcome.size:
+            raise errors[lib.PENDRES_NOT_FOUND](why)
+        warnings.warn(why, RuntimeWarning, stacklevel=2)
     return record(found), error, outcome
 
 

@@ -1,173 +1,333 @@
 /*
  * backbone.c -- where the response lags a quarter of a turn; see continuation.h.
  *
- * At a lag of pi/2 the drive puts in pi F0 R_1 a cycle, R_1 the first harmonic, and friction takes
- * out pi gamma omega sum n^2 R_n^2. Where the two are equal for a free oscillation, the search
- * starts: off by the square of the damping only, and a fold is hardly further away.
+ * The orbits of pendulums that differ in the damping alone form a curve in drive frequency and
+ * damping. At strong damping they are small oscillations about a well, which are known; from there
+ * the curve is followed to weaker damping, as far as it goes. Where it turns back the drive puts in
+ * more than friction can take out, whatever the amplitude.
  */
 #include <pendres/continuation.h>
 
 #include <math.h>
 #include <stdlib.h>
-
-#include <pendres/free.h>
+#include <string.h>
 
 #include "base/angles.h"
+#include "continuation/curve.h"
+#include "continuation/units.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-#include "continuation/units.h"
+#include "engine/coordinates.h"
+#include "model/model.h"
+#include "orbits/attractor_set.h"
 
-enum { MOST_ITERATIONS = 30 };
+enum { MOST_ADVANCES = 300, MOST_ROLLS = 1000, MOST_HALVINGS = 60, MOST_STARTS = 6 };
+/* The curve is begun at this amplitude or below, where a single harmonic is an orbit to some per
+   cent; or above, where the force stiffens: such oscillations stay close to a harmonic. */
+static const double first_amplitude = 0.1;
 
-/* A pendulum whose frequency is sought, by the secant method for the lag over the frequency. */
-typedef struct search {
-  int trials;                    /* so far */
-  double omega, before;          /* frequencies of this and the last trial */
-  double off, off_before;        /* lag - pi/2 there */
-  pendres_orbit_guess guess;
-  pendres_orbit *out;            /* where its result goes */
-  double *error;                 /* may be NULL */
-  pendres_status *outcome;
-} search;
+/* ---- small oscillations ---- */
 
-/*
- * Drive over damping that a free oscillation of amplitude a asks for: omega sum n^2 R_n^2 / R_1
- * with its harmonics R_n = 8 q^(n/2) / (n (1 + q^n)), n odd, q the nome of k = sin(a / 2).
- */
-static double balance(double a)
+/* Find where a pendulum without drives comes to rest that is let go at y = 0, or, if that is the
+   top of a barrier, right above it; 0: nowhere. */
+static int find_well(const pendres_pendulum *p, double *y)
 {
-  const double omega = pendres_free_frequency(a);
-  const double q = exp(-pi * omega / pendres_free_frequency(pi - a));
-  const double first = 8.0 * sqrt(q) / (1.0 + q);
-  double sum = 0.0;
-  for (int n = 1; n < 40; n += 2) {
-    const double part = 8.0 * pow(q, 0.5 * n) / (1.0 + pow(q, n)); /* n R_n */
-    sum += part * part;
-  }
-  return omega * sum / first;
-}
-
-/* Amplitude below pi at which the drive meets friction, or NaN. */
-static double start_amplitude(const pendres_pendulum *p)
-{
-  /* What is asked for grows up to a >= 2 and falls towards the top: the lower root is meant. */
-  double low = 0.0, high = 0.0, best = 0.0;
-  for (double a = 0.05; a < 3.14; a += 0.05) {
-    const double asked = balance(a);
-    if (asked > best) {
-      best = asked;
-      high = a;
+  static const double longest = 0.1, beside = 1e-3, last = 1e-12;
+  double force, slope, low, high;
+  *y = 0.0;
+  for (int i = 0; i < MOST_ROLLS; i++) {
+    pendres_model_force(p, *y, &force, &slope);
+    const double push = p->torque - force;
+    const double step = push != 0.0 ? copysign(fmin(longest, fabs(push / slope)), push) : 0.0;
+    *y += step;
+    if (!(fabs(step) > last)) {
+      pendres_model_force(p, *y - beside, &low, &slope);
+      pendres_model_force(p, *y + beside, &high, &slope);
+      if (low < p->torque && p->torque < high) return 1;
+      *y += beside;
     }
   }
-  const double wanted = p->drive_amplitude / p->damping;
-  if (!(wanted < best)) return NAN;
-  for (int i = 0; i < 60; i++) {
-    const double middle = 0.5 * (low + high);
-    if (balance(middle) < wanted)
-      low = middle;
-    else
-      high = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-static void finish(const pendres_context *ctx, const search *s, const pendres_orbit *o,
-                   pendres_status refined)
-{
-  /* The slope of the lag over the frequency turns the error of the lag into that of the other. */
-  const double slope = (s->off - s->off_before) / (s->omega - s->before);
-  const double e = fabs(s->off / slope) + fabs(o->phase_lag_error / slope);
-  const int good = refined == PENDRES_OK && e <= ctx->options.tolerance;
-  *s->out = *o;
-  if (s->error != NULL) *s->error = e;
-  *s->outcome = good ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
-}
-
-/* Take over a trial's orbit. Returns 1 when the search is over. */
-static int improve(const pendres_context *ctx, search *s, const pendres_orbit *o,
-                   pendres_status refined)
-{
-  const int trial = s->trials++;
-  if (refined == PENDRES_NOT_CONVERGED || s->trials == MOST_ITERATIONS) return 1;
-  const double omega = o->pendulum.drive_frequency;
-  s->off_before = s->off;
-  s->off = o->phase_lag - half_pi;
-  if (trial > 0 &&
-      fabs(s->off) <= pendres_accuracy_negligible(ctx) + 2.0 * o->phase_lag_error) {
-    finish(ctx, s, o, refined);
-    return 1;
-  }
-  /* The first step goes a little way; the lag grows with the frequency. */
-  double next = trial == 0 ? omega - copysign(fmin(1e-3, 0.1 * fabs(s->off) + 1e-7), s->off)
-                           : omega - s->off * (omega - s->before) / (s->off - s->off_before);
-  if (!(fabs(next - omega) < 0.1)) next = omega - copysign(0.1, s->off);
-  if (!(next > 0.0)) return 1;
-  s->before = omega;
-  s->omega = next;
-  s->guess.pendulum.drive_frequency = next;
-  s->guess.x = o->x;
-  s->guess.v = o->v;
   return 0;
 }
 
-static size_t begin(size_t n, const pendres_pendulum *pendulums, const search *into, search *s)
+/* The stiffness about a well by the force's first harmonic at an amplitude. */
+static double stiffness(const pendres_pendulum *p, double well, double amplitude)
 {
-  size_t count = 0;
-  for (size_t i = 0; i < n; i++) {
-    pendres_pendulum p = pendulums[i];
-    const double a = start_amplitude(&p);
-    const search to = {.out = into->out + i,
-                       .error = into->error != NULL ? into->error + i : NULL,
-                       .outcome = into->outcome + i};
-    *to.outcome = PENDRES_NOT_FOUND;
-    if (to.error != NULL) *to.error = NAN;
-    if (isnan(a)) continue;
-    p.drive_frequency = pendres_free_frequency(a);
-    s[count] = to;
-    s[count].omega = p.drive_frequency;
-    /* y goes as sin(theta): through its well with the speed of its energy. */
-    s[count++].guess =
-      (pendres_orbit_guess){.pendulum = p, .x = half_pi, .v = 2.0 * sin(0.5 * a), .period = 1};
+  enum { PHASES = 16 };
+  static const double least = 1e-6; /* of the amplitude: below it the force is linear */
+  const double a = fmax(amplitude, least);
+  double sum = 0.0, force, slope;
+  for (int i = 0; i < PHASES; i++) {
+    const double sine = sin(two_pi * i / PHASES);
+    pendres_model_force(p, well + a * sine, &force, &slope);
+    sum += force * sine;
   }
-  return count;
+  return 2.0 * sum / (PHASES * a);
+}
+
+/* The damping at which the drive meets friction in a harmonic oscillation of this amplitude; NaN
+   where the force has no stiffness. */
+static double damping_at(const pendres_pendulum *p, double well, double amplitude)
+{
+  return p->drive_amplitude / (amplitude * sqrt(stiffness(p, well, amplitude)));
+}
+
+/* The largest amplitude to begin at with a larger damping than this one. */
+static double largest_start(const pendres_pendulum *p, double well, double damping)
+{
+  double a = first_amplitude;
+  while (stiffness(p, well, 2.0 * a) >= stiffness(p, well, a) &&
+         damping_at(p, well, 2.0 * a) >= damping)
+    a *= 2.0;
+  return a;
+}
+
+/* An oscillation y = well + amplitude sin(theta) as an orbit. */
+static pendres_orbit oscillation(const pendres_pendulum *p, double well, double amplitude)
+{
+  pendres_orbit o = pendres_orbit_none(p);
+  o.x = well + pendres_model_origin(p);
+  o.v = amplitude * p->drive_frequency;
+  o.period = 1;
+  o.winding = 0;
+  o.mean_angle = well;
+  o.symmetric = pendres_pendulum_symmetric(p) &&
+                fabs(pendres_model_centre(p, well) - well) < 1e-3 * first_amplitude;
+  return o;
+}
+
+/* Begin the curve of a pendulum's orbits where the damping is larger than this one.
+   PENDRES_NOT_FOUND: there is none. */
+static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, double strongest,
+                            pendres_follower *w)
+{
+  static const pendres_parameter along[] = {PENDRES_DRIVE_FREQUENCY, PENDRES_DAMPING};
+  static const double spacing = 0.1, beyond = 1.1;
+  pendres_pendulum p = *of;
+  double well;
+  int starts = 0;
+  if (!find_well(&p, &well)) return PENDRES_NOT_FOUND;
+  double a = largest_start(&p, well, beyond * strongest);
+  for (int i = 0; i < MOST_HALVINGS && starts < MOST_STARTS; i++, a *= 0.5) {
+    double u[PENDRES_U_COUNT];
+    p.damping = damping_at(&p, well, a);
+    if (!(p.damping >= beyond * strongest)) continue;
+    p.drive_frequency = p.drive_amplitude / (a * p.damping);
+    starts++;
+    const pendres_orbit o = oscillation(&p, well, a);
+    const pendres_followed kind =
+      pendres_followed_of(&o, PENDRES_CONDITION_LAG, along, spacing, u);
+    const pendres_status status = pendres_follow_begin(ctx, &kind, u, -1.0, w);
+    if (status != PENDRES_OK && status != PENDRES_NOT_CONVERGED) return status;
+    const double off = hypot(w->here.u[PENDRES_U_Y] - well, w->here.u[PENDRES_U_W] - a);
+    if (status == PENDRES_OK && off < a && w->here.u[PENDRES_U_GAMMA] > strongest) return status;
+  }
+  return PENDRES_NOT_FOUND;
+}
+
+/* ---- along the curve ---- */
+
+/* Pendulums that differ in the damping alone, from the strongest down. */
+typedef struct line {
+  size_t n;
+  const pendres_pendulum *first;
+  size_t *index;            /* [n] of the caller's */
+  double *damping;          /* [n] */
+  pendres_curve_node *node; /* [n] */
+  size_t found;             /* of the nodes, the first */
+} line;
+
+/* Find the point of the curve with a damping between two nodes, which may turn back on the way: on
+   the parabola with the first one's tangent through the second. 0: there is none. */
+static int between(const pendres_system *s, const pendres_curve_node *a,
+                   const pendres_curve_node *b, double damping, pendres_curve_node *out)
+{
+  static const double rounding = 1e-9;
+  const int last = s->unknowns - 1;
+  const double h = b->arclength - a->arclength, away = damping - a->u[PENDRES_U_GAMMA];
+  double slope[PENDRES_UNKNOWNS], bend[PENDRES_UNKNOWNS];
+  for (int k = 0; k < s->unknowns; k++) {
+    const int i = s->unknown[k];
+    slope[k] = a->tangent[k] * pendres_arc_scale(i, a->u[i]);
+    bend[k] = (b->u[i] - a->u[i] - slope[k] * h) / (h * h);
+  }
+  const double square = slope[last] * slope[last] + 4.0 * bend[last] * away;
+  const double way = 2.0 * away / (slope[last] - sqrt(square));
+  if (!(square >= 0.0 && way >= 0.0 && way <= (1.0 + rounding) * h)) return 0;
+  *out = *a;
+  for (int k = 0; k < s->unknowns; k++)
+    out->u[s->unknown[k]] += way * (slope[k] + way * bend[k]);
+  out->u[PENDRES_U_GAMMA] = damping;
+  memset(out->tangent, 0, sizeof out->tangent);
+  out->tangent[last] = 1.0;
+  out->held = last + 1;
+  return 1;
+}
+
+/* Follow the curve to the weakest damping of a line, or as far as it goes. */
+static pendres_status follow(pendres_context *ctx, pendres_follower *w, line *l)
+{
+  static const double wildest = 1e3; /* growth of errors in a map, as for branches */
+  pendres_curve_node last = w->here;
+  for (int i = 0; i < MOST_ADVANCES && !w->stuck && w->here.growth < wildest; i++) {
+    const pendres_status status = pendres_follow_advance(ctx, 1, &w);
+    if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
+    for (int k = 0; k < w->found; k++, last = w->ahead[k - 1]) {
+      const pendres_curve_node *next = &w->ahead[k];
+      while (l->found < l->n && between(&w->kind.system, &last, next, l->damping[l->found],
+                                        &l->node[l->found]))
+        l->found++;
+      if (l->found == l->n || !(next->u[PENDRES_U_GAMMA] < last.u[PENDRES_U_GAMMA]))
+        return PENDRES_OK;
+    }
+  }
+  return PENDRES_OK;
+}
+
+/* Correct the nodes of a line at their dampings, and leave out those where that leads elsewhere. */
+static pendres_status correct(pendres_context *ctx, const pendres_followed *kind, line *l)
+{
+  size_t kept = 0;
+  pendres_correction *c = calloc(l->found + 1, sizeof *c);
+  pendres_status status = PENDRES_OK;
+  if (c == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a backbone");
+  for (size_t k = 0; k < l->found && status == PENDRES_OK; k++) {
+    c[k].kind = kind;
+    memcpy(c[k].u, l->node[k].u, sizeof c[k].u);
+    memcpy(c[k].tangent, l->node[k].tangent, sizeof c[k].tangent);
+    status =
+      pendres_map_steps(ctx, kind->system.map.force, c[k].u, kind->tolerance, &c[k].steps);
+  }
+  if (status == PENDRES_OK) status = pendres_follow_correct(ctx, l->found, c);
+  for (size_t k = 0; k < l->found && status == PENDRES_OK; k++) {
+    if (isnan(pendres_correction_rounding(&c[k])) ||
+        !(pendres_arc_distance(c[k].u, l->node[k].u) < kind->spacing))
+      continue;
+    l->node[kept] = l->node[k];
+    memcpy(l->node[kept].u, c[k].u, sizeof c[k].u);
+    l->node[kept].u[PENDRES_U_GAMMA] = l->damping[k];
+    l->index[kept++] = l->index[k];
+  }
+  l->found = kept;
+  free(c);
+  return status;
+}
+
+/* Where the caller wants results. */
+typedef struct results {
+  pendres_orbit *orbit;
+  double *error; /* may be NULL */
+  pendres_status *outcome;
+} results;
+
+/* Make the nodes of a line as exact as is asked for, and measure their orbits. */
+static pendres_status measure(pendres_context *ctx, const pendres_followed *kind, const line *l,
+                              const results *out)
+{
+  const size_t n = l->found;
+  pendres_curve c = {.kind = *kind, .nodes = n, .node = l->node};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  c.pair = malloc((n + 1) * sizeof *c.pair);
+  c.orbit = malloc((n + 1) * sizeof *c.orbit);
+  c.error = malloc((n + 1) * sizeof *c.error);
+  if (c.pair == NULL || c.orbit == NULL || c.error == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for a backbone");
+  else
+    status = pendres_curve_polish(ctx, &c, n, NULL);
+  if (status == PENDRES_OK) status = pendres_solution_measure(ctx, n, c.pair, c.orbit);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    const size_t i = l->index[k];
+    out->orbit[i] = c.orbit[k];
+    if (out->error != NULL) out->error[i] = c.error[k][0];
+    out->outcome[i] =
+      c.error[k][0] <= ctx->options.tolerance ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
+  }
+  free(c.pair);
+  free(c.orbit);
+  free(c.error);
+  return status;
+}
+
+static pendres_status find_line(pendres_context *ctx, line *l, const results *out)
+{
+  pendres_follower w;
+  pendres_status status = begin(ctx, l->first, l->damping[0], &w);
+  if (status == PENDRES_NOT_FOUND) return PENDRES_OK;
+  if (status == PENDRES_OK) status = follow(ctx, &w, l);
+  if (status == PENDRES_OK) status = correct(ctx, &w.kind, l);
+  return status == PENDRES_OK ? measure(ctx, &w.kind, l, out) : status;
+}
+
+/* ---- several pendulums ---- */
+
+static int same_line(const pendres_pendulum *a, pendres_pendulum b)
+{
+  b.damping = a->damping;
+  b.drive_frequency = a->drive_frequency;
+  return pendres_model_same(a, &b);
+}
+
+/* Take the pendulums of the first one's line that have no outcome yet, the strongest damping
+   first. */
+static void take_line(size_t n, const pendres_pendulum *p, size_t first,
+                      const pendres_status *outcome, line *l)
+{
+  l->n = l->found = 0;
+  l->first = &p[first];
+  for (size_t i = first; i < n; i++) {
+    if (outcome[i] != PENDRES_STATUS_COUNT || !same_line(l->first, p[i])) continue;
+    size_t k = l->n++;
+    for (; k > 0 && l->damping[k - 1] < p[i].damping; k--) {
+      l->damping[k] = l->damping[k - 1];
+      l->index[k] = l->index[k - 1];
+    }
+    l->damping[k] = p[i].damping;
+    l->index[k] = i;
+  }
+}
+
+static const char *refuses(const pendres_pendulum *pendulum)
+{
+  pendres_pendulum p = *pendulum;
+  const char *why = NULL;
+  p.drive_frequency = 1.0;
+  if (pendres_pendulum_check(&p, &why) != PENDRES_OK) return why;
+  why = pendres_coordinates_refuses(&p, 0.0, 0.0);
+  if (why != NULL) return why;
+  return p.damping > 0.0 && p.drive_amplitude > 0.0 ? NULL : "a backbone needs damping and drive";
 }
 
 static pendres_status backbone_find(pendres_context *ctx, size_t n,
-                                    const pendres_pendulum *pendulums, pendres_orbit *out,
-                                    double *frequency_error, pendres_status *outcome)
+                                    const pendres_pendulum *pendulums, const results *out)
 {
-  if (n > 0 && (pendulums == NULL || out == NULL || outcome == NULL))
+  if (n > 0 && (pendulums == NULL || out->orbit == NULL || out->outcome == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, out and outcome");
-  for (size_t i = 0; i < n; i++)
-    if (!(pendulums[i].temperature >= 0.0 && pendulums[i].damping < 1e15 &&
-          pendulums[i].drive_amplitude < 1e15 && pendulums[i].damping > 0.0 &&
-          pendulums[i].drive_amplitude > 0.0 &&
-          isfinite(pendulums[i].damping) && isfinite(pendulums[i].drive_amplitude)))
-      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                  "pendulum %zu: a backbone needs damping and drive", i);
+  for (size_t i = 0; i < n; i++) {
+    const char *why = refuses(&pendulums[i]);
+    if (why != NULL)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
+  }
   pendres_status status = PENDRES_OK;
-  search *s = calloc(n + 1, sizeof *s);
-  pendres_orbit_guess *guess = calloc(n + 1, sizeof *guess);
-  pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
-  pendres_status *refined = malloc((n + 1) * sizeof *refined);
-  if (s == NULL || guess == NULL || orbit == NULL || refined == NULL) {
+  line l = {.index = malloc((n + 1) * sizeof *l.index),
+            .damping = malloc((n + 1) * sizeof *l.damping),
+            .node = calloc(n + 1, sizeof *l.node)};
+  if (l.index == NULL || l.damping == NULL || l.node == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
-    goto done;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    out->outcome[i] = PENDRES_STATUS_COUNT; /* none yet */
+    out->orbit[i] = pendres_orbit_none(&pendulums[i]);
+    if (out->error != NULL) out->error[i] = NAN;
   }
-  const search into = {.out = out, .error = frequency_error, .outcome = outcome};
-  for (size_t left = begin(n, pendulums, &into, s), again = 0; left > 0 && status == PENDRES_OK;
-       left = again) {
-    again = 0;
-    for (size_t i = 0; i < left; i++) guess[i] = s[i].guess;
-    status = pendres_orbit_find(ctx, left, guess, PENDRES_ORBIT_PLAIN, orbit, refined);
-    for (size_t i = 0; i < left && status == PENDRES_OK; i++)
-      if (!improve(ctx, &s[i], &orbit[i], refined[i])) s[again++] = s[i];
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (out->outcome[i] != PENDRES_STATUS_COUNT) continue;
+    take_line(n, pendulums, i, out->outcome, &l);
+    for (size_t k = 0; k < l.n; k++) out->outcome[l.index[k]] = PENDRES_NOT_FOUND;
+    status = find_line(ctx, &l, out);
   }
-done:
-  free(s);
-  free(guess);
-  free(orbit);
-  free(refined);
+  free(l.index);
+  free(l.damping);
+  free(l.node);
   return status;
 }
 
@@ -181,10 +341,12 @@ pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
     const size_t i = d.first, m = d.count;
     const pendres_pendulum *p =
       pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(pendulums, i));
-    pendres_orbit *o = pendres_door_out(&d, &pendres_dim_orbit, m, PENDRES_DOOR_AT(out, i));
-    double *e =
-      pendres_door_out(&d, &pendres_dim_frequency, m, PENDRES_DOOR_AT(frequency_error, i));
-    PENDRES_DOOR_CALL(&d, backbone_find(ctx, m, p, o, e, PENDRES_DOOR_AT(outcome, i)));
+    const results inside = {
+      .orbit = pendres_door_out(&d, &pendres_dim_orbit, m, PENDRES_DOOR_AT(out, i)),
+      .error =
+        pendres_door_out(&d, &pendres_dim_frequency, m, PENDRES_DOOR_AT(frequency_error, i)),
+      .outcome = PENDRES_DOOR_AT(outcome, i)};
+    PENDRES_DOOR_CALL(&d, backbone_find(ctx, m, p, &inside));
   }
   return pendres_door_close(&d);
 }

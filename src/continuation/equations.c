@@ -134,15 +134,27 @@ static void crossing_rows(const pendres_system *s, const pendres_image *image,
   }
 }
 
+/* Of a lag of a quarter of a turn. */
+static void lag_rows(const pendres_system *s, const pendres_image *image,
+                     const pendres_image *along, pendres_equations *e)
+{
+  double nudged[PENDRES_U_COUNT];
+  (void)along;
+  plain_rows(image, e);
+  for (int k = 0; k < s->unknowns; k++) nudged[k] = image[k + 1].in_phase;
+  append_row(e, s, image->in_phase, nudged);
+}
+
 const pendres_condition_rules *
 pendres_condition_rules_of(pendres_condition condition)
 {
   static const pendres_condition_rules rules[PENDRES_CONDITION_COUNT] = {
     [PENDRES_CONDITION_NONE] = {.unknowns = 2},
-    [PENDRES_CONDITION_FOLD] = {3, pendres_map_fold, 0, critical_rows},
-    [PENDRES_CONDITION_FLIP] = {3, pendres_map_flip, 0, critical_rows},
-    [PENDRES_CONDITION_CUSP] = {4, pendres_map_fold, 1, cusp_rows},
-    [PENDRES_CONDITION_CROSSING] = {3, NULL, 0, crossing_rows}};
+    [PENDRES_CONDITION_FOLD] = {3, 1, pendres_map_fold, 0, critical_rows},
+    [PENDRES_CONDITION_FLIP] = {3, 1, pendres_map_flip, 0, critical_rows},
+    [PENDRES_CONDITION_CUSP] = {4, 1, pendres_map_fold, 1, cusp_rows},
+    [PENDRES_CONDITION_CROSSING] = {3, 1, NULL, 0, crossing_rows},
+    [PENDRES_CONDITION_LAG] = {3, 0, NULL, 0, lag_rows}};
   return &rules[condition];
 }
 

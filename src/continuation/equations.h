@@ -21,6 +21,7 @@ typedef struct pendres_equations {
 /* What a condition adds to G(z) = z. */
 typedef struct pendres_condition_rules {
   int unknowns; /* of a system of as many equations */
+  int critical; /* its orbits are bifurcations: at given parameters they would be singular */
   /* The determinant that vanishes; NULL: no determinant does. */
   double (*determinant)(const pendres_image *image);
   int stencils; /* whether images along null vectors are needed, too */

@@ -196,15 +196,48 @@ static void read_image(const pendres_rows *rows, size_t lane, const pendres_map 
   out->determinant = exp(-u[PENDRES_U_GAMMA] * time);
 }
 
-static pendres_status run_block(pendres_block *b, const pendres_map *map, size_t n,
+/* A block of orbits whose first harmonics are wanted, and their images. */
+typedef struct in_phase {
+  const pendres_map *map;
+  const double (*u)[PENDRES_U_COUNT];
+  int steps, columns;
+  size_t n;
+  pendres_image *out;
+} in_phase;
+
+/* After a step: add to the sums of the first harmonic's cosine, and read the images when their map
+   ends. */
+static void add_step(void *arg, int step, const pendres_rows *rows)
+{
+  const in_phase *p = arg;
+  const double weight = 2.0 / p->steps * cos(two_pi * step / p->steps);
+  const int last = p->map->mirror == PENDRES_MIRROR_HALF ? p->steps / 2 : p->steps;
+  for (size_t i = 0; i < p->n; i++) {
+    p->out[i].in_phase += weight * pendres_rows_get(rows, PENDRES_ROW_Y, i);
+    if (step == last) read_image(rows, i, p->map, p->u[i], p->columns, &p->out[i]);
+  }
+}
+
+/* Run a block of orbits of period 1 through the whole of it, that of a half map too. */
+static pendres_status run_in_phase(pendres_block *b, const in_phase *p)
+{
+  for (size_t i = 0; i < p->n; i++) p->out[i].in_phase = 0.0;
+  b->ctx->cost.newton_steps += (double)p->n;
+  return pendres_block_period_sampled(b, add_step, (void *)p);
+}
+
+static pendres_status run_block(pendres_block *b, const pendres_system *s, size_t n,
                                 const double (*u)[PENDRES_U_COUNT], int columns, pendres_image *out)
 {
+  const pendres_map *map = &s->map;
   pendres_status status = PENDRES_OK;
   pendres_block_resize(b, n);
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum p = pendres_map_pendulum(map->force, u[i]);
     pendres_block_load(b, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
   }
+  if (s->condition == PENDRES_CONDITION_LAG)
+    return run_in_phase(b, &(in_phase){map, u, s->steps, columns, n, out});
   const int whole = whole_periods(map);
   for (int k = 0; k < whole && status == PENDRES_OK; k++) status = pendres_block_period(b);
   if (map->mirror == PENDRES_MIRROR_HALF && status == PENDRES_OK)
@@ -247,7 +280,7 @@ static pendres_status images(pendres_context *ctx, const pendres_system *s, size
   const size_t capacity = pendres_block_capacity(&b);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     const size_t count = n - first < capacity ? n - first : capacity;
-    status = run_block(&b, &s->map, count, u + first, columns, out + first);
+    status = run_block(&b, s, count, u + first, columns, out + first);
   }
   return status;
 }

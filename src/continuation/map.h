@@ -68,6 +68,7 @@ typedef struct pendres_image {
   double j[2][PENDRES_U_COUNT]; /* its derivatives by u; NaN by those that were not asked for */
   double n[2][2];               /* DG */
   double trace, determinant;    /* of DG; the latter from Liouville's formula */
+  double in_phase; /* the first harmonic's part with the drive, for PENDRES_CONDITION_LAG alone */
 } pendres_image;
 
 /* An equation beside G(z) = z. */
@@ -77,6 +78,8 @@ typedef enum pendres_condition {
   PENDRES_CONDITION_FLIP, /* det(N + I) = 0 */
   PENDRES_CONDITION_CUSP, /* fold, and its quadratic term is 0 */
   PENDRES_CONDITION_CROSSING, /* two branches cross (crossing.h) */
+  PENDRES_CONDITION_LAG,  /* the first harmonic of an orbit of period 1 has no part in phase with the
+                             drive: it lags a quarter of a turn behind */
   PENDRES_CONDITION_COUNT
 } pendres_condition;
 

@@ -131,7 +131,7 @@ static int head_fits(const pendres_curve *c)
 {
   const pendres_system *s = &c->kind.system;
   int good = map_fits(&s->map) && ends_fit(c->end) &&
-             (unsigned)s->condition < PENDRES_CONDITION_COUNT &&
+             (unsigned)s->condition < PENDRES_CONDITION_LAG && /* which has no public curves */
              s->unknowns == (pendres_curve_is_branch(c) ? 3 : 4);
   for (int k = 2; k < s->unknowns && good; k++)
     good = s->unknown[k] >= PENDRES_U_OMEGA && s->unknown[k] < PENDRES_U_COUNT;
