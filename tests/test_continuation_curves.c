@@ -325,8 +325,8 @@ static void backbone_lags_by_a_quarter(void **state)
   pendres_context_free(ctx);
 }
 
-/* The backbone of other forces: stiff, with no linear term, with two wells, and one-sided; beneath a
-   torque; by the reference, which has a code of its own. */
+/* The backbone of other forces: stiff, with no linear term, with two wells, and one-sided; of the
+   pendulum under a torque; by the reference, which has a code of its own. */
 static void backbone_of_any_force(void **state)
 {
   (void)state;

@@ -78,8 +78,8 @@ typedef enum pendres_condition {
   PENDRES_CONDITION_FLIP, /* det(N + I) = 0 */
   PENDRES_CONDITION_CUSP, /* fold, and its quadratic term is 0 */
   PENDRES_CONDITION_CROSSING, /* two branches cross (crossing.h) */
-  PENDRES_CONDITION_LAG,  /* the first harmonic of an orbit of period 1 has no part in phase with the
-                             drive: it lags a quarter of a turn behind */
+  PENDRES_CONDITION_LAG, /* the first harmonic of an orbit of period 1 lags behind the drive by a
+                            quarter of a turn: it has no part in phase */
   PENDRES_CONDITION_COUNT
 } pendres_condition;
 
