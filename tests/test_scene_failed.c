@@ -46,15 +46,9 @@ static void reasons_of_statuses(void **state)
   }
   scene_run run = { 0 };
   scene_failures f;
-  scene_verdict v = { 0 };
-  farm_record record = { 0 }; /* that nobody watches */
   scene_failures_create(&run, 2, &f);
   check_ok(run.status);
-  assert_int_equal(scene_verdict_point(&v, PENDRES_INTERRUPTED, "x", &record),
-                   PENDRES_INTERRUPTED);
-  assert_int_equal(v.reason, SCENE_FAILURE_NONE);
-  check_ok(scene_verdict_point(&v, PENDRES_NOT_FOUND, "nothing there", &record));
-  scene_failures_mark(&f, 1, (scene_failure)v.reason, v.words);
+  scene_failures_mark(&f, 1, SCENE_FAILURE_NOT_FOUND, "nothing there");
   assert_int_equal(f.reason[0], SCENE_FAILURE_NONE);
   assert_int_equal(f.reason[1], SCENE_FAILURE_NOT_FOUND);
   assert_string_equal(f.words[1], "nothing there");

@@ -26,7 +26,6 @@ typedef struct stage_trial {
   char *tried;
   size_t count, cut;    /* that came to their end, and that the end of the trial cut short */
   double seconds, bytes, changes; /* seconds of both kinds */
-  double first;         /* seconds of the first task */
   pendres_cost cost;
 } stage_trial;
 
@@ -93,7 +92,6 @@ static pendres_status try_task(stage_trial *s, size_t task)
   if (status != PENDRES_OK) return status;
   s->tried[task] = 1;
   s->count++;
-  if (s->count == 1) s->first = seconds;
   s->bytes += (double)stored_bytes(&s->record[task]);
   s->changes += (double)changes_in(&s->record[task], s->stage->element);
   s->cost.pendulum_periods += after.pendulum_periods - before.pendulum_periods;
@@ -101,21 +99,13 @@ static pendres_status try_task(stage_trial *s, size_t task)
   return PENDRES_OK;
 }
 
-/* The first task of a chain finds what the others start from, and takes longer. A task that was cut
-   short takes at least the time that it has taken so far. */
-static double seconds_of_all(const stage_trial *s)
-{
-  const double tasks = (double)s->stage->tasks, count = (double)(s->count + s->cut);
-  if (count < 2.0 || !s->stage->chained) return tasks / fmax(count, 1.0) * s->seconds;
-  return s->first + (tasks - 1.0) / (count - 1.0) * (s->seconds - s->first);
-}
-
 /* Extrapolate from the tasks that were tried to all of the stage. */
 static void conclude(const stage_trial *s)
 {
   farm_trial *t = s->farm->trial;
-  const double all = (double)s->stage->tasks / (double)(s->count > 0 ? s->count : 1);
-  t->seconds += seconds_of_all(s);
+  const double tasks = (double)s->stage->tasks, all = tasks / fmax((double)s->count, 1.0);
+  /* A task that was cut short takes at least the time that it has taken so far. */
+  t->seconds += tasks / fmax((double)(s->count + s->cut), 1.0) * s->seconds;
   t->journal += all * s->bytes;
   t->changes += all * s->changes;
   t->cost.pendulum_periods += all * s->cost.pendulum_periods;

@@ -280,8 +280,8 @@ static void write_failed(scene_run *run, const cloud_work *w)
   pendres_store_spec spec = { .name = "noise_failed", .dimensions = { "temperature", "attractor" },
                               .long_name = "why there is no whole result for the noisy cloud" };
   scene_failure_flags(&spec);
-  scene_put(run, &spec, failed->reason, NULL, failed->n);
-  for (size_t i = 0; scene_going(run) && i < failed->n; i++) {
+  scene_put(run, &spec, failed->reason, NULL, w->prepared.n);
+  for (size_t i = 0; scene_going(run) && i < w->prepared.n; i++) {
     if (!is_broken(w, i)) continue;
     run->failed_points++;
     scene_failure_tell(run, (scene_failure)failed->reason[i], failed->words[i],

@@ -4,14 +4,14 @@
  * The paper's Fig. 9. One task a damping. Beside the ensemble's means stand the branches
  * themselves, unstable parts included, the curves of folds that bound the coexistence region (the
  * figure's thick lines), and two backbones: the driven one's at a lag of pi/2, and the free
- * pendulum's.
+ * pendulum's; of a pendulum without a drive, the rotations that a torque keeps up.
  */
 #include <math.h>
 
 #include <pendres/free.h>
+#include <pendres/rotation.h>
 
 #include "scenes/curves.h"
-#include "scenes/rotations.h"
 
 enum { BACKBONE = 101, FREE = 156, MOST_PARTS = 64 };
 
@@ -209,6 +209,72 @@ static void write_free(scene_run *run)
   scene_put(run, &spec, frequency, error, FREE);
 }
 
+/* ---- rotations without a drive ------------------------------------------------------------- */
+
+/*
+ * Without a drive of either kind the equation is autonomous. What stands still are equilibria,
+ * which are orbits of every strobe map and are followed as branches; what rotates has a period of
+ * its own and is no such orbit. Where a rotation exists there is one, so that its branch over the
+ * torque is found point by point; it ends at the least torque, in a homoclinic connection or a
+ * saddle-node (pendres/rotation.h).
+ */
+
+typedef struct rotation {
+  double period, period_error, mean_velocity, mean_velocity_error, multiplier, multiplier_error;
+  double least_torque, least_torque_error;
+} rotation;
+
+static const scene_column of_rotations[] = {
+  SCENE_COLUMN(rotation, period, "period of the rotation, in which x grows or falls by 2 pi", "1"),
+  SCENE_COLUMN(rotation, mean_velocity, "mean velocity of the rotation", "1"),
+  SCENE_COLUMN(rotation, multiplier, "Floquet multiplier of the rotation; the other one is 1", "1"),
+  SCENE_COLUMN(rotation, least_torque, "least torque, of either sign, that keeps a rotation up",
+               "1")};
+
+/* Whether the lines are those of a pendulum under a torque, without a drive of either kind. */
+static int are_rotations(const scene_lines *l)
+{
+  const pendres_pendulum *p = &l->grid.pendulum;
+  return p->force == PENDRES_FORCE_PENDULUM && p->drive_amplitude == 0.0 &&
+         p->parametric_amplitude == 0.0 && !scene_lines_changes(l, PENDRES_DRIVE_AMPLITUDE) &&
+         !scene_lines_changes(l, PENDRES_PARAMETRIC_AMPLITUDE) &&
+         (p->torque != 0.0 || scene_lines_changes(l, PENDRES_TORQUE));
+}
+
+/* Dampings below 1e-9 and above 100 have no rotation that is told. */
+static rotation rotation_at(const pendres_pendulum *p)
+{
+  pendres_rotation r;
+  pendres_rotation_onset onset;
+  rotation out = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+  if (pendres_rotation_onset_find(p->damping, &onset) == PENDRES_OK) {
+    out.least_torque = onset.torque;
+    out.least_torque_error = onset.torque_error;
+  }
+  if (pendres_rotation_find(p, &r, NULL) != PENDRES_OK) return out;
+  out.period = r.period;
+  out.period_error = r.period_error;
+  out.mean_velocity = r.mean_velocity;
+  out.mean_velocity_error = r.mean_velocity_error;
+  out.multiplier = r.multiplier;
+  out.multiplier_error = r.multiplier_error;
+  return out;
+}
+
+/* NaN where there is no rotation. */
+static void write_rotations(const scene_lines *l)
+{
+  rotation *rows = scene_array(l->run, l->points.n, sizeof *rows);
+  for (size_t i = 0; rows != NULL && i < l->points.n; i++) {
+    const pendres_pendulum p = scene_lines_pendulum(l, i);
+    rows[i] = rotation_at(&p);
+  }
+  const scene_table table = {
+    .dimensions = {deck_axis_name(l->points.axis[0]), deck_axis_name(l->points.axis[1])},
+    .prefix = "rotation", .n = l->points.n, .stride = sizeof *rows, .rows = rows};
+  SCENE_WRITE(l->run, &table, of_rotations);
+}
+
 /* ---- the scene ----------------------------------------------------------------------------- */
 
 /* A part of a branch that attracts, from its lower value of the parameter to the higher one. */
@@ -295,12 +361,12 @@ static void write_results(const scene_lines *l)
   scene_run *run = l->run;
   const int plain = deck_is_plain(run->deck);
   scene_lines_write(l, sizeof columns / sizeof *columns, columns);
-  if (scene_rotations_are(l)) scene_rotations_write(l);
+  if (are_rotations(l)) write_rotations(l);
   write_branches(l);
   scene_lines_write_doubts(l);
   scene_curves_write(l);
   /* The backbone is one over damping, at one drive amplitude. */
-  if (l->axis[0] == DECK_AXIS_DAMPING && l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY &&
+  if (l->points.axis[0] == DECK_AXIS_DAMPING && l->points.axis[1] == DECK_AXIS_DRIVE_FREQUENCY &&
       l->grid.pendulum.drive_amplitude > 0.0)
     write_backbone(l);
   if (plain) write_free(run);

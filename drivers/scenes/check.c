@@ -15,12 +15,6 @@ int scene_check_text(const char *text, size_t room)
   return memchr(text, '\0', room) != NULL;
 }
 
-int scene_check_verdict(const scene_verdict *v)
-{
-  return scene_check_code(v->reason, SCENE_FAILURE_COUNT) &&
-         scene_check_text(v->words, sizeof v->words);
-}
-
 int scene_check_attractor(const pendres_attractor *a)
 {
   const pendres_orbit *o = &a->orbit;

@@ -16,7 +16,6 @@ int scene_check_code(int code, int count);
 /* Does a text end within its room? */
 int scene_check_text(const char *text, size_t room);
 
-int scene_check_verdict(const scene_verdict *v);
 int scene_check_attractor(const pendres_attractor *a); /* closed or not */
 int scene_check_response(const pendres_response *r);
 

@@ -185,7 +185,7 @@ void scene_curves_write_paper(const scene_lines *l)
 {
   scene_printed values[4];
   size_t n = 0;
-  if (l->axis[0] != DECK_AXIS_DAMPING || l->axis[1] != DECK_AXIS_DRIVE_FREQUENCY ||
+  if (l->points.axis[0] != DECK_AXIS_DAMPING || l->points.axis[1] != DECK_AXIS_DRIVE_FREQUENCY ||
       !deck_is_plain(l->run->deck))
     return;
   const double f0 = l->grid.pendulum.drive_amplitude;

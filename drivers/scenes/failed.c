@@ -67,7 +67,7 @@ int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double run
 
 void scene_failures_create(scene_run *run, size_t n, scene_failures *out)
 {
-  *out = (scene_failures){.run = run, .n = n, .reason = scene_array(run, n, 1),
+  *out = (scene_failures){.run = run, .reason = scene_array(run, n, 1),
                           .words = scene_array(run, n, sizeof *out->words)};
 }
 
@@ -78,12 +78,6 @@ void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, 
   if (words == NULL || words[0] == '\0') return;
   f->words[point] = scene_array(f->run, strlen(words) + 1, 1);
   if (f->words[point] != NULL) strcpy(f->words[point], words);
-}
-
-void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *words)
-{
-  v->reason = (int32_t)reason;
-  snprintf(v->words, sizeof v->words, "%s", words != NULL ? words : "");
 }
 
 void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
@@ -100,27 +94,6 @@ void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id 
     used += (size_t)n;
     if (i + 1 < axes) block /= d->axis[axis[i + 1]].count;
   }
-}
-
-void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t n, int axes,
-                       const deck_axis_id *axis)
-{
-  char name[120], more[40] = "";
-  scene_point_name(d, first, axes, axis, name, sizeof name);
-  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
-  farm_point(record, n, "%s%s", name, more);
-}
-
-pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, const char *words,
-                                   farm_record *record)
-{
-  char why[SCENE_TOLD];
-  const int late = farm_gave_up(record, status);
-  const scene_failure reason = late ? SCENE_FAILURE_OUT_OF_TIME : scene_failure_of(status);
-  if (reason == SCENE_FAILURE_NONE) return status;
-  if (late) farm_lost(record, why, sizeof why);
-  scene_verdict_mark(v, reason, late ? why : words);
-  return PENDRES_OK;
 }
 
 /* What to do about pendulums that do not settle; a longer wait helps neither one that escapes nor
@@ -181,21 +154,4 @@ void scene_failure_flags(pendres_store_spec *spec)
   spec->type = PENDRES_STORE_INT8;
   spec->flag_count = SCENE_FAILURE_COUNT;
   spec->flag_meanings = meanings;
-}
-
-void scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
-                          const char *what, int axes, const deck_axis_id *axis)
-{
-  char words[80], where[200];
-  pendres_store_spec spec = { .name = name, .long_name = words };
-  snprintf(words, sizeof words, "why there is no whole result for the %s", what);
-  scene_failure_flags(&spec);
-  for (int i = 0; i < axes; i++) spec.dimensions[i] = deck_axis_name(axis[i]);
-  (void)scene_put(run, &spec, f->reason, NULL, f->n);
-  for (size_t i = 0; i < f->n && scene_going(run); i++) {
-    if (f->reason[i] == SCENE_FAILURE_NONE) continue;
-    run->failed_points++;
-    scene_point_name(run->deck, i, axes, axis, where, sizeof where);
-    scene_failure_tell(run, (scene_failure)f->reason[i], f->words[i], "%s at %s", what, where);
-  }
 }

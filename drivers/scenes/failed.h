@@ -55,29 +55,9 @@ int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, 
 int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double runs, char *words,
                             size_t size);
 
-/* What became of a point, for the record of a task; zero: nothing failed. */
-typedef struct scene_verdict {
-  int32_t reason;         /* a scene_failure */
-  char words[SCENE_TOLD]; /* the library's own; "": those of the list */
-} scene_verdict;
-
-/* Say why a point has no whole result; words NULL: those of the list. The last mark counts. */
-void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *words);
-
 /* "damping 0.12, drive_period 8": a point of the deck's grid of `axes` axes, slowest first. */
 void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
                       size_t size);
-
-/* Begin n points of a task next to each other in such a grid, the first of which has the number
-   `first`: farm_point() with their names. */
-void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t n, int axes,
-                       const deck_axis_id *axis);
-
-/* What became of the point of a task that was begun last: marked if the failure is its own or its
-   budget has ended it, and then PENDRES_OK; else the status as it is. words: the message of the
-   context that failed. */
-pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, const char *words,
-                                   farm_record *record);
 
 /*
  * What to say of `some` of `all` pendulums ("members", "states") that did not settle, with the
@@ -90,7 +70,6 @@ void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char 
 /* The reasons of n points; all SCENE_FAILURE_NONE at first. The run's, see scene_array(). */
 typedef struct scene_failures {
   scene_run *run;
-  size_t n;
   int8_t *reason; /* [n] */
   char **words;   /* [n] the library's own; NULL: those of the list */
 } scene_failures;
@@ -99,14 +78,6 @@ void scene_failures_create(scene_run *run, size_t n, scene_failures *out);
 
 /* Mark a point; the last mark counts. words are copied; NULL: those of the list. */
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);
-
-/*
- * Write the variable `name` over `axes` axes of the deck, slowest first, whose dimensions exist;
- * what: the points, in the singular. The failed ones are counted in run->failed_points, and the
- * first of them told with their coordinates.
- */
-void scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
-                          const char *what, int axes, const deck_axis_id *axis);
 
 /* The names of the codes, as columns take them; NULL beyond the last. */
 const char *scene_failure_names(int value);

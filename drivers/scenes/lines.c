@@ -55,15 +55,6 @@ int scene_lines_changes(const scene_lines *l, pendres_parameter parameter)
 
 /* ---- tasks --------------------------------------------------------------------------------- */
 
-/* What a task of the library's has made becomes a record; it is freed. */
-static pendres_status hand_over(pendres_status status, size_t size, void *bytes, farm_record *out)
-{
-  if (status == PENDRES_OK && farm_record_resize(out, size) == NULL) status = PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK) memcpy(out->data, bytes, size);
-  free(bytes);
-  return status;
-}
-
 pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point)
 {
   pendres_pendulum p = l->grid.pendulum;
@@ -72,21 +63,37 @@ pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point)
   return p;
 }
 
-/* Compute a line as a whole, in a diagram of its own; where its budget ends it, it has no
-   points. */
-static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_context *ctx,
-                                    pendres_phase_diagram *alone, farm_record *out)
+/* Do a task of a diagram; what it has made is the record. */
+static pendres_status work(const pendres_phase_diagram *diagram, size_t task, pendres_context *ctx,
+                           farm_record *out)
 {
   size_t size;
   void *bytes;
-  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
-  pendres_status status = pendres_phase_diagram_work(ctx, alone, 0, &size, &bytes);
-  if (farm_gave_up(out, status)) {
-    farm_lost(out, NULL, 0);
-    for (size_t k = 0; k < l->grid.values; k++) (void)pendres_phase_diagram_leave_out(alone, k);
-    status = pendres_phase_diagram_work(ctx, alone, 0, &size, &bytes);
-  }
-  return hand_over(status, size, bytes, out);
+  pendres_status status = pendres_phase_diagram_work(ctx, diagram, task, &size, &bytes);
+  if (status == PENDRES_OK && farm_record_resize(out, size) == NULL) status = PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK) memcpy(out->data, bytes, size);
+  free(bytes);
+  return status;
+}
+
+/* The same for a line, whose points are begun together. */
+static pendres_status work_line(const scene_lines *l, size_t task, pendres_context *ctx,
+                                farm_record *out)
+{
+  scene_points_begin(l->run, &l->points, task * l->grid.values, l->grid.values, out);
+  return work(l->diagram, task, ctx, out);
+}
+
+/* Compute a line in a diagram of its own; where its budget ends it, it has no points. */
+static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_context *ctx,
+                                    pendres_phase_diagram *alone, farm_record *out)
+{
+  scene_points_begin(l->run, &l->points, task * l->grid.values, l->grid.values, out);
+  const pendres_status status = work(alone, 0, ctx, out);
+  if (!farm_gave_up(out, status)) return status;
+  farm_lost(out, NULL, 0);
+  for (size_t k = 0; k < l->grid.values; k++) (void)pendres_phase_diagram_leave_out(alone, k);
+  return work(alone, 0, ctx, out);
 }
 
 /* Compute a line that its budget has ended, without the points that use up a budget of their
@@ -106,8 +113,8 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
     const size_t point = task * values + k;
     const pendres_pendulum p = scene_lines_pendulum(l, point);
     pendres_response response;
-    int left_out = l->failed.reason[point] != SCENE_FAILURE_NONE;
-    scene_point_begin(out, l->run->deck, point, 1, 2, l->axis);
+    int left_out = l->points.failed.reason[point] != SCENE_FAILURE_NONE;
+    scene_points_begin(l->run, &l->points, point, 1, out);
     if (!left_out)
       status = pendres_response_find(ctx, 1, &p, &grid.options.ensemble, &response);
     if (farm_gave_up(out, status)) {
@@ -126,12 +133,8 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const scene_lines *l = arg;
-  size_t size;
-  void *bytes;
-  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
-  const pendres_status status = pendres_phase_diagram_work(ctx, l->diagram, task, &size, &bytes);
-  if (farm_gave_up(out, status)) return compute_by_points(l, task, ctx, out);
-  return hand_over(status, size, bytes, out);
+  const pendres_status status = work_line(l, task, ctx, out);
+  return farm_gave_up(out, status) ? compute_by_points(l, task, ctx, out) : status;
 }
 
 /* A line that its budget has ended stays as it was: its record is empty. */
@@ -139,22 +142,15 @@ static pendres_status complete(const void *arg, size_t task, pendres_context *ct
                                farm_record *out)
 {
   const scene_lines *l = arg;
-  size_t size;
-  void *bytes;
-  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
-  const pendres_status status = pendres_phase_diagram_work(ctx, l->diagram, task, &size, &bytes);
-  if (!farm_gave_up(out, status)) return hand_over(status, size, bytes, out);
+  const pendres_status status = work_line(l, task, ctx, out);
+  if (!farm_gave_up(out, status)) return status;
   farm_lost(out, NULL, 0);
   return PENDRES_OK;
 }
 
 static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
-  const scene_lines *l = arg;
-  size_t size;
-  void *bytes;
-  const pendres_status status = pendres_phase_diagram_work(ctx, l->diagram, task, &size, &bytes);
-  return hand_over(status, size, bytes, out);
+  return work(((const scene_lines *)arg)->diagram, task, ctx, out);
 }
 
 /* The library looks at its own bytes when it takes them. */
@@ -176,8 +172,8 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   for (size_t i = first; i < first + l->grid.values && status == PENDRES_OK; i++) {
     const int lost = in->size == 0 ||
                      pendres_phase_diagram_outcome_get(l->diagram, i, NULL) == PENDRES_UNSUPPORTED;
-    if (lost && l->failed.reason[i] == SCENE_FAILURE_NONE)
-      scene_failures_mark(&l->failed, i, SCENE_FAILURE_OUT_OF_TIME, NULL);
+    if (lost && l->points.failed.reason[i] == SCENE_FAILURE_NONE)
+      scene_failures_mark(&l->points.failed, i, SCENE_FAILURE_OUT_OF_TIME, NULL);
   }
   return status;
 }
@@ -215,29 +211,31 @@ static void do_rounds(scene_lines *l)
 /* Points that ask for too many steps are not computed. */
 static void leave_out(scene_lines *l)
 {
-  for (size_t i = 0; i < l->n; i++) {
+  for (size_t i = 0; i < l->points.n; i++) {
     char words[120];
     const pendres_pendulum p = scene_lines_pendulum(l, i);
     if (!scene_failure_too_long(&p, RUNS_A_POINT, words, sizeof words)) continue;
     (void)pendres_phase_diagram_leave_out(l->diagram, i);
-    scene_failures_mark(&l->failed, i, SCENE_FAILURE_TOO_LONG, words);
+    scene_failures_mark(&l->points.failed, i, SCENE_FAILURE_TOO_LONG, words);
   }
 }
 
 static void judge(scene_lines *l)
 {
-  for (size_t i = 0; i < l->n; i++) {
+  pendres_phase_point *points = l->points.rows;
+  for (size_t i = 0; i < l->points.n; i++) {
     char words[SCENE_TOLD];
     const char *message = NULL;
-    const size_t unresolved = l->points[i].unresolved;
+    points[i] = *pendres_phase_diagram_point_get(l->diagram, i);
+    const size_t unresolved = points[i].unresolved;
     const pendres_status outcome = pendres_phase_diagram_outcome_get(l->diagram, i, &message);
     const scene_failure reason = scene_failure_of(outcome);
     if (reason != SCENE_FAILURE_NONE) {
-      scene_failures_mark(&l->failed, i, reason, message);
+      scene_failures_mark(&l->points.failed, i, reason, message);
     } else if (outcome == PENDRES_OK && unresolved > 0) {
       const size_t members = l->grid.options.ensemble.members;
       scene_failure_unsettled(l->run->deck, unresolved, members, "members",
-                              l->points[i].weakest_multiplier, words);
+                              points[i].weakest_multiplier, words);
       /* Which is refused where there is a drive. */
       const pendres_pendulum p = scene_lines_pendulum(l, i);
       pendres_rotation r;
@@ -245,7 +243,7 @@ static void judge(scene_lines *l)
         snprintf(words, sizeof words, "%zu of %zu members are on no orbit of the drive's clock: a "
                  "rotation is there, which without a drive has a period of its own",
                  unresolved, members);
-      scene_failures_mark(&l->failed, i, SCENE_FAILURE_UNRESOLVED, words);
+      scene_failures_mark(&l->points.failed, i, SCENE_FAILURE_UNRESOLVED, words);
     }
   }
 }
@@ -264,20 +262,20 @@ static void judge_curves(scene_lines *l)
 
 void scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
 {
-  *l = (scene_lines){.run = run};
-  (void)deck_axes(run->deck, l->axis);
-  l->grid = grid_of(run->deck, l->axis, spacing);
-  l->n = l->grid.lines * l->grid.values;
-  l->points = scene_array(run, l->n, sizeof *l->points);
-  scene_failures_create(run, l->n, &l->failed);
+  deck_axis_id axis[DECK_AXES];
+  *l = (scene_lines){.run = run, .points = {.size = sizeof(pendres_phase_point), .what = "point"}};
+  scene_points_over(&l->points, run->deck, deck_axes(run->deck, axis), axis);
+  l->grid = grid_of(run->deck, axis, spacing);
+  l->points.rows = scene_array(run, l->points.n, l->points.size);
+  scene_failures_create(run, l->points.n, &l->points.failed);
   const pendres_status status = pendres_phase_diagram_create(&l->grid, &l->diagram);
   if (status != PENDRES_OK)
-    scene_fail(run, status, "a diagram of %zu points: %s", l->n, pendres_status_message(status));
+    scene_fail(run, status, "a diagram of %zu points: %s", l->points.n,
+               pendres_status_message(status));
   if (!scene_going(run)) return;
   leave_out(l);
   do_rounds(l);
   if (!scene_going(run)) return;
-  for (size_t i = 0; i < l->n; i++) l->points[i] = *pendres_phase_diagram_point_get(l->diagram, i);
   judge_curves(l);
   judge(l);
 }
@@ -292,13 +290,12 @@ void scene_lines_free(scene_lines *l)
 void scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns)
 {
   static const scene_column uncertain = SCENE_UNCERTAIN(pendres_phase_point, uncertain);
-  const scene_table table = {
-    .dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])}, .n = l->n,
-    .stride = sizeof *l->points, .rows = l->points};
-  for (int i = 0; i < 2; i++) scene_dimension(l->run, "", l->axis[i]);
+  const scene_table table = scene_points_table(&l->points, l->run->deck);
+  for (int i = 0; i < 2; i++) scene_dimension(l->run, "", l->points.axis[i]);
   scene_columns_write(l->run, &table, count, columns);
   scene_columns_write(l->run, &table, 1, &uncertain);
-  scene_failures_write(l->run, &l->failed, "failed", "point", 2, l->axis);
+  scene_points_write_failed(l->run, &l->points, "failed",
+                            "why there is no whole result for the point");
 }
 
 /* The error of a parameter: of the line's own [0], of that across the lines [1], or none. */

@@ -10,18 +10,14 @@
 
 #include <pendres/phase_diagram.h>
 
-#include "scenes/columns.h"
-#include "scenes/failed.h"
 #include "scenes/paper.h"
+#include "scenes/points.h"
 
 typedef struct scene_lines {
   scene_run *run;
-  deck_axis_id axis[DECK_AXES]; /* two: across the lines and along them, as results have them */
   pendres_phase_grid grid;
   pendres_phase_diagram *diagram;
-  pendres_phase_point *points; /* [lines][values] */
-  size_t n;                    /* points */
-  scene_failures failed;       /* [lines][values] */
+  scene_points points; /* [lines][values] of pendres_phase_point */
 } scene_lines;
 
 /* Compute the diagram, which is there if the run goes on. spacing: of the points of branches, see

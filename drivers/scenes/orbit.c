@@ -22,90 +22,135 @@ enum {
   CHUNK = 65536    /* samples of a task, or one period */
 };
 
-/* What a task hands over, with the samples behind it: x, v and their errors, `room` of each. */
-typedef struct record {
-  orbit_found found;
-  pendres_recording recording;
-} record;
+/* A part of the record, with its samples. */
+typedef struct part {
+  orbit_way way;
+  double samples[];
+} part;
 
-static size_t room_of(const orbit_work *w)
+static long periods_of(const orbit_work *w, size_t number)
 {
-  return (size_t)w->chunk * (size_t)w->d->orbit.samples + 1;
-}
-
-static long periods_of(const orbit_work *w, size_t task)
-{
-  const long left = (long)w->d->orbit.periods - (long)task * w->chunk;
+  const long left = (long)w->d->orbit.periods - (long)number * w->chunk;
   return left < w->chunk ? left : w->chunk;
 }
 
-static pendres_record samples_in(const orbit_work *w, const record *r)
+static pendres_record samples_in(const orbit_work *w, double *first)
 {
-  const size_t room = room_of(w);
-  double *first = (double *)(r + 1);
+  const size_t room = w->room;
   return (pendres_record){ first, first + room, first + 2 * room, first + 3 * room };
 }
 
 /* ---- what the pendulum settles on ---------------------------------------------------------- */
 
-static void keep_orbit(orbit_work *w, const pendres_attractor *a)
+static const orbit_found nothing = {
+  .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
+  .drift = NAN, .drift_error = NAN, .watched_periods = NAN, .escape_rate_bound = NAN};
+
+static void keep_orbit(const pendres_attractor *a, orbit_found *out)
 {
-  w->found.label = a->label;
-  w->found.closed = a->label != PENDRES_LABEL_CHAOTIC;
-  w->found.orbit = a->orbit;
-  w->found.lyapunov = a->lyapunov;
-  w->found.lyapunov_error = a->lyapunov_error;
-  w->found.drift = a->drift;
-  w->found.drift_error = a->drift_error;
-  w->found.watched_periods = a->watched_periods;
-  w->found.escape_rate_bound = a->escape_rate_bound;
+  out->label = a->label;
+  out->closed = a->label != PENDRES_LABEL_CHAOTIC;
+  out->orbit = a->orbit;
+  out->lyapunov = a->lyapunov;
+  out->lyapunov_error = a->lyapunov_error;
+  out->drift = a->drift;
+  out->drift_error = a->drift_error;
+  out->watched_periods = a->watched_periods;
+  out->escape_rate_bound = a->escape_rate_bound;
 }
 
-static pendres_status find_named(orbit_work *w, pendres_context *ctx, farm_record *out)
+static int is_named(const orbit_work *w)
 {
+  return w->d->orbit.start[0] != '\0';
+}
+
+/* A name that no attractor has is a mistake of the deck. */
+static pendres_status find_named(const scene_some *some, orbit_found *out)
+{
+  const orbit_work *w = some->of->arg;
   pendres_attractor a;
-  const pendres_status status = scene_along_named(ctx, &w->pendulum, w->d->orbit.start, &a,
-                                                  out->message, sizeof out->message);
-  if (status != PENDRES_OK) return status;
-  keep_orbit(w, &a);
-  w->start_x = a.orbit.x;
-  w->start_v = a.orbit.v;
+  const pendres_status status = scene_along_named(some->ctx, &w->pendulum, w->d->orbit.start, &a,
+                                                  some->message, SCENE_MESSAGE);
+  if (status == PENDRES_OK) keep_orbit(&a, out);
   return status;
 }
 
-static pendres_status find_from_start(orbit_work *w, pendres_context *ctx)
+static pendres_status find_from_start(const scene_some *some, orbit_found *out)
 {
+  const orbit_work *w = some->of->arg;
   pendres_attractors *set = NULL;
   pendres_outcome outcome = { .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1 };
-  w->found.label = PENDRES_LABEL_UNRESOLVED;
   if (w->pendulum.damping == 0.0) return PENDRES_OK; /* nothing attracts without friction */
-  const pendres_status status = pendres_settle(ctx, 1, &w->pendulum, &w->d->orbit.x,
+  const pendres_status status = pendres_settle(some->ctx, 1, &w->pendulum, &w->d->orbit.x,
                                                &w->d->orbit.v, &outcome, &set);
   if (status == PENDRES_OK && outcome.attractor >= 0) {
     const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
-    if (a != NULL) keep_orbit(w, a);
-    w->found.well = outcome.well;
-    w->found.settling_periods = outcome.settling_periods;
+    if (a != NULL) keep_orbit(a, out);
+    out->well = outcome.well;
+    out->settling_periods = outcome.settling_periods;
   }
-  w->found.uncertain = outcome.attractor != PENDRES_ATTRACTOR_UNKNOWN && !outcome.certain;
-  if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE)
-    w->found.label = outcome.label;
+  out->uncertain = outcome.attractor != PENDRES_ATTRACTOR_UNKNOWN && !outcome.certain;
+  if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE) out->label = outcome.label;
   pendres_attractors_free(set);
   return status;
 }
 
+/* A trajectory is recorded whatever it goes to. */
+static int too_long(const scene_points *p, size_t point, char *words, size_t size)
+{
+  const orbit_work *w = p->arg;
+  (void)point;
+  return !w->transient && scene_settling_too_long(w->d, &w->pendulum, 1.0, words, size);
+}
+
+static pendres_status find(const scene_some *some)
+{
+  const orbit_work *w = some->of->arg;
+  orbit_found *out = some->rows;
+  char words[SCENE_TOLD];
+  *out = nothing;
+  if (scene_settling_too_long(w->d, &w->pendulum, 1.0, words, sizeof words)) return PENDRES_OK;
+  return is_named(w) ? find_named(some, out) : find_from_start(some, out);
+}
+
+static void leave_out(const scene_points *p, size_t point, void *row)
+{
+  (void)p;
+  (void)point;
+  *(orbit_found *)row = nothing;
+}
+
+static void name_search(const scene_points *p, size_t point, char *text, size_t size)
+{
+  (void)p;
+  (void)point;
+  snprintf(text, size, "what the pendulum settles on");
+}
+
+static int check_found(const scene_points *p, const void *row)
+{
+  const orbit_found *f = row;
+  const pendres_attractor a = { .label = f->label, .orbit = f->orbit };
+  (void)p;
+  return scene_check_attractor(&a) && scene_check_code(f->closed, 2) &&
+         scene_check_code(f->uncertain, 2) && (!f->closed || f->orbit.period > 0);
+}
+
 /* ---- the trajectory ------------------------------------------------------------------------ */
 
-static pendres_status begin_trajectory(orbit_work *w, pendres_context *ctx)
+/* From the deck's start or, on the chaotic attractor, from a point of that. */
+static pendres_status begin_trajectory(const orbit_work *w, pendres_context *ctx, orbit_way *way)
 {
-  double x = w->start_x, v = w->start_v, error = 0.0;
+  const pendres_orbit *o = &w->found.orbit;
+  double x = is_named(w) ? o->x : w->d->orbit.x, v = is_named(w) ? o->v : w->d->orbit.v;
+  double error = 0.0;
   pendres_status status = PENDRES_OK;
-  if (!w->transient) /* on the chaotic attractor */
+  if (!w->transient)
     status = pendres_strobe_advance(ctx, 1, &w->pendulum, &x, &v, WANDERING, &error);
   if (status == PENDRES_OK)
     status = pendres_recording_begin(ctx, &w->pendulum, &(pendres_state){x, v},
                                      (long)w->d->orbit.periods, (int)w->d->orbit.samples,
-                                     &w->recording);
+                                     &way->recording);
   return status;
 }
 
@@ -123,111 +168,80 @@ static void no_samples(size_t n, const pendres_record *out)
 
 /* A trajectory to infinity is recorded period by period, up to the last state that double precision
    can say. */
-static pendres_status sample_escape(orbit_work *w, pendres_context *ctx, size_t task,
-                                    const pendres_record *out)
+static pendres_status sample_escape(const orbit_work *w, pendres_context *ctx, size_t number,
+                                    orbit_way *way, const pendres_record *out)
 {
   const size_t count = (size_t)w->d->orbit.samples;
-  const long periods = periods_of(w, task);
-  pendres_status status = task == 0 ? begin_trajectory(w, ctx) : PENDRES_OK;
-  const int begun = status == PENDRES_OK && !w->found.gone;
+  const long periods = periods_of(w, number);
+  pendres_status status = number == 0 ? begin_trajectory(w, ctx, way) : PENDRES_OK;
+  const int begun = status == PENDRES_OK && !way->gone;
   size_t at = 0;
   for (long k = 0; k < periods && begun && status == PENDRES_OK; k++, at += count) {
     const pendres_record to = from(out, at);
-    status = pendres_recording_advance(ctx, &w->recording, 1, &to);
+    status = pendres_recording_advance(ctx, &way->recording, 1, &to);
     if (status != PENDRES_OK) break;
   }
   const pendres_record rest = from(out, at);
   no_samples((size_t)periods * count - at, &rest);
   if (status != PENDRES_INTEGRATION_FAILED) return status;
   if (begun) {
-    *rest.x = w->recording.x;
-    *rest.v = w->recording.v;
-    *rest.x_error = w->recording.x_error;
-    *rest.v_error = w->recording.v_error;
+    *rest.x = way->recording.x;
+    *rest.v = way->recording.v;
+    *rest.x_error = way->recording.x_error;
+    *rest.v_error = way->recording.v_error;
   }
-  w->found.gone = 1;
+  way->gone = 1;
   return PENDRES_OK;
 }
 
-static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
-                             const pendres_record *out)
+static pendres_status sample_trajectory(const orbit_work *w, pendres_context *ctx, size_t number,
+                                        orbit_way *way, const pendres_record *out)
 {
-  const long periods = periods_of(w, task);
-  const pendres_orbit_stretch stretch = { w->found.well, (long)task * w->chunk, periods,
+  const pendres_status status = number == 0 ? begin_trajectory(w, ctx, way) : PENDRES_OK;
+  if (status != PENDRES_OK) return status;
+  return pendres_recording_advance(ctx, &way->recording, periods_of(w, number), out);
+}
+
+/* The record goes on from what was collected of the part before. */
+static pendres_status sample(const scene_some *some)
+{
+  const orbit_work *w = some->of->arg;
+  const orbit_found *f = &w->found;
+  part *r = some->rows;
+  const pendres_record out = samples_in(w, r->samples);
+  const long periods = periods_of(w, some->first);
+  const pendres_orbit_stretch stretch = { f->well, (long)some->first * w->chunk, periods,
                                           (int)w->d->orbit.samples };
-  if (w->transient && w->found.label == PENDRES_LABEL_ESCAPE)
-    return sample_escape(w, ctx, task, out);
-  if (w->transient || w->found.label == PENDRES_LABEL_CHAOTIC) {
-    const pendres_status status = task == 0 ? begin_trajectory(w, ctx) : PENDRES_OK;
-    return status == PENDRES_OK ? pendres_recording_advance(ctx, &w->recording, periods, out)
-                                : status;
-  }
-  if (w->found.closed) return pendres_orbit_record(ctx, &w->found.orbit, &stretch, out);
-  no_samples((size_t)periods * (size_t)w->d->orbit.samples, out);
+  memcpy(&r->way, &w->way, sizeof r->way);
+  if (w->transient && f->label == PENDRES_LABEL_ESCAPE)
+    return sample_escape(w, some->ctx, some->first, &r->way, &out);
+  if (w->transient || f->label == PENDRES_LABEL_CHAOTIC)
+    return sample_trajectory(w, some->ctx, some->first, &r->way, &out);
+  if (f->closed) return pendres_orbit_record(some->ctx, &f->orbit, &stretch, &out);
+  no_samples((size_t)periods * (size_t)w->d->orbit.samples, &out);
   return PENDRES_OK;
 }
 
-/* Find what there is to record. The budget applies to this search; a record takes a known time.
-   What cannot be found is marked; a name that no attractor has is a mistake of the deck. */
-static pendres_status find(orbit_work *w, pendres_context *ctx, farm_record *out)
+/* The recording has to be that of the deck, or unused. */
+static int check_part(const scene_points *p, const void *row)
 {
-  const int named = w->d->orbit.start[0] != '\0';
-  char words[SCENE_TOLD];
-  pendres_status status = PENDRES_OK;
-  w->found.label = PENDRES_LABEL_UNRESOLVED;
-  farm_point(out, 1, "what the pendulum settles on");
-  if (scene_settling_too_long(w->d, &w->pendulum, 1.0, words, sizeof words)) {
-    if (!w->transient) scene_verdict_mark(&w->found.verdict, SCENE_FAILURE_TOO_LONG, words);
-  } else {
-    status = named ? find_named(w, ctx, out) : find_from_start(w, ctx);
-    if (status != PENDRES_NOT_FOUND)
-      status = scene_verdict_point(&w->found.verdict, status, pendres_context_message(ctx), out);
-  }
-  farm_point(out, 0, "the record of the orbit");
-  return status;
+  const orbit_work *w = p->arg;
+  const orbit_way *way = &((const part *)row)->way;
+  const pendres_recording *r = &way->recording;
+  const int unused = r->samples == 0 && r->periods == 0 && r->stretch == 0;
+  return scene_check_code(way->gone, 2) &&
+         (unused || (r->samples == (int)w->d->orbit.samples && r->periods <= w->d->orbit.periods));
 }
 
-/* The first task finds what there is to record; the others go on from what was collected. */
-static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static pendres_status collect(const scene_points *p, size_t number, size_t n, const void *rows)
 {
-  orbit_work w = *(const orbit_work *)arg;
-  record *r = out->data;
-  const pendres_record samples = samples_in(&w, r);
-  pendres_status status = task == 0 ? find(&w, ctx, out) : PENDRES_OK;
-  if (status == PENDRES_OK) status = sample(&w, ctx, task, &samples);
-  r->found = w.found;
-  memcpy(&r->recording, &w.recording, sizeof r->recording);
-  return status;
-}
-
-/* The recording goes on from where it stands, and has to be that of the deck. */
-static int check(const void *arg, size_t task, const farm_record *in)
-{
-  const orbit_work *w = arg;
-  const record *r = in->data;
-  if (in->size != sizeof *r + 4 * room_of(w) * sizeof(double)) return 0;
-  const pendres_attractor a = { .label = r->found.label, .orbit = r->found.orbit };
-  const pendres_recording *p = &r->recording;
-  const long periods = (long)task * w->chunk + periods_of(w, task);
-  const int unused = p->samples == 0 && p->periods == 0 && p->stretch == 0;
-  return scene_check_attractor(&a) && scene_check_verdict(&r->found.verdict) &&
-         scene_check_code(r->found.closed, 2) && scene_check_code(r->found.gone, 2) &&
-         (!r->found.closed || r->found.orbit.period > 0) &&
-         (unused || (p->samples == (int)w->d->orbit.samples && p->periods <= periods));
-}
-
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  orbit_work *w = arg;
-  const record *r = in->data;
-  const pendres_record samples = samples_in(w, r);
-  const long first = (long)task * w->chunk, periods = periods_of(w, task);
-  w->found = r->found;
-  memcpy(&w->recording, &r->recording, sizeof w->recording);
-  if (task == 0) scene_orbit_put_found(w);
-  if (task == 0) scene_orbit_measure_begin(w);
-  scene_orbit_put_samples(w, first, periods, &samples);
-  scene_orbit_measure_add(w, first, periods, &samples);
+  orbit_work *w = p->arg;
+  const part *r = rows;
+  const long first = (long)number * w->chunk, periods = periods_of(w, number);
+  (void)n;
+  memcpy(&w->way, &r->way, sizeof w->way);
+  scene_orbit_put_samples(w, first, periods, r->samples);
+  scene_orbit_measure_add(w, first, periods, r->samples);
   return w->run->status;
 }
 
@@ -238,20 +252,22 @@ static pendres_status run_scene(scene_run *run)
   const deck *d = run->deck;
   const long whole = CHUNK / (long)d->orbit.samples, all = (long)d->orbit.periods;
   orbit_work w = { .d = d, .run = run,
-                   .found = { .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
-                              .drift = NAN, .drift_error = NAN, .watched_periods = NAN,
-                              .escape_rate_bound = NAN },
                    /* On a named attractor there is no transient. */
                    .transient = d->orbit.transient && d->orbit.start[0] == '\0',
-                   .start_x = d->orbit.x, .start_v = d->orbit.v,
-                   .pendulum = deck_pendulum(d) };
+                   .pendulum = deck_pendulum(d), .found = nothing,
+                   .search = {.n = 1, .chunk = 1, .size = sizeof(orbit_found), .compute = find,
+                              .too_long = too_long, .leave_out = leave_out, .check = check_found,
+                              .name = name_search, .rows = &w.found, .arg = &w},
+                   .parts = {.chunk = 1, .compute = sample, .check = check_part,
+                             .collect = collect, .unmarked = 1, .arg = &w} };
   w.chunk = whole < 1 ? 1 : whole < all ? whole : all;
-  const size_t tasks = (size_t)((all + w.chunk - 1) / w.chunk);
-  scene_compute(
-    run, &(farm_stage){ .what = tasks > 1 ? "parts of the record" : "orbits", .last = 1,
-                        .tasks = tasks, .chained = tasks > 1, .task = compute,
-                        .record_size = sizeof(record) + 4 * room_of(&w) * sizeof(double),
-                        .check = check, .collect = collect, .arg = &w });
+  w.parts.n = (size_t)((all + w.chunk - 1) / w.chunk);
+  w.room = (size_t)w.chunk * (size_t)d->orbit.samples + 1;
+  w.parts.size = sizeof(part) + 4 * w.room * sizeof(double);
+  SCENE_COMPUTE(run, &w.search, "orbits", .cheap = 1);
+  scene_orbit_put_found(&w);
+  scene_orbit_measure_begin(&w);
+  SCENE_COMPUTE(run, &w.parts, "parts of the record", .last = 1, .chained = w.parts.n > 1);
   scene_orbit_measure_put(&w);
   if (scene_prints(run)) scene_orbit_tabulate(run->table, &w);
   scene_orbit_measure_free(&w);

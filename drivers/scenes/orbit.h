@@ -7,22 +7,25 @@
 #define SCENE_ORBIT_H
 
 #include "scenes/check.h"
-#include "scenes/columns.h"
-#include "scenes/failed.h"
+#include "scenes/points.h"
 
-/* What the first task finds of the pendulum. */
+/* What is found of the pendulum. */
 typedef struct orbit_found {
   pendres_label label;
   long well, settling_periods;   /* -1: no start to settle from */
   int closed;                    /* nonzero: there is a closed orbit */
   int uncertain;                 /* nonzero: errors that the start amplifies may have chosen it */
-  int gone;                      /* nonzero: double precision can no longer say where the recorded
-                                    trajectory is on its way to infinity */
   pendres_orbit orbit;
   double lyapunov, lyapunov_error;
   double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */
-  scene_verdict verdict;         /* the budget has ended the search */
 } orbit_found;
+
+/* How far the record is, if a trajectory is recorded. */
+typedef struct orbit_way {
+  pendres_recording recording;
+  int gone; /* nonzero: double precision can no longer say where the trajectory is on its way to
+               infinity */
+} orbit_way;
 
 /* Of each sample. */
 enum { ORBIT_VARIABLES = 4 };
@@ -41,10 +44,12 @@ typedef struct orbit_work {
   scene_run *run;
   pendres_pendulum pendulum;
   int transient;
-  double start_x, start_v;     /* the deck's, or a point of the chaotic attractor that it names */
-  long chunk;                  /* drive periods of a task, the last one's may be fewer */
-  orbit_found found;
-  pendres_recording recording; /* of the chunks so far; unused on closed orbits */
+  long chunk;                  /* drive periods of a part, the last one's may be fewer, ... */
+  size_t room;                 /* ... and its points: x of all, then v, then the errors of both */
+  scene_points search;         /* one, of orbit_found */
+  orbit_found found;           /* what it has found */
+  scene_points parts;          /* of the record, each from where the one before has ended */
+  orbit_way way;
   scene_variable variable[ORBIT_VARIABLES]; /* in the store */
   orbit_measures measures;
 } orbit_work;
@@ -52,12 +57,12 @@ typedef struct orbit_work {
 /* orbit_write.c: what was found, and variables for samples; samples of periods `first`, ...,
    of which those of the last period's end are the next chunk's; the table. */
 void scene_orbit_put_found(orbit_work *w);
-void scene_orbit_put_samples(orbit_work *w, long first, long periods, const pendres_record *s);
+void scene_orbit_put_samples(orbit_work *w, long first, long periods, const double *samples);
 void scene_orbit_tabulate(FILE *out, const orbit_work *w);
 
 /* orbit_measure.c: dimensions and spectrum. Begin before the first chunk, free always. */
 void scene_orbit_measure_begin(orbit_work *w);
-void scene_orbit_measure_add(orbit_work *w, long first, long periods, const pendres_record *s);
+void scene_orbit_measure_add(orbit_work *w, long first, long periods, const double *samples);
 void scene_orbit_measure_put(orbit_work *w);
 void scene_orbit_measure_free(orbit_work *w);
 

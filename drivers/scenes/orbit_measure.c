@@ -32,6 +32,7 @@ void scene_orbit_measure_begin(orbit_work *w)
 {
   orbit_measures *m = &w->measures;
   const deck *d = w->d;
+  if (!scene_going(w->run)) return;
   if (d->orbit.spectrum && (w->transient || w->found.label != PENDRES_LABEL_UNRESOLVED)) {
     const size_t length = (size_t)segment_of(d) * (size_t)d->orbit.samples;
     const double interval =
@@ -49,19 +50,20 @@ void scene_orbit_measure_begin(orbit_work *w)
   }
 }
 
-void scene_orbit_measure_add(orbit_work *w, long first, long periods, const pendres_record *s)
+void scene_orbit_measure_add(orbit_work *w, long first, long periods, const double *samples)
 {
   orbit_measures *m = &w->measures;
-  const size_t samples = (size_t)w->d->orbit.samples;
+  const size_t each = (size_t)w->d->orbit.samples;
+  const double *x = samples, *v = samples + w->room;
   for (long k = 0; k < periods && m->x != NULL; k++) {
     const long period = first + k;
     if (period % m->stride != 0 || (w->transient && period < SETTLED)) continue;
-    m->x[m->points] = s->x[(size_t)k * samples];
-    m->v[m->points++] = s->v[(size_t)k * samples];
+    m->x[m->points] = x[(size_t)k * each];
+    m->v[m->points++] = v[(size_t)k * each];
   }
   if (m->spectrum == NULL) return;
   const pendres_status status =
-    pendres_spectrum_add(m->spectrum, (size_t)periods * samples, s->v);
+    pendres_spectrum_add(m->spectrum, (size_t)periods * each, v);
   if (status != PENDRES_OK) scene_fail(w->run, status, "the spectrum cannot be measured");
 }
 

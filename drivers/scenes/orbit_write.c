@@ -108,22 +108,20 @@ static const scene_column of_doubts[] = {
 
 static void put_label(scene_run *run, const orbit_work *w)
 {
-  const scene_verdict *late = &w->found.verdict;
+  const scene_failures *late = &w->search.failed;
   const int unresolved = w->found.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
-  const int lost = unresolved || late->reason != SCENE_FAILURE_NONE;
-  const int failed = late->reason != SCENE_FAILURE_NONE ? late->reason
-                     : unresolved                       ? SCENE_FAILURE_UNRESOLVED
-                                                        : SCENE_FAILURE_NONE;
+  const int failed = late->reason[0] != SCENE_FAILURE_NONE ? late->reason[0]
+                     : unresolved                          ? SCENE_FAILURE_UNRESOLVED
+                                                           : SCENE_FAILURE_NONE;
   const verdict of = {(int)w->found.label, w->found.uncertain, failed};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
   const scene_column label = {
     .name = "label", .long_name = "kind of attractor", .type = SCENE_FLAG,
     .value = offsetof(verdict, label),
     .names = pendres_pendulum_leaves(&w->pendulum) ? scene_fate_names : scene_label_names};
-  if (lost)
-    scene_failure_tell(run, (scene_failure)failed, late->words[0] != '\0' ? late->words : NULL,
-                       "orbit");
-  run->failed_points = (size_t)lost;
+  run->failed_points = failed != SCENE_FAILURE_NONE;
+  if (run->failed_points > 0)
+    scene_failure_tell(run, (scene_failure)failed, late->words[0], "orbit");
   scene_columns_write(run, &table, 1, &label);
   SCENE_WRITE(run, &table, of_failures);
   if (of.uncertain) SCENE_WRITE(run, &table, of_doubts);
@@ -168,17 +166,17 @@ static const scene_column of_samples[ORBIT_VARIABLES] = {
   SCENE_COLUMN(sample, drive, "drive, F0 cos(omega t)", "1"),
 };
 
-static sample sample_of(const orbit_work *w, uint64_t number, const pendres_record *s, size_t k)
+static sample sample_of(const orbit_work *w, uint64_t number, const double *s)
 {
   const double turn = 2.0 * PENDRES_PI, f0 = w->pendulum.drive_amplitude;
   const uint64_t count = (uint64_t)w->d->orbit.samples;
   const double phase = turn * (double)number / (double)count;
   const uint64_t within = number % count; /* no need for large arguments */
-  return (sample){phase, eps * phase, s->x[k], s->x_error[k], s->v[k], s->v_error[k],
+  return (sample){phase, eps * phase, s[0], s[2 * w->room], s[w->room], s[3 * w->room],
                   f0 * cos(turn * (double)within / (double)count), 8.0 * eps * fabs(f0)};
 }
 
-void scene_orbit_put_samples(orbit_work *w, long first, long periods, const pendres_record *s)
+void scene_orbit_put_samples(orbit_work *w, long first, long periods, const double *samples)
 {
   const size_t count = (size_t)w->d->orbit.samples, n = (size_t)periods * count;
   const size_t at = (size_t)first * count;
@@ -187,7 +185,7 @@ void scene_orbit_put_samples(orbit_work *w, long first, long periods, const pend
   const scene_table table = {.dimensions = {"sample"}, .n = n, .stride = sizeof *rows,
                              .rows = rows};
   if (rows == NULL) scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  for (size_t k = 0; rows != NULL && k < n; k++) rows[k] = sample_of(w, at + k, s, k);
+  for (size_t k = 0; rows != NULL && k < n; k++) rows[k] = sample_of(w, at + k, samples + k);
   scene_columns_write_rows(w->run, &table, at, n, &of);
   free(rows);
 }
@@ -197,6 +195,7 @@ void scene_orbit_put_found(orbit_work *w)
   const size_t n = (size_t)w->d->orbit.periods * (size_t)w->d->orbit.samples;
   const scene_variables of = {ORBIT_VARIABLES, of_samples, w->variable};
   const scene_table samples = {.dimensions = {"sample"}};
+  if (!scene_going(w->run)) return;
   put_label(w->run, w);
   put_scalars(w->run, w);
   put_multipliers(w->run, w);

@@ -53,9 +53,10 @@ static void write_results(const scene_lines *l)
 
 static void print_table(const scene_lines *l, FILE *out)
 {
+  const pendres_phase_point *points = l->points.rows;
   size_t tally[PENDRES_REGIME_COUNT] = {0}, differ = 0, skipped = 0;
-  for (size_t i = 0; i < l->n; i++) {
-    const pendres_phase_point *p = &l->points[i];
+  for (size_t i = 0; i < l->points.n; i++) {
+    const pendres_phase_point *p = &points[i];
     tally[p->regime]++;
     differ += p->regime != PENDRES_REGIME_OTHER && p->regime != p->exact;
   }
@@ -64,7 +65,7 @@ static void print_table(const scene_lines *l, FILE *out)
   fprintf(out, "regime        points\n");
   for (int r = 0; r < PENDRES_REGIME_COUNT; r++)
     fprintf(out, "%-12s  %zu\n", scene_regime_names(r), tally[r]);
-  fprintf(out, "members miss a state that exists at %zu of %zu points\n", differ, l->n);
+  fprintf(out, "members miss a state that exists at %zu of %zu points\n", differ, l->points.n);
   if (skipped > 0) fprintf(out, "orbits without a branch: %zu\n", skipped);
   scene_lines_print(l, out);
 }

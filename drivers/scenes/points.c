@@ -10,7 +10,8 @@
 /* Of a point that has failed, behind the records of a task's points. */
 typedef struct mark {
   uint64_t point;
-  scene_verdict verdict;
+  int64_t reason;         /* a scene_failure */
+  char words[SCENE_TOLD]; /* the library's own; "": those of the list */
 } mark;
 
 struct scene_marks {
@@ -54,8 +55,8 @@ static void add_mark(struct scene_marks *m, size_t point, scene_failure reason, 
     return;
   }
   mark *to = &m->list[m->count++];
-  *to = (mark){.point = point};
-  scene_verdict_mark(&to->verdict, reason, words);
+  *to = (mark){.point = point, .reason = (int64_t)reason};
+  if (words != NULL) snprintf(to->words, sizeof to->words, "%s", words);
 }
 
 void scene_mark(const scene_some *some, size_t i, scene_failure reason, const char *words)
@@ -83,6 +84,16 @@ static void name_point(const scene_run *run, const scene_points *p, size_t point
   scene_point_name(run->deck, point, p->axes, p->axis, text + used, size - (size_t)used);
 }
 
+void scene_points_begin(const scene_run *run, const scene_points *p, size_t first, size_t n,
+                        farm_record *out)
+{
+  char name[SCENE_TOLD], more[40] = "";
+  if (p->axes == 0 && p->name == NULL) return;
+  name_point(run, p, first, name, sizeof name);
+  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
+  farm_point(out, scene_find(run->deck->kind)->budget ? n : 0, "%s%s", name, more);
+}
+
 /* A task under way. */
 typedef struct work {
   const scene_run *run;
@@ -91,15 +102,6 @@ typedef struct work {
   farm_record *out;
   struct scene_marks marks;
 } work;
-
-static void begin(const work *w, size_t first, size_t n)
-{
-  char name[SCENE_TOLD], more[40] = "";
-  if (w->p->axes == 0 && w->p->name == NULL) return;
-  name_point(w->run, w->p, first, name, sizeof name);
-  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
-  farm_point(w->out, scene_find(w->run->deck->kind)->budget ? n : 0, "%s%s", name, more);
-}
 
 /* Whether one of the points is left out. */
 static int too_long(const scene_points *p, size_t first, size_t n, char *words, size_t size)
@@ -118,14 +120,14 @@ static scene_failure attempt(work *w, size_t first, size_t n, void *rows, char w
   const scene_some some = {w->p, w->ctx, first, n, rows, w->out->message, &w->marks};
   *status = PENDRES_OK;
   if (too_long(w->p, first, n, words, SCENE_TOLD)) return SCENE_FAILURE_TOO_LONG;
-  begin(w, first, n);
+  scene_points_begin(w->run, w->p, first, n, w->out);
   *status = w->p->compute(&some);
   if (farm_gave_up(w->out, *status)) {
     if (n == 1) farm_lost(w->out, words, SCENE_TOLD);
     return SCENE_FAILURE_OUT_OF_TIME;
   }
-  const scene_failure reason =
-    w->p->unmarked ? SCENE_FAILURE_NONE : scene_failure_of(*status);
+  const int ends_the_run = w->p->unmarked || w->out->message[0] != '\0';
+  const scene_failure reason = ends_the_run ? SCENE_FAILURE_NONE : scene_failure_of(*status);
   if (reason != SCENE_FAILURE_NONE)
     snprintf(words, SCENE_TOLD, "%s", pendres_context_message(w->ctx));
   return reason;
@@ -187,7 +189,7 @@ static int check(const void *arg, size_t task, const farm_record *in)
   if (in->size < bytes || (in->size - bytes) % sizeof m != 0) return 0;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
     if (p->unmarked || m.point < t.first || m.point >= t.first + t.n ||
-        !scene_check_verdict(&m.verdict))
+        m.reason < 0 || m.reason >= SCENE_FAILURE_COUNT || !scene_check_text(m.words, SCENE_TOLD))
       return 0;
   int good = 1;
   for (size_t i = 0; good && i < t.n; i++) {
@@ -205,7 +207,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   scene_points *p = t.of;
   mark m;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
-    scene_failures_mark(&p->failed, m.point, (scene_failure)m.verdict.reason, m.verdict.words);
+    scene_failures_mark(&p->failed, m.point, (scene_failure)m.reason, m.words);
   if (p->collect != NULL) return p->collect(p, t.first, t.n, in->data);
   if (p->large != NULL) return scene_temporary_put(s->run, p->large, t.first, t.n, in->data);
   memcpy((char *)p->rows + t.first * p->size, in->data, t.n * p->size);

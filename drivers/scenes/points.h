@@ -23,7 +23,7 @@ typedef struct scene_some {
   pendres_context *ctx;
   size_t first, n;          /* their numbers */
   void *rows;               /* [n] their records, all zero, to be filled */
-  char *message;            /* [SCENE_MESSAGE] why it fails, where the context cannot tell; "" */
+  char *message;            /* [SCENE_MESSAGE] why it fails, where that is not the points' own */
   struct scene_marks *marks;
 } scene_some;
 
@@ -34,7 +34,8 @@ struct scene_points {
 
   /*
    * Compute them all, or none. What fails for reasons of a point's own (scene_failure_of), or is
-   * ended by the budget, is tried again by halves, down to single points.
+   * ended by the budget, is tried again by halves, down to single points. What fails with a message
+   * ends the run.
    */
   pendres_status (*compute)(const scene_some *some);
   /* Whether a point would take longer than anybody waits, see scene_failure_too_long(); it is not
@@ -96,6 +97,10 @@ void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
 #define SCENE_COMPUTE(run, points, name, ...)                                      \
   scene_points_compute(run, &(farm_stage){.what = name, __VA_ARGS__}, 1,     \
                              (scene_points *[]){points})
+
+/* For tasks of other stages: begin n points next to each other, as farm_point() does. */
+void scene_points_begin(const scene_run *run, const scene_points *p, size_t first, size_t n,
+                        farm_record *out);
 
 /* Count the points that failed, and tell the first of them. */
 void scene_points_tell(scene_run *run, const scene_points *p);

@@ -2,6 +2,7 @@
 #include "scenes/ramp.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/points.h"
@@ -161,38 +162,29 @@ static pendres_status collect(const scene_points *p, size_t first, size_t n, con
   return PENDRES_OK;
 }
 
-/* Trajectories of a task: number of the first, and how many. */
-static size_t part_of(const work *w, size_t task, size_t *first)
+/* Noisy trajectories: of each, the values at which it leaves the states. */
+static pendres_status scatter(const scene_some *some)
 {
-  *first = task * PART;
-  return w->trajectories - *first < PART ? w->trajectories - *first : PART;
-}
-
-static pendres_status scatter(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
-{
-  const work *w = arg;
-  size_t first;
-  const size_t n = part_of(w, task, &first), jumps = w->ramp.jumps;
-  double *value = farm_record_resize(out, (2 * jumps * n + 1) * sizeof *value);
+  const work *w = some->of->arg;
+  const size_t n = some->n, jumps = w->ramp.jumps;
+  double *row = some->rows, *value = malloc(2 * jumps * n * sizeof *value);
   if (value == NULL) return PENDRES_OUT_OF_MEMORY;
-  return pendres_ramp_scatter(ctx, &w->ramp, n, first, value + jumps * n, value);
+  const pendres_status status =
+    pendres_ramp_scatter(some->ctx, &w->ramp, n, some->first, value + jumps * n, value);
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < jumps; k++) row[i * jumps + k] = value[k * n + i];
+  free(value);
+  return status;
 }
 
-static int check_part(const void *arg, size_t task, const farm_record *in)
+static pendres_status collect_scatter(const scene_points *p, size_t first, size_t n,
+                                      const void *rows)
 {
-  const work *w = arg;
-  size_t first;
-  return in->size == (2 * w->ramp.jumps * part_of(w, task, &first) + 1) * sizeof(double);
-}
-
-static pendres_status collect_part(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  size_t first;
-  const size_t n = part_of(w, task, &first);
-  for (size_t k = 0; k < w->ramp.jumps; k++)
-    memcpy(w->noisy + k * w->trajectories + first, (const double *)in->data + k * n,
-           n * sizeof *w->noisy);
+  const work *w = p->arg;
+  const double *row = rows;
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < w->ramp.jumps; k++)
+      w->noisy[k * w->trajectories + first + i] = row[i * w->ramp.jumps + k];
   return PENDRES_OK;
 }
 
@@ -283,15 +275,13 @@ static void tabulate(FILE *out, const work *w)
 
 static void compute(scene_run *run, work *w)
 {
-  const size_t tasks = (w->trajectories + PART - 1) / PART;
-  const farm_stage noise = {.what = "parts of the noisy trajectories", .tasks = tasks,
-                            .record_size = 1, .last = 1, .task = scatter,
-                            .check = check_part, .collect = collect_part, .arg = w};
+  scene_points noise = {.n = w->trajectories, .chunk = PART, .size = w->ramp.jumps * sizeof(double),
+                        .compute = scatter, .collect = collect_scatter, .unmarked = 1, .arg = w};
   SCENE_COMPUTE(run, &w->way, "ramps", .last = 0);
   if (!scene_going(run)) return;
   for (size_t k = 0; k < w->ramp.jumps * w->trajectories; k++) w->noisy[k] = NAN;
-  if (tasks == 0 || w->ramp.jumps == 0 || w->way.failed.reason[0] != SCENE_FAILURE_NONE) return;
-  scene_compute(run, &noise);
+  if (noise.n == 0 || noise.size == 0 || w->way.failed.reason[0] != SCENE_FAILURE_NONE) return;
+  SCENE_COMPUTE(run, &noise, "parts of the noisy trajectories", .last = 1);
   for (size_t k = 0; k < w->ramp.jumps && scene_going(run); k++) {
     const pendres_status status = pendres_ramp_summarize(
       w->trajectories, w->noisy + k * w->trajectories, &w->summary[k]);

@@ -159,40 +159,27 @@ static scene_response_row row_of(const pendres_response *p)
 #undef PAIR
 }
 
-/* States that are alone at a point have their names from the others of its line: the record is the
-   line's points again. */
-static pendres_status name_states(const void *arg, size_t task, pendres_context *ctx,
-                                  farm_record *out)
+/* States that are alone at a point have their names from the others of its line, whose points these
+   are. */
+static pendres_status name_states(const scene_some *some)
 {
-  const grid *g = arg;
-  const pendres_status status = scene_temporary_get(&g->kept, task * g->values, g->values,
-                                                    out->data,
-                                                    out->message, sizeof out->message);
-  return status == PENDRES_OK ? pendres_response_label(ctx, g->values, out->data) : status;
+  const grid *g = some->of->arg;
+  const pendres_status status = scene_temporary_get(&g->kept, some->first, some->n, some->rows,
+                                                    some->message, SCENE_MESSAGE);
+  return status == PENDRES_OK ? pendres_response_label(some->ctx, some->n, some->rows) : status;
 }
 
-static int check_names(const void *arg, size_t task, const farm_record *in)
+static pendres_status collect_names(const scene_points *p, size_t first, size_t n, const void *rows)
 {
-  const grid *g = arg;
-  const pendres_response *points = in->data;
-  int good = in->size == g->values * sizeof *points;
-  (void)task;
-  for (size_t i = 0; good && i < g->values; i++) good = scene_check_response(&points[i]);
-  return good;
-}
-
-static pendres_status collect_names(void *arg, size_t task, const farm_record *in)
-{
-  grid *g = arg;
-  const pendres_response *points = in->data;
-  const size_t first = task * g->values;
-  for (size_t i = 0; i < g->values; i++) {
+  const grid *g = p->arg;
+  const pendres_response *points = rows;
+  for (size_t i = 0; i < n; i++) {
     const scene_response_row row = row_of(&points[i]);
     scene_temporary_put(g->run, &g->rows, first + i, 1, &row);
   }
   /* Noise begins from the whole of a point. */
   if (g->d->axis[DECK_AXIS_TEMPERATURE].count > 0)
-    scene_temporary_put(g->run, &g->kept, first, g->values, points);
+    scene_temporary_put(g->run, &g->kept, first, n, points);
   return g->run->status;
 }
 
@@ -289,15 +276,14 @@ static void print_table(FILE *out, const grid *g)
 /* All points and resonances in one stage; then names along each line. */
 static void compute_all(scene_run *run, grid *g)
 {
-  const size_t lines = g->points.n / g->values;
-  const farm_stage names = {.what = "lines", .tasks = lines, .cheap = 1, .task = name_states,
-                            .record_size = g->values * sizeof(pendres_response),
-                            .check = check_names, .collect = collect_names, .arg = g};
+  scene_points names = {.n = g->points.n, .chunk = g->values, .size = sizeof(pendres_response),
+                        .compute = name_states, .check = check, .collect = collect_names,
+                        .unmarked = 1, .arg = g};
   scene_temporary_create(run, g->points.n, sizeof(scene_response_row), SCENE_TEMPORARY_MEMORY,
                          &g->rows);
   scene_points_compute(run, &(farm_stage){.what = "chunks"}, g->peaks.n > 0 ? 2 : 1,
                        (scene_points *[]){&g->points, &g->peaks});
-  scene_compute(run, &names);
+  SCENE_COMPUTE(run, &names, "lines", .cheap = 1);
 }
 
 static pendres_status run_scene(scene_run *run)

@@ -28,7 +28,7 @@ typedef struct work {
   pendres_switching_way way[WAYS];  /* that there are: without wells none to another */
   int ways, told;                   /* how many, and how many the table tells */
   int escapes;                      /* to infinity; there are no other wells then */
-  scene_failures failed;            /* [temperature] */
+  scene_points results;             /* [temperature]: which failed */
   char name[STATES][24], state[STATES][40]; /* of the states: "sa", "the small-amplitude state" */
   char suffix[WAYS][56], words[WAYS][120];  /* of the ways */
 } work;
@@ -143,8 +143,8 @@ static pendres_status collect_count(const scene_points *p, size_t first, size_t 
   const size_t temperature = first / w->parts;
   (void)n;
   pendres_switching_add(&w->sums[temperature], rows);
-  if (w->failed.reason[temperature] == SCENE_FAILURE_NONE)
-    scene_failures_mark(&w->failed, temperature, (scene_failure)p->failed.reason[first],
+  if (w->results.failed.reason[temperature] == SCENE_FAILURE_NONE)
+    scene_failures_mark(&w->results.failed, temperature, (scene_failure)p->failed.reason[first],
                         p->failed.words[first]);
   return PENDRES_OK;
 }
@@ -206,12 +206,12 @@ static pendres_status conclude(work *w, size_t i)
   const int *state = w->survey.state;
   for (int s = STATES - 1; s >= 0; s--)
     if (w->choices.failed.reason[s] != SCENE_FAILURE_NONE)
-      scene_failures_mark(&w->failed, i, (scene_failure)w->choices.failed.reason[s],
+      scene_failures_mark(&w->results.failed, i, (scene_failure)w->choices.failed.reason[s],
                           w->choices.failed.words[s]);
-  const int broken = w->failed.reason[i] != SCENE_FAILURE_NONE;
+  const int broken = w->results.failed.reason[i] != SCENE_FAILURE_NONE;
   const int both = w->way[0] == PENDRES_SWITCHING_FORTH;
   if (!broken && both && (state[SA] < 0 || state[LA] < 0))
-    scene_failures_mark(&w->failed, i, SCENE_FAILURE_NOT_FOUND,
+    scene_failures_mark(&w->results.failed, i, SCENE_FAILURE_NOT_FOUND,
                         state[SA] < 0 ? "there is no small-amplitude state"
                                       : "there is no large-amplitude state");
   return pendres_switching_conclude(&w->survey, w->d->axis[DECK_AXIS_TEMPERATURE].value[i],
@@ -225,7 +225,7 @@ static void compute(scene_run *run, work *w)
   w->parts = scene_going(run) ? pendres_switching_parts(&w->survey) : 1;
   w->sums = scene_array(run, w->temperatures, sizeof *w->sums);
   w->rates = scene_array(run, w->temperatures, sizeof *w->rates);
-  scene_failures_create(run, w->temperatures, &w->failed);
+  scene_failures_create(run, w->temperatures, &w->results.failed);
   SCENE_COMPUTE(run, &w->choices, "choices of steps", .cheap = 1);
   if (scene_going(run)) w->survey.steps_per_period = steps_of(w);
   w->counts.n = w->temperatures * w->parts;
@@ -342,7 +342,6 @@ static void write_circumstances(scene_run *run, const work *w)
 
 static void write_results(scene_run *run, const work *w)
 {
-  const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE };
   if (!scene_going(run)) return;
   scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
   for (int i = 0; i < w->ways; i++) {
@@ -359,7 +358,8 @@ static void write_results(scene_run *run, const work *w)
     SCENE_WRITE(run, &table, of_fits);
   }
   write_circumstances(run, w);
-  scene_failures_write(run, &w->failed, "failed", "switching", 1, axes);
+  scene_points_write_failed(run, &w->results, "failed",
+                            "why there is no whole result for the switching");
 }
 
 /* A line of the table: one way at one temperature. */
@@ -428,7 +428,9 @@ static pendres_status run_scene(scene_run *run)
                         .name = name_choice, .check = check_choice, .arg = &w},
             .counts = {.chunk = 1, .size = sizeof(pendres_switching_tally), .compute = count,
                        .name = name_count, .check = check_count, .collect = collect_count,
-                       .arg = &w}};
+                       .arg = &w},
+            .results = {.what = "switching"}};
+  scene_points_over(&w.results, run->deck, 1, &(deck_axis_id){DECK_AXIS_TEMPERATURE});
   name_ways(&w);
   compute(run, &w);
   write_results(run, &w);
