@@ -12,7 +12,14 @@
 
 static const double low = 0.74, high = 1.46;
 
-/* Begin and end of each part are bifurcations, or the range's ends. */
+static double value_of(const pendres_branch *b, size_t i)
+{
+  return pendres_branch_get(b, i)->orbit.pendulum.drive_amplitude;
+}
+
+/* Begin and end of each part are bifurcations, or the range's ends; in between the parameter goes
+   one way, but for the errors of points: where orbits are born the branch turns back, and another
+   part begins. */
 static void check_parts(const pendres_branch *b)
 {
   enum { MOST = 32 };
@@ -20,16 +27,20 @@ static void check_parts(const pendres_branch *b)
   const size_t n = pendres_branch_parts(b, MOST, part);
   assert_true(n <= MOST);
   for (size_t i = 0; i < n; i++) {
-    const double first = pendres_branch_get(b, part[i].first)->orbit.pendulum.drive_amplitude;
-    const double last = pendres_branch_get(b, part[i].last)->orbit.pendulum.drive_amplitude;
+    const double first = value_of(b, part[i].first), last = value_of(b, part[i].last);
+    const double way = last > first ? 1.0 : -1.0;
     assert_true(part[i].begins != PENDRES_REGULAR || first == low || first == high);
     assert_true(part[i].ends != PENDRES_REGULAR || last == low || last == high);
+    for (size_t k = part[i].first; k < part[i].last; k++)
+      assert_true(way * (value_of(b, k + 1) - value_of(b, k)) >=
+                  -2.0 * (pendres_branch_get(b, k)->parameter_error +
+                          pendres_branch_get(b, k + 1)->parameter_error));
   }
 }
 
 /*
- * Duffing's two wells, x'' + x'/4 - x + x^3 = F cos t: folds, doublings and losses of symmetry. All
- * but the doublings are starts.
+ * Duffing's two wells, x'' + x'/4 - x + x^3 = F cos t: folds, doublings and losses of symmetry are
+ * starts, the doublings of the orbits that are born there.
  */
 static void starts_at_bifurcations(void **state)
 {
@@ -55,8 +66,9 @@ static void starts_at_bifurcations(void **state)
         for (size_t m = 0; m < pendres_branch_bifurcation_count(b); m++) {
           pendres_branch *from = NULL;
           const pendres_bifurcation *f = pendres_branch_bifurcation_get(b, m);
-          if (f->kind == PENDRES_PERIOD_DOUBLING) continue;
-          check_ok(pendres_branch_follow(ctx, &f->orbit, &options, &from));
+          pendres_orbit start = f->orbit;
+          if (f->kind == PENDRES_PERIOD_DOUBLING) check_ok(pendres_branch_switch(ctx, f, &start));
+          check_ok(pendres_branch_follow(ctx, &start, &options, &from));
           check_parts(from);
           parts += pendres_branch_parts(from, 0, NULL);
           pendres_branch_free(from);

@@ -177,8 +177,10 @@ typedef struct pendres_branch_part {
 
 /**
  * The parts of a branch that attract, in its order, from wherever orbits become stable to wherever
- * they cease to be, whatever the reason: folds, symmetry breakings, period doublings. A branch that
- * closes (PENDRES_END_CLOSED) may have one part cut in two at its first point.
+ * they cease to be, whatever the reason: folds, symmetry breakings, period doublings. Along a part
+ * the parameter goes one way: where orbits were born by such a bifurcation the branch turns back,
+ * and another part begins. A branch that closes (PENDRES_END_CLOSED) may have one part cut in two
+ * at its first point.
  *
  * @param branch read; NULL has no parts
  * @param room   how many parts out has room for

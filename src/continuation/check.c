@@ -1,5 +1,4 @@
-/* check.c -- where a branch attracts, and whether its points and bifurcations
-   agree. */
+/* check.c -- whether the points and the bifurcations of a branch agree; see branch.h. */
 #include "continuation/branch.h"
 
 #include <math.h>
@@ -107,75 +106,4 @@ void pendres_branch_check(pendres_curve *b)
   check_signs(b, 1.0);
   check_signs(b, -1.0);
   check_turns(b);
-}
-
-/* ---- parts that attract ---- */
-
-/* The bifurcation at a point. */
-static pendres_special kind_at(const pendres_curve *b, size_t i)
-{
-  return b->branch_point[i].kind;
-}
-
-/* Whether points i and k, the latter a bifurcation, are at one place within their errors. */
-static int same_place(const pendres_curve *b, size_t i, size_t k)
-{
-  const double error = b->branch_point[i].parameter_error + b->branch_point[k].parameter_error;
-  return fabs(pendres_branch_value(b, i) - pendres_branch_value(b, k)) <= 2.0 * error;
-}
-
-/* Whether point i is so close to a bifurcation that its stability is a matter of rounding: it may
-   be on either side. A branch that starts at a bifurcation has such points. */
-static int beside(const pendres_curve *b, size_t i)
-{
-  for (int step = -1; step <= 1; step += 2)
-    for (size_t k = i; step > 0 ? k + 1 < b->count : k > 0;) {
-      const pendres_orbit *o = &b->branch_point[k].orbit;
-      const int tells = sign_of(o, 1.0) != 0 && sign_of(o, -1.0) != 0;
-      k = step > 0 ? k + 1 : k - 1;
-      if (!regular(b, k) && (!tells || same_place(b, i, k))) return 1;
-      if (tells || !regular(b, k)) break;
-    }
-  return 0;
-}
-
-/* A stable point that is not beside a bifurcation. */
-static int attracts(const pendres_curve *b, size_t i)
-{
-  return regular(b, i) && b->branch_point[i].orbit.stable && !beside(b, i);
-}
-
-/* The part from point i on, one that attracts; *next: where to go on. */
-static pendres_branch_part part_from(const pendres_curve *b, size_t i, size_t *next)
-{
-  pendres_branch_part part = {.first = i, .last = i};
-  while (part.first > 0 && regular(b, part.first - 1) && beside(b, part.first - 1)) part.first--;
-  if (part.first > 0 && !regular(b, part.first - 1)) part.first--;
-  size_t k = i;
-  for (; k < b->count && (!regular(b, k) || attracts(b, k) || beside(b, k)); k++)
-    if (attracts(b, k)) part.last = k;
-  /* The bifurcation next to the last point that attracts, on the far side, if there is one. */
-  size_t end = part.last + 1;
-  while (end < b->count && regular(b, end) && beside(b, end)) end++;
-  part.last = end < b->count && !regular(b, end) ? end : end - 1;
-  part.begins = kind_at(b, part.first);
-  part.ends = kind_at(b, part.last);
-  *next = k;
-  return part;
-}
-
-size_t pendres_branch_parts(const pendres_branch *branch, size_t room, pendres_branch_part *out)
-{
-  const pendres_curve *b = branch != NULL ? &branch->curve : NULL;
-  size_t n = 0;
-  for (size_t i = 0; b != NULL && i < b->count;) {
-    if (!attracts(b, i)) {
-      i++;
-      continue;
-    }
-    const pendres_branch_part part = part_from(b, i, &i);
-    if (n < room && out != NULL) out[n] = part;
-    n++;
-  }
-  return n;
 }

@@ -8,7 +8,7 @@
 #include "engine/door.h"
 #include "model/parameter.h"
 #include "orbits/orbit_newton.h"
-#include "analysis/sweeps/stretch.h"
+#include "analysis/sweeps/stable_part.h"
 
 /* Feigenbaum's first constant. */
 static const double feigenbaum = 4.66920160910299067;
@@ -55,15 +55,15 @@ static void note(const pendres_bifurcation *b, pendres_cascade *c)
   c->value_error[c->doublings++] = b->value_error;
 }
 
-/* The orbit half way between the last two doublings, on the stretch between them. */
-static pendres_status orbit_before(pendres_context *ctx, const pendres_stretch *s,
+/* The orbit half way between the last two doublings, on the part between them. */
+static pendres_status orbit_before(pendres_context *ctx, const pendres_part *s,
                                    const pendres_cascade *c, pendres_orbit *last)
 {
   const int n = c->doublings;
   int found = 0;
   if (n < 2) return PENDRES_OK;
   const double middle = 0.5 * (c->value[n - 2] + c->value[n - 1]);
-  const pendres_status status = pendres_stretch_orbits(ctx, s, 1, &middle, last, &found);
+  const pendres_status status = pendres_part_orbits(ctx, s, 1, &middle, last, &found);
   if (!found) last->period = 0;
   return status;
 }
@@ -71,25 +71,25 @@ static pendres_status orbit_before(pendres_context *ctx, const pendres_stretch *
 pendres_status pendres_cascade_follow(pendres_context *ctx, const pendres_cascade_way *way,
                                       pendres_cascade *out, pendres_orbit *last)
 {
-  pendres_stretch s = pendres_stretch_none;
+  pendres_part s = pendres_part_none;
   *out = (pendres_cascade){.doublings = 0};
   if (last != NULL) last->period = 0;
   pendres_status status =
-    pendres_stretch_from(ctx, way->orbit, way->parameter, way->limit, &s);
+    pendres_part_from(ctx, way->orbit, way->parameter, way->limit, &s);
   for (int fork = 0; fork < MOST_FORKS && status == PENDRES_OK; fork++) {
     const pendres_bifurcation end = s.bifurcation;
     const int doubles = end.kind == PENDRES_PERIOD_DOUBLING;
-    if (s.end != PENDRES_STRETCH_BIFURCATION || end.kind == PENDRES_FOLD) break;
+    if (s.end != PENDRES_PART_BIFURCATION || end.kind == PENDRES_FOLD) break;
     if (doubles) note(&end, out);
     if (out->doublings == PENDRES_CASCADE_DOUBLINGS ||
         (doubles && end.orbit.period > way->longest / 2)) {
       if (last != NULL) status = orbit_before(ctx, &s, out, last);
       break;
     }
-    pendres_stretch_free(&s);
-    status = pendres_stretch_born(ctx, &end, way->limit, &s);
+    pendres_part_free(&s);
+    status = pendres_part_born(ctx, &end, way->limit, &s);
   }
-  pendres_stretch_free(&s);
+  pendres_part_free(&s);
   finish(out);
   return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
 }

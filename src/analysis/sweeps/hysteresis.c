@@ -23,7 +23,7 @@ void pendres_hysteresis_free(pendres_hysteresis *h)
   if (h == NULL) return;
   free(h->point);
   free(h->jump);
-  free(h->stretch);
+  free(h->part);
   free(h->jump_from);
   free(h->jump_to);
   free(h);
@@ -177,7 +177,7 @@ static pendres_status follow_path(path *w, pendres_path_left *left)
     pendres_path_allow(w);
   }
   pendres_path_allow_all(w);
-  pendres_stretch_free(&w->stretch);
+  pendres_part_free(&w->part);
   pendres_path_unlocked_free(w);
   pendres_rotation_table_free(w->rotations);
   return status;
@@ -191,9 +191,9 @@ static pendres_hysteresis *create(size_t n)
   if (h == NULL) return NULL;
   h->count = n;
   h->point = calloc(n + 1, sizeof *h->point);
-  h->stretch = calloc(n + 1, sizeof *h->stretch);
+  h->part = calloc(n + 1, sizeof *h->part);
   for (size_t i = 0; i < n && h->point != NULL; i++) h->point[i].value = NAN; /* not reached */
-  if (h->point != NULL && h->stretch != NULL) return h;
+  if (h->point != NULL && h->part != NULL) return h;
   pendres_hysteresis_free(h);
   return NULL;
 }

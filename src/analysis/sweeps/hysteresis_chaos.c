@@ -7,7 +7,7 @@
 
 #include "continuation/parameter.h"
 #include "analysis/sweeps/cascade.h"
-#include "analysis/sweeps/stretch.h"
+#include "analysis/sweeps/stable_part.h"
 
 enum {
   HALVINGS = 8,    /* of the distance of two values between which chaos ends */
@@ -170,19 +170,19 @@ static pendres_status accumulation(const search *w, const pendres_orbit *orbit, 
 }
 
 /* Where an orbit begins that was born between the values, by a fold or as one of a cascade. */
-static pendres_status beginning(const search *w, const pendres_stretch *s, int earlier, place *out,
+static pendres_status beginning(const search *w, const pendres_part *s, int earlier, place *out,
                                 int *found)
 {
   const pendres_special kind = s->bifurcation.kind;
   const double off = (value_of(w) > w->from ? 1 : -1) * room(w, s->end_value);
   *found = 0;
-  if (s->end != PENDRES_STRETCH_BIFURCATION) return PENDRES_OK;
+  if (s->end != PENDRES_PART_BIFURCATION) return PENDRES_OK;
   if (kind == PENDRES_PERIOD_DOUBLING || kind == PENDRES_SYMMETRY_BREAKING)
-    return accumulation(w, &pendres_stretch_last(s)->orbit, out, found);
+    return accumulation(w, &pendres_part_last(s)->orbit, out, found);
   *found = off != 0.0;
   *out = (place){.kind = kind_of(kind), .value = s->end_value, .error = s->end_error,
                  .before = s->end_value - off, .behind = s->end_value + off,
-                 .period = pendres_stretch_last(s)->orbit.period, .earlier = earlier};
+                 .period = pendres_part_last(s)->orbit.period, .earlier = earlier};
   return PENDRES_OK;
 }
 
@@ -190,18 +190,18 @@ static pendres_status beginning(const search *w, const pendres_stretch *s, int e
    old state, or that it is there at both. */
 typedef enum birth { BIRTH_NONE, BIRTH_FOUND, BIRTH_EARLIER } birth;
 
-/* The stretch of the orbit that the pendulum has gone to, back to the old state; where that was
+/* The part of the orbit that the pendulum has gone to, back to the old state; where that was
    born of another by doubling or a loss of symmetry, of the other, and so on. */
-static pendres_status go_back(const search *w, pendres_stretch *s, int *births)
+static pendres_status go_back(const search *w, pendres_part *s, int *births)
 {
   *births = 0;
   pendres_status status =
-    pendres_stretch_from(w->ctx, &w->state->attractor.orbit, w->parameter, w->from, s);
-  while (status == PENDRES_OK && s->end == PENDRES_STRETCH_BIRTH && *births < MOST_BIRTHS) {
+    pendres_part_from(w->ctx, &w->state->attractor.orbit, w->parameter, w->from, s);
+  while (status == PENDRES_OK && s->end == PENDRES_PART_BIRTH && *births < MOST_BIRTHS) {
     const pendres_orbit parent = s->bifurcation.orbit;
     ++*births;
-    pendres_stretch_free(s);
-    status = pendres_stretch_from(w->ctx, &parent, w->parameter, w->from, s);
+    pendres_part_free(s);
+    status = pendres_part_from(w->ctx, &parent, w->parameter, w->from, s);
   }
   return status;
 }
@@ -212,7 +212,7 @@ static pendres_status go_back(const search *w, pendres_stretch *s, int *births)
  */
 static pendres_status try_birth(search *w, pendres_jump *jump, birth *found)
 {
-  pendres_stretch s = pendres_stretch_none;
+  pendres_part s = pendres_part_none;
   place at;
   int there = 0, births = 0, born = 0;
   *found = BIRTH_NONE;
@@ -220,9 +220,9 @@ static pendres_status try_birth(search *w, pendres_jump *jump, birth *found)
       w->state->attractor.orbit.period > PENDRES_HYSTERESIS_PERIOD)
     return PENDRES_OK;
   pendres_status status = go_back(w, &s, &births);
-  if (status == PENDRES_OK && s.end == PENDRES_STRETCH_LIMIT) *found = BIRTH_EARLIER;
+  if (status == PENDRES_OK && s.end == PENDRES_PART_LIMIT) *found = BIRTH_EARLIER;
   if (status == PENDRES_OK) status = beginning(w, &s, births > 0, &at, &there);
-  pendres_stretch_free(&s);
+  pendres_part_free(&s);
   if (status == PENDRES_OK && there) status = try_beside(w, &at, jump, &born);
   if (status == PENDRES_OK && born) *found = BIRTH_FOUND;
   return status;

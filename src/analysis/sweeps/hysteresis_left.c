@@ -54,7 +54,7 @@ void pendres_path_allow_all(pendres_path *w)
 
 pendres_path_mark pendres_path_mark_here(const pendres_path *w)
 {
-  return (pendres_path_mark){.path = *w, .jumps = w->h->jumps, .stretches = w->h->stretches};
+  return (pendres_path_mark){.path = *w, .jumps = w->h->jumps, .parts = w->h->parts};
 }
 
 /* Go back to the mark, where nothing is followed. */
@@ -63,14 +63,14 @@ static void go_back(pendres_path *w, const pendres_path_mark *mark)
   pendres_unlocked *unlocked = w->unlocked;
   const size_t values = w->values;
   pendres_rotation_table *rotations = w->rotations;
-  pendres_stretch_free(&w->stretch);
+  pendres_part_free(&w->part);
   *w = mark->path;
-  w->stretch = pendres_stretch_none;
+  w->part = pendres_part_none;
   w->unlocked = unlocked;
   w->values = values;
   w->rotations = rotations;
   w->h->jumps = mark->jumps;
-  w->h->stretches = mark->stretches;
+  w->h->parts = mark->parts;
 }
 
 /* Where a path turns round it comes to the same value twice. */
@@ -102,7 +102,7 @@ void pendres_path_number(pendres_path *w, const pendres_path_left *left)
   pendres_hysteresis *h = w->h;
   for (size_t k = w->n; k-- > 0;) {
     h->point[left->index[k]] = h->point[k];
-    h->stretch[left->index[k]] = h->stretch[k];
+    h->part[left->index[k]] = h->part[k];
   }
   for (size_t k = 0; k < h->jumps; k++) h->jump[k].step = left->index[h->jump[k].step];
   /* Entries that were moved have left copies behind, which are overwritten here. */
@@ -113,6 +113,6 @@ void pendres_path_number(pendres_path *w, const pendres_path_left *left)
     if (there && !isnan(h->point[i].value)) continue;
     h->point[i] = pendres_path_nothing(w, w->all[i]);
     h->point[i].outcome = there ? PENDRES_INTERRUPTED : left->outcome[i];
-    h->stretch[i] = h->stretches + 1;
+    h->part[i] = h->parts + 1;
   }
 }

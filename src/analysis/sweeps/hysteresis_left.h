@@ -20,7 +20,7 @@ typedef struct pendres_path_left {
 /* Where a path was, in order to come back to it. */
 typedef struct pendres_path_mark {
   pendres_path path;
-  size_t jumps, stretches;
+  size_t jumps, parts;
 } pendres_path_mark;
 
 /* Whether a failure concerns one value only: the path may go on at others. */

@@ -21,12 +21,12 @@ static int by_value(const void *a, const void *b)
   return (p->value > q->value) - (p->value < q->value);
 }
 
-/* Note which of two stretches with points at the same value has the smaller orbit, if both orbits
+/* Note which of two parts with points at the same value has the smaller orbit, if both orbits
    are of one drive period. */
 static void compare(const pendres_hysteresis *h, size_t i, size_t k, unsigned char *met)
 {
   const pendres_attractor *a = &h->point[i].attractor, *b = &h->point[k].attractor;
-  if (h->stretch[i] == h->stretch[k]) return;
+  if (h->part[i] == h->part[k]) return;
   if (!pendres_settled_closed(a) || !pendres_settled_closed(b)) return;
   if (!pendres_label_named(&a->orbit) || !pendres_label_named(&b->orbit)) return;
   pendres_label_states states = {.count = 0};
@@ -34,8 +34,8 @@ static void compare(const pendres_hysteresis *h, size_t i, size_t k, unsigned ch
   pendres_label_note(&states, &b->orbit);
   if (states.count < 2) return;
   const int less = a->orbit.amplitude < b->orbit.amplitude;
-  met[h->stretch[i]] |= less ? SMALLER : LARGER;
-  met[h->stretch[k]] |= less ? LARGER : SMALLER;
+  met[h->part[i]] |= less ? SMALLER : LARGER;
+  met[h->part[k]] |= less ? LARGER : SMALLER;
 }
 
 /* Compare all pairs of points with the same value; `places` has room for all points. */
@@ -48,16 +48,16 @@ static void compare_all(const pendres_hysteresis *h, place *places, unsigned cha
       compare(h, places[i].point, places[k].point, met);
 }
 
-/* Give a jump the names of the stretches that it comes from and leads to. */
+/* Give a jump the names of the parts that it comes from and leads to. */
 static void name_jump(const pendres_hysteresis *h, size_t from, size_t to, pendres_jump *jump)
 {
   const size_t step = jump->step;
   for (size_t i = step < h->count ? step : h->count; i-- > 0;)
-    if (h->stretch[i] == from) {
+    if (h->part[i] == from) {
       jump->from = h->point[i].attractor.label;
       break;
     }
-  if (step < h->count && h->stretch[step] == to) jump->to = h->point[step].attractor.label;
+  if (step < h->count && h->part[step] == to) jump->to = h->point[step].attractor.label;
 }
 
 static pendres_label name_of(const pendres_attractor *a, unsigned met)
@@ -72,7 +72,7 @@ static pendres_label name_of(const pendres_attractor *a, unsigned met)
 
 pendres_status pendres_hysteresis_name(pendres_context *ctx, pendres_hysteresis *h)
 {
-  unsigned char *met = calloc(h->stretches + 2, 1);
+  unsigned char *met = calloc(h->parts + 2, 1);
   place *places = malloc((h->count + 1) * sizeof *places);
   if (met == NULL || places == NULL) {
     free(met);
@@ -82,7 +82,7 @@ pendres_status pendres_hysteresis_name(pendres_context *ctx, pendres_hysteresis 
   compare_all(h, places, met);
   for (size_t i = 0; i < h->count; i++) {
     pendres_attractor *a = &h->point[i].attractor;
-    a->label = name_of(a, met[h->stretch[i]]);
+    a->label = name_of(a, met[h->part[i]]);
   }
   for (size_t k = 0; k < h->jumps; k++)
     name_jump(h, h->jump_from[k], h->jump_to[k], &h->jump[k]);

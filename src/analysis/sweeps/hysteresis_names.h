@@ -10,10 +10,10 @@ struct pendres_hysteresis {
   size_t count, jumps, jump_room;
   pendres_hysteresis_point *point;
   pendres_jump *jump;
-  /* For names: the number of the stretch (stretch.h) that a point belongs to, and of those that a
+  /* For names: the number of the part (stable_part.h) that a point belongs to, and of those that a
      jump comes from and leads to. */
-  size_t stretches;
-  size_t *stretch, *jump_from, *jump_to;
+  size_t parts;
+  size_t *part, *jump_from, *jump_to;
 };
 
 /* Name the states of all points and jumps, by comparing those at the same value. */

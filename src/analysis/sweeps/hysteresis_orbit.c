@@ -18,31 +18,31 @@ static const double in_sight = 100.0;
 /* Orbits whose amplitudes differ by less at one value of the parameter are one orbit. */
 static const double same_orbit = 1e-6;
 
-/* Whether a stretch ends at one of the later doublings of a cascade. */
-static int cascades(const pendres_stretch *s)
+/* Whether a part ends at one of the later doublings of a cascade. */
+static int cascades(const pendres_part *s)
 {
-  return s->end == PENDRES_STRETCH_BIFURCATION &&
+  return s->end == PENDRES_PART_BIFURCATION &&
          s->bifurcation.kind == PENDRES_PERIOD_DOUBLING &&
-         2 * s->period > PENDRES_HYSTERESIS_PERIOD;
+         2 * pendres_part_period(s) > PENDRES_HYSTERESIS_PERIOD;
 }
 
-/* The stretch that a pendulum goes over to without a jump: that of an orbit born at the end of its
-   own stretch, or of the orbit from which its own was born. PENDRES_NOT_FOUND: it jumps. */
+/* The part that a pendulum goes over to without a jump: that of an orbit born at the end of its
+   own part, or of the orbit from which its own was born. PENDRES_NOT_FOUND: it jumps. */
 static pendres_status go_over(pendres_path *w, const pendres_bifurcation *end, double limit,
-                              pendres_stretch *next)
+                              pendres_part *next)
 {
   const int doubled = end->kind == PENDRES_PERIOD_DOUBLING ? 2 : 1;
   if (end->kind != PENDRES_PERIOD_DOUBLING && end->kind != PENDRES_SYMMETRY_BREAKING &&
       end->kind != PENDRES_BRANCH_POINT)
     return PENDRES_NOT_FOUND;
-  if (w->stretch.end != PENDRES_STRETCH_BIRTH)
+  if (w->part.end != PENDRES_PART_BIRTH)
     return doubled * end->orbit.period <= PENDRES_HYSTERESIS_PERIOD
-             ? pendres_stretch_born(w->ctx, end, limit, next)
+             ? pendres_part_born(w->ctx, end, limit, next)
              : PENDRES_NOT_FOUND;
   const pendres_status status =
-    pendres_stretch_from(w->ctx, &end->orbit, w->parameter, limit, next);
+    pendres_part_from(w->ctx, &end->orbit, w->parameter, limit, next);
   if (status != PENDRES_OK || next->points > 1) return status;
-  pendres_stretch_free(next);
+  pendres_part_free(next);
   return PENDRES_NOT_FOUND;
 }
 
@@ -66,7 +66,7 @@ static int about_one_place(const pendres_orbit *a, const pendres_orbit *b)
  */
 static pendres_status same_state(const pendres_path *w, const pendres_attractor *old, int *same)
 {
-  pendres_stretch back = pendres_stretch_none;
+  pendres_part back = pendres_part_none;
   pendres_orbit there;
   const double value = pendres_parameter_get(w->parameter, &old->orbit.pendulum);
   int found = 0;
@@ -74,10 +74,10 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
   if (!pendres_settled_closed(old) || !pendres_settled_alike(old, &w->state.attractor))
     return PENDRES_OK;
   pendres_status status =
-    pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, value, &back);
-  if (status == PENDRES_OK && back.end == PENDRES_STRETCH_LIMIT)
-    status = pendres_stretch_orbits(w->ctx, &back, 1, &value, &there, &found);
-  pendres_stretch_free(&back);
+    pendres_part_from(w->ctx, &w->state.attractor.orbit, w->parameter, value, &back);
+  if (status == PENDRES_OK && back.end == PENDRES_PART_LIMIT)
+    status = pendres_part_orbits(w->ctx, &back, 1, &value, &there, &found);
+  pendres_part_free(&back);
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
   *same = found && fabs(there.amplitude - old->orbit.amplitude) <
                      same_orbit + there.amplitude_error + old->orbit.amplitude_error &&
@@ -85,37 +85,37 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
   return status;
 }
 
-/* At the end of the stretch: which bifurcation it is, and what the pendulum goes to. */
-static pendres_status end_stretch(pendres_path *w, size_t step, double limit)
+/* At the end of the part: which bifurcation it is, and what the pendulum goes to. */
+static pendres_status end_part(pendres_path *w, size_t step, double limit)
 {
   static const pendres_jump_kind kinds[] = {
     [PENDRES_REGULAR] = PENDRES_JUMP_OTHER, [PENDRES_FOLD] = PENDRES_JUMP_FOLD,
     [PENDRES_PERIOD_DOUBLING] = PENDRES_JUMP_FLIP,
     [PENDRES_SYMMETRY_BREAKING] = PENDRES_JUMP_SYMMETRY,
     [PENDRES_BRANCH_POINT] = PENDRES_JUMP_BRANCH_POINT};
-  const pendres_stretch *s = &w->stretch;
-  const pendres_branch_point *last = pendres_stretch_last(s);
+  const pendres_part *s = &w->part;
+  const pendres_branch_point *last = pendres_part_last(s);
   pendres_bifurcation end = s->bifurcation;
-  if (s->end == PENDRES_STRETCH_UNLOCATED)
+  if (s->end == PENDRES_PART_UNLOCATED)
     end = (pendres_bifurcation){.kind = PENDRES_REGULAR, .parameter = w->parameter,
                                 .value = s->end_value, .value_error = s->end_error,
                                 .orbit = last != NULL ? last->orbit : w->state.attractor.orbit};
   pendres_jump j = {.step = step, .direction = s->direction, .kind = kinds[end.kind],
                     .value = end.value, .value_error = end.value_error,
                     .from = w->state.attractor.label, .share = NAN};
-  pendres_stretch next = pendres_stretch_none;
+  pendres_part next = pendres_part_none;
   int goes_on = 0;
   pendres_status status = go_over(w, &end, limit, &next);
   pendres_orbit arrived;
-  if (status == PENDRES_OK) status = pendres_stretch_arrive(w->ctx, &next, &arrived);
+  if (status == PENDRES_OK) status = pendres_part_arrive(w->ctx, &next, &arrived);
   if (status == PENDRES_OK) {
     w->state.attractor = pendres_settled_orbit(&arrived);
     w->at = end.value;
     j.gradual = j.certain = 1;
     j.share = 1.0;
     j.to = w->state.attractor.label;
-    j.to_period = next.period;
-  } else if (status == PENDRES_NOT_FOUND && cascades(&w->stretch)) {
+    j.to_period = pendres_part_period(&next);
+  } else if (status == PENDRES_NOT_FOUND && cascades(&w->part)) {
     /* What it goes to is found at the next value. */
     w->state.attractor = pendres_settled_nothing(&end.orbit.pendulum);
     w->state.x = end.orbit.x;
@@ -134,34 +134,34 @@ static pendres_status end_stretch(pendres_path *w, size_t step, double limit)
     if (status == PENDRES_OK) status = same_state(w, &old, &goes_on);
   }
   if (status == PENDRES_OK && !goes_on) status = pendres_path_note(w, &j);
-  if (goes_on) pendres_stretch_free(&w->stretch);
+  if (goes_on) pendres_part_free(&w->part);
   else pendres_path_leave(w);
-  w->stretch = next;
+  w->part = next;
   return status;
 }
 
-/* Whether a value is the fold's at which the stretch ends, where the orbit cannot be told from the
+/* Whether a value is the fold's at which the part ends, where the orbit cannot be told from the
    one that it meets. */
-static int at_fold(const pendres_stretch *s, double value)
+static int at_fold(const pendres_part *s, double value)
 {
-  return s->end == PENDRES_STRETCH_BIFURCATION && s->bifurcation.kind == PENDRES_FOLD &&
+  return s->end == PENDRES_PART_BIFURCATION && s->bifurcation.kind == PENDRES_FOLD &&
          fabs(value - s->end_value) <= s->end_error;
 }
 
-/* Put the values from number i on that the stretch holds into the results; returns the number after
+/* Put the values from number i on that the part holds into the results; returns the number after
    the last of them. */
 static size_t held(const pendres_path *w, size_t i)
 {
-  const int direction = w->stretch.direction;
+  const int direction = w->part.direction;
   double last = w->at;
-  for (; i < w->n && pendres_stretch_holds(&w->stretch, w->value[i]); i++) {
-    if ((w->value[i] - last) * direction < 0.0 || at_fold(&w->stretch, w->value[i])) break;
+  for (; i < w->n && pendres_part_holds(&w->part, w->value[i]); i++) {
+    if ((w->value[i] - last) * direction < 0.0 || at_fold(&w->part, w->value[i])) break;
     last = w->value[i];
   }
   return i;
 }
 
-static pendres_status put_stretch(pendres_path *w, size_t first, size_t last)
+static pendres_status put_part(pendres_path *w, size_t first, size_t last)
 {
   const size_t n = last - first;
   pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
@@ -173,7 +173,7 @@ static pendres_status put_stretch(pendres_path *w, size_t first, size_t last)
   if (orbit == NULL || found == NULL)
     (void)pendres_context_fail(w->ctx, status, "out of memory for %zu orbits", n);
   else
-    status = pendres_stretch_orbits(w->ctx, &w->stretch, n, w->value + first, orbit, found);
+    status = pendres_part_orbits(w->ctx, &w->part, n, w->value + first, orbit, found);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum p = pendres_path_pendulum(w, w->value[first + i]);
     const pendres_attractor a =
@@ -213,26 +213,26 @@ pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
     const double limit = turning_point(w, *i);
     const int direction = w->value[*i] >= w->at ? 1 : -1;
     pendres_status status = PENDRES_OK;
-    if (w->stretch.branch != NULL && w->stretch.direction != direction)
-      pendres_stretch_free(&w->stretch);
-    if (w->stretch.branch == NULL)
-      status = pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, limit,
-                                    &w->stretch);
+    if (w->part.branch != NULL && w->part.direction != direction)
+      pendres_part_free(&w->part);
+    if (w->part.branch == NULL)
+      status = pendres_part_from(w->ctx, &w->state.attractor.orbit, w->parameter, limit,
+                                    &w->part);
     if (status != PENDRES_OK) return status;
     size_t last = held(w, *i);
     if (last > *i) {
-      status = put_stretch(w, *i, last);
-      if (pendres_path_own(status) && last > *i + 1) status = put_stretch(w, *i, last = *i + 1);
+      status = put_part(w, *i, last);
+      if (pendres_path_own(status) && last > *i + 1) status = put_part(w, *i, last = *i + 1);
       *i = last;
     } else if (direction != pendres_path_direction(w, *i)) {
       return PENDRES_OK;
-    } else if (w->stretch.end == PENDRES_STRETCH_STOPPED) {
+    } else if (w->part.end == PENDRES_PART_STOPPED) {
       /* Where the computation leads no further the pendulum settles at the next value. */
-      status = pendres_stretch_extend(w->ctx, &w->stretch, limit);
-      if (status != PENDRES_OK) pendres_stretch_free(&w->stretch);
+      status = pendres_part_extend(w->ctx, &w->part, limit);
+      if (status != PENDRES_OK) pendres_part_free(&w->part);
       if (status != PENDRES_OK) return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
     } else {
-      status = end_stretch(w, *i, limit);
+      status = end_part(w, *i, limit);
     }
     if (status != PENDRES_OK || !pendres_path_short(&w->state.attractor)) return status;
   }

@@ -27,7 +27,7 @@ void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
   p->x = closed ? a->orbit.x : w->state.x;
   p->v = closed ? a->orbit.v : w->state.v;
   p->certain = w->certain && a->label != PENDRES_LABEL_UNRESOLVED;
-  w->h->stretch[i] = w->h->stretches;
+  w->h->part[i] = w->h->parts;
   if (closed) {
     const double turns = (double)a->orbit.winding / a->orbit.period;
     p->mean_velocity = omega * turns;
@@ -48,8 +48,8 @@ pendres_hysteresis_point pendres_path_nothing(const pendres_path *w, double valu
 
 void pendres_path_leave(pendres_path *w)
 {
-  pendres_stretch_free(&w->stretch);
-  w->h->stretches++;
+  pendres_part_free(&w->part);
+  w->h->parts++;
 }
 
 pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j)
@@ -65,7 +65,7 @@ pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j)
   }
   h->jump[h->jumps] = *j;
   h->jump[h->jumps].share_error = sqrt(j->share * (1.0 - j->share) / PENDRES_HYSTERESIS_TRIALS);
-  h->jump_from[h->jumps] = h->stretches;
-  h->jump_to[h->jumps++] = h->stretches + 1;
+  h->jump_from[h->jumps] = h->parts;
+  h->jump_to[h->jumps++] = h->parts + 1;
   return PENDRES_OK;
 }

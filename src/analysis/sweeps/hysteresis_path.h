@@ -9,7 +9,7 @@
 #include "analysis/sweeps/hysteresis_jump.h"
 #include "analysis/sweeps/hysteresis_names.h"
 #include "analysis/sweeps/rotation_table.h"
-#include "analysis/sweeps/stretch.h"
+#include "analysis/sweeps/stable_part.h"
 
 /* A rotation without a lock to the drive that was met on the way. */
 typedef struct pendres_unlocked pendres_unlocked;
@@ -28,7 +28,7 @@ typedef struct pendres_path {
   pendres_hysteresis *h;
   double at;               /* the present value of the parameter */
   pendres_settled state;   /* what the pendulum is on there */
-  pendres_stretch stretch; /* that it is followed along; none: not yet, or no closed orbit */
+  pendres_part part; /* that it is followed along; none: not yet, or no closed orbit */
   size_t tried;            /* number of the value to which a way out of chaos was last tried, ... */
   int tries;               /* ... and how often */
   pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
@@ -48,7 +48,7 @@ void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a);
 /* A point without results but for the parameter's value. */
 pendres_hysteresis_point pendres_path_nothing(const pendres_path *w, double value);
 
-/* End the stretch, or whatever the pendulum was on. */
+/* End the part, or whatever the pendulum was on. */
 void pendres_path_leave(pendres_path *w);
 
 /* Add a jump to the results. */

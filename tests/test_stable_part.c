@@ -1,6 +1,6 @@
 /*
- * test_stretch.c -- a computation that ends is no state that ends: sweeps over wide ranges, along
- * curves of thousands of points, have the jumps of their states alone.
+ * test_stable_part.c -- a computation that ends is no state that ends: sweeps over wide ranges,
+ * along curves of thousands of points, have the jumps of their states alone.
  *
  * What is true is exact (the linear oscillator; a pendulum at rest), or the reference's orbit at
  * the place of a bifurcation, integrated in extended precision by another code.
