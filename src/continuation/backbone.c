@@ -335,18 +335,14 @@ pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
                                      const pendres_pendulum *pendulums, pendres_orbit *out,
                                      double *frequency_error, pendres_status *outcome)
 {
-  pendres_door d;
-  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
   while (pendres_door_next(&d)) {
-    const size_t i = d.first, m = d.count;
-    const pendres_pendulum *p =
-      pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(pendulums, i));
+    const pendres_pendulum *p = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
     const results inside = {
-      .orbit = pendres_door_out(&d, &pendres_dim_orbit, m, PENDRES_DOOR_AT(out, i)),
-      .error =
-        pendres_door_out(&d, &pendres_dim_frequency, m, PENDRES_DOOR_AT(frequency_error, i)),
-      .outcome = PENDRES_DOOR_AT(outcome, i)};
-    PENDRES_DOOR_CALL(&d, backbone_find(ctx, m, p, &inside));
+      .orbit = pendres_door_out_run(&d, &pendres_dim_orbit, out),
+      .error = pendres_door_out_run(&d, &pendres_dim_frequency, frequency_error),
+      .outcome = PENDRES_DOOR_AT(outcome, d.first)};
+    PENDRES_DOOR_CALL(&d, backbone_find(ctx, d.count, p, &inside));
   }
   return pendres_door_close(&d);
 }

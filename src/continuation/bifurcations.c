@@ -172,8 +172,7 @@ static pendres_status curve_follow(pendres_context *ctx, const pendres_bifurcati
 pendres_status pendres_curve_follow(pendres_context *ctx, const pendres_bifurcation *start,
                                     const pendres_curve_options *options, pendres_curve **out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, start != NULL ? &start->orbit.pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, start != NULL ? &start->orbit.pendulum : NULL);
   const pendres_bifurcation *from = pendres_bifurcations_inside(&d, 1, start);
   const pendres_curve_options *o = pendres_curve_options_inside(&d, 1, start, options);
   PENDRES_DOOR_CALL(&d, curve_follow(ctx, from, o, out));

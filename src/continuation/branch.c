@@ -318,11 +318,10 @@ pendres_status pendres_branch_extend(pendres_context *ctx, pendres_branch *branc
 pendres_status pendres_branch_follow(pendres_context *ctx, const pendres_orbit *start,
                                      const pendres_branch_options *options, pendres_branch **out)
 {
-  pendres_door d;
-  pendres_branch_open(&d, ctx, start != NULL ? &start->pendulum : NULL, options);
-  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, start);
-  const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
-  PENDRES_DOOR_CALL(&d, branch_follow(ctx, from, o, out));
+  pendres_door d = pendres_branch_open(ctx, start != NULL ? &start->pendulum : NULL, options);
+  PENDRES_DOOR_IN(&d, orbit, 1, start);
+  PENDRES_DOOR_IN(&d, branch_options, 1, options);
+  PENDRES_DOOR_CALL(&d, branch_follow(ctx, start, options, out));
   if (d.status == PENDRES_OK) pendres_curve_leave(&d, &(*out)->curve);
   return pendres_door_close(&d);
 }

@@ -84,9 +84,8 @@ pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *
 {
   pendres_door d;
   const pendres_curve *inside = pendres_curve_open(&d, ctx, b != NULL ? &b->curve : NULL);
-  pendres_orbit *orbit = pendres_door_out(&d, &pendres_dim_orbit, room, out);
-  PENDRES_DOOR_CALL(&d, branch_cross(ctx, inside, value / d.scales.first, room, orbit, found));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, orbit, room, out);
+  return PENDRES_DOOR_END(&d, branch_cross(ctx, inside, value / d.scales.first, room, out, found));
 }
 
 /*
@@ -264,7 +263,6 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c,
 {
   pendres_door d;
   const pendres_curve *inside = pendres_curve_open(&d, ctx, c);
-  pendres_bifurcation *b = pendres_door_out(&d, &pendres_dim_bifurcation, room, out);
-  PENDRES_DOOR_CALL(&d, curve_cross(ctx, inside, value / d.scales.second, room, b, found));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, bifurcation, room, out);
+  return PENDRES_DOOR_END(&d, curve_cross(ctx, inside, value / d.scales.second, room, out, found));
 }

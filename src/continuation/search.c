@@ -136,13 +136,11 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
 pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near,
                                  pendres_parameter parameter, pendres_fold *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, near != NULL ? &near->pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, near != NULL ? &near->pendulum : NULL);
   pendres_door_move(&d, parameter, parameter);
-  const pendres_orbit *o = pendres_door_in(&d, &pendres_dim_orbit, 1, near);
-  pendres_fold *fold = pendres_door_out(&d, &pendres_dim_bifurcation, 1, out);
-  PENDRES_DOOR_CALL(&d, fold_find(ctx, o, parameter, fold));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_IN(&d, orbit, 1, near);
+  PENDRES_DOOR_OUT(&d, bifurcation, 1, out);
+  return PENDRES_DOOR_END(&d, fold_find(ctx, near, parameter, out));
 }
 
 /* ---- the cusp next to a fold ---- */
@@ -193,11 +191,9 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
 pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
                                  pendres_parameter second, pendres_cusp *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, near != NULL ? &near->orbit.pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, near != NULL ? &near->orbit.pendulum : NULL);
   const pendres_fold *inside = pendres_bifurcations_inside(&d, 1, near);
   if (near != NULL) pendres_door_move(&d, near->parameter, second);
-  pendres_cusp *cusp = pendres_door_out(&d, &pendres_dim_cusp, 1, out);
-  PENDRES_DOOR_CALL(&d, cusp_find(ctx, inside, second, cusp));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, cusp, 1, out);
+  return PENDRES_DOOR_END(&d, cusp_find(ctx, inside, second, out));
 }

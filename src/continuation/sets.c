@@ -191,11 +191,11 @@ static pendres_status branches_find(pendres_context *ctx, size_t n, const pendre
 pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                      const pendres_branch_options *options, pendres_branches **out)
 {
-  pendres_door d;
-  pendres_branch_open(&d, ctx, n > 0 && orbits != NULL ? &orbits[0].pendulum : NULL, options);
-  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, n, orbits);
-  const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
-  PENDRES_DOOR_CALL(&d, branches_find(ctx, n, from, o, out));
+  pendres_door d = pendres_branch_open(ctx, n > 0 && orbits != NULL ? &orbits[0].pendulum : NULL,
+                                       options);
+  PENDRES_DOOR_IN(&d, orbit, n, orbits);
+  PENDRES_DOOR_IN(&d, branch_options, 1, options);
+  PENDRES_DOOR_CALL(&d, branches_find(ctx, n, orbits, options, out));
   if (d.status == PENDRES_OK) pendres_curves_leave(&d, pendres_branches_set(*out));
   return pendres_door_close(&d);
 }
@@ -241,13 +241,12 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        const pendres_branch_options *options,
                                        pendres_branches *branches)
 {
-  pendres_door d;
-  pendres_branch_open(
-    &d, ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL, options);
+  pendres_door d = pendres_branch_open(
+    ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL, options);
   const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
-  const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
+  PENDRES_DOOR_IN(&d, branch_options, 1, options);
   pendres_curves_enter(&d, pendres_branches_set(branches));
-  PENDRES_DOOR_CALL(&d, branches_extend(ctx, n, from, o, branches));
+  PENDRES_DOOR_CALL(&d, branches_extend(ctx, n, from, options, branches));
   pendres_curves_leave(&d, pendres_branches_set(branches));
   return pendres_door_close(&d);
 }
@@ -329,9 +328,8 @@ pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
                                      const pendres_bifurcation *bifurcations,
                                      const pendres_curve_options *options, pendres_curves *curves)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx,
-                    n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL);
+  pendres_door d = pendres_door_open(
+    ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL);
   const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
   const pendres_curve_options *o = pendres_curve_options_inside(&d, n, bifurcations, options);
   pendres_curves_enter(&d, curves);

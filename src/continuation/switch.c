@@ -127,10 +127,8 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
 pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
                                      pendres_orbit *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, at != NULL ? &at->orbit.pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, at != NULL ? &at->orbit.pendulum : NULL);
   const pendres_bifurcation *inside = pendres_bifurcations_inside(&d, 1, at);
-  pendres_orbit *orbit = pendres_door_out(&d, &pendres_dim_orbit, 1, out);
-  PENDRES_DOOR_CALL(&d, branch_switch(ctx, inside, orbit));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, orbit, 1, out);
+  return PENDRES_DOOR_END(&d, branch_switch(ctx, inside, out));
 }

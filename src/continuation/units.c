@@ -60,15 +60,12 @@ static void convert_curve(const pendres_door *d, convert *way, pendres_curve *c)
 
 /* ---- copies ---- */
 
-void pendres_branch_open(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
-                         const pendres_branch_options *options)
+pendres_door pendres_branch_open(pendres_context *ctx, const pendres_pendulum *p,
+                                 const pendres_branch_options *options)
 {
-  if (options == NULL || p == NULL) {
-    pendres_door_open(d, ctx, p);
-    return;
-  }
+  if (options == NULL || p == NULL) return pendres_door_open(ctx, p);
   const double ends[2] = {options->low, options->high};
-  pendres_door_open_along(d, ctx, p, options->parameter, 2, ends);
+  return pendres_door_open_along(ctx, p, options->parameter, 2, ends);
 }
 
 const pendres_bifurcation *pendres_bifurcations_inside(pendres_door *d, size_t n,
@@ -108,7 +105,7 @@ const pendres_curve *pendres_curve_open(pendres_door *d, pendres_context *ctx,
   const int branch = c != NULL && pendres_curve_is_branch(c);
   const pendres_orbit *first = NULL;
   if (c != NULL && c->count > 0) first = branch ? &c->branch_point->orbit : &c->point->orbit;
-  pendres_door_open(d, ctx, first != NULL ? &first->pendulum : NULL);
+  *d = pendres_door_open(ctx, first != NULL ? &first->pendulum : NULL);
   if (c != NULL)
     pendres_door_move(d, pendres_curve_parameter(c, 0), pendres_curve_parameter(c, !branch));
   return curve_inside(d, c);

@@ -17,8 +17,8 @@ const pendres_curve_options *pendres_curve_options_inside(pendres_door *d, size_
                                                           const pendres_curve_options *o);
 
 /* Open the door for branches of a pendulum; either may be NULL. */
-void pendres_branch_open(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
-                         const pendres_branch_options *options);
+pendres_door pendres_branch_open(pendres_context *ctx, const pendres_pendulum *p,
+                                 const pendres_branch_options *options);
 
 /* Open the door for a curve, whose parameters are moved; returns the curve in canonical units,
    until the door is closed. NULL: none. */

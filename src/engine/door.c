@@ -70,14 +70,16 @@ static void end(pendres_door *d)
   d->ctx->canonical = 0;
 }
 
-void pendres_door_open_in(pendres_door *d, pendres_context *ctx, pendres_units u)
+pendres_door pendres_door_open_in(pendres_context *ctx, pendres_units u)
 {
-  if (enter(d, ctx) == 0) begin(d, u);
+  pendres_door d;
+  if (enter(&d, ctx) == 0) begin(&d, u);
+  return d;
 }
 
-void pendres_door_open(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p)
+pendres_door pendres_door_open(pendres_context *ctx, const pendres_pendulum *p)
 {
-  pendres_door_open_in(d, ctx, pendres_units_of(p));
+  return pendres_door_open_in(ctx, pendres_units_of(p));
 }
 
 /* A pendulum with the value of a parameter that decides. */
@@ -96,21 +98,24 @@ static double largest_of(size_t n, const double *value)
   return largest;
 }
 
-void pendres_door_open_along(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
-                             pendres_parameter moved, size_t n, const double *value)
+pendres_door pendres_door_open_along(pendres_context *ctx, const pendres_pendulum *p,
+                                     pendres_parameter moved, size_t n, const double *value)
 {
   const pendres_pendulum q = moved_to(p, moved, largest_of(n, value));
-  pendres_door_open(d, ctx, &q);
-  pendres_door_move(d, moved, moved);
+  pendres_door d = pendres_door_open(ctx, &q);
+  pendres_door_move(&d, moved, moved);
+  return d;
 }
 
-void pendres_door_open_many(pendres_door *d, pendres_context *ctx, size_t n,
-                            const void *pendulums, size_t stride)
+pendres_door pendres_door_open_many(pendres_context *ctx, size_t n, const void *pendulums,
+                                    size_t stride)
 {
-  if (enter(d, ctx) != 0) return;
-  d->pendulums = pendulums;
-  d->n = n;
-  d->stride = stride;
+  pendres_door d;
+  if (enter(&d, ctx) != 0) return d;
+  d.pendulums = pendulums;
+  d.n = n;
+  d.stride = stride;
+  return d;
 }
 
 void pendres_door_range(pendres_door *d, pendres_parameter moved, double low, double high)
@@ -201,6 +206,27 @@ void *pendres_door_out(pendres_door *d, const pendres_dimensions *kind, size_t n
   d->out[d->outs].n = n;
   d->out[d->outs++].records = records;
   return records;
+}
+
+const void *pendres_door_in_run(pendres_door *d, const pendres_dimensions *kind,
+                                const void *records)
+{
+  const char *all = records;
+  return pendres_door_in(d, kind, d->count, PENDRES_DOOR_AT(all, d->first * kind->size));
+}
+
+void *pendres_door_out_run(pendres_door *d, const pendres_dimensions *kind, void *records)
+{
+  char *all = records;
+  return pendres_door_out(d, kind, d->count, PENDRES_DOOR_AT(all, d->first * kind->size));
+}
+
+void pendres_door_out_record(pendres_door *d, size_t n, const pendres_record *record)
+{
+  (void)pendres_door_out(d, &pendres_dim_length, n, record->x);
+  (void)pendres_door_out(d, &pendres_dim_speed, n, record->v);
+  (void)pendres_door_out(d, &pendres_dim_length, n, record->x_error);
+  (void)pendres_door_out(d, &pendres_dim_speed, n, record->v_error);
 }
 
 pendres_status pendres_door_close(pendres_door *d)

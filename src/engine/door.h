@@ -6,12 +6,20 @@
  * pendres_door_in(), its results are announced by pendres_door_out(), and closing the door converts
  * them back, whether the call succeeded or failed. Units are chosen at the outermost door: behind
  * it, one public function may call another, whose door then changes nothing. Where both units are
- * 1, nothing is copied or changed either.
+ * 1, nothing is copied or changed either. The body of a public function has a row for each argument
+ * that has a dimension: which record it is, how many there are, and its name:
+ *
+ *   pendres_door d = pendres_door_open(ctx, pendulum);
+ *   PENDRES_DOOR_IN(&d, pendulum, 1, pendulum);
+ *   PENDRES_DOOR_IN(&d, state, n, starts);
+ *   PENDRES_DOOR_OUT(&d, orbit, n, out);
+ *   return PENDRES_DOOR_END(&d, find_orbits(ctx, pendulum, n, starts, out));
  */
 #ifndef PENDRES_DOOR_H
 #define PENDRES_DOOR_H
 
 #include <pendres/parameter.h>
+#include <pendres/strobe.h>
 
 #include "engine/context_internal.h"
 #include "model/units.h"
@@ -43,23 +51,23 @@ typedef struct pendres_door {
 } pendres_door;
 
 /* For one pendulum; NULL: for what has no units. */
-void pendres_door_open(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p);
+pendres_door pendres_door_open(pendres_context *ctx, const pendres_pendulum *p);
 
 /* For what has these units, such as a handle that was made behind another door. */
-void pendres_door_open_in(pendres_door *d, pendres_context *ctx, pendres_units u);
+pendres_door pendres_door_open_in(pendres_context *ctx, pendres_units u);
 
 /* For a pendulum one of whose parameters takes n values: the one of the largest size decides, the
-   pendulum's own does not count. d->scales has its unit. */
-void pendres_door_open_along(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
-                             pendres_parameter moved, size_t n, const double *value);
+   pendulum's own does not count. The door's scales have its unit. */
+pendres_door pendres_door_open_along(pendres_context *ctx, const pendres_pendulum *p,
+                                     pendres_parameter moved, size_t n, const double *value);
 
 /*
  * For n pendulums, each the first field of a record, with records `stride` bytes apart; or NULL.
  * Then pendres_door_next() is to be called until it returns 0: it opens the door for one run of
  * consecutive pendulums with the same units after another, d->count from d->first on.
  */
-void pendres_door_open_many(pendres_door *d, pendres_context *ctx, size_t n,
-                            const void *pendulums, size_t stride);
+pendres_door pendres_door_open_many(pendres_context *ctx, size_t n, const void *pendulums,
+                                    size_t stride);
 int pendres_door_next(pendres_door *d);
 
 /* One of the parameters of all of them is varied in a range: as pendres_door_open_along(). To be
@@ -77,6 +85,20 @@ const void *pendres_door_in(pendres_door *d, const pendres_dimensions *kind, siz
 /* n records of the caller that the call reads or writes; returns them. */
 void *pendres_door_out(pendres_door *d, const pendres_dimensions *kind, size_t n, void *records);
 
+/* The same of those records of an array, of all pendulums, that belong to the present run. */
+const void *pendres_door_in_run(pendres_door *d, const pendres_dimensions *kind,
+                                const void *records);
+void *pendres_door_out_run(pendres_door *d, const pendres_dimensions *kind, void *records);
+
+/* The first n points of a record: positions, velocities and their errors. */
+void pendres_door_out_record(pendres_door *d, size_t n, const pendres_record *record);
+
+/* An argument goes through the door: its name then stands for the records behind it. */
+#define PENDRES_DOOR_IN(d, kind, n, argument) \
+  ((argument) = pendres_door_in(d, &pendres_dim_##kind, n, argument))
+#define PENDRES_DOOR_OUT(d, kind, n, argument) \
+  ((argument) = pendres_door_out(d, &pendres_dim_##kind, n, argument))
+
 /* Whether the call computes in units other than the caller's. */
 int pendres_door_changes(const pendres_door *d);
 
@@ -92,6 +114,9 @@ pendres_status pendres_door_close(pendres_door *d);
 /* The body of a public function behind its open door. */
 #define PENDRES_DOOR_CALL(d, call) \
   ((d)->status = (d)->status == PENDRES_OK ? (call) : (d)->status)
+
+/* The same, and the end of the call: its status. */
+#define PENDRES_DOOR_END(d, call) (PENDRES_DOOR_CALL(d, call), pendres_door_close(d))
 
 /* Entry i of an array that may be NULL. */
 #define PENDRES_DOOR_AT(array, i) ((array) != NULL ? (array) + (i) : NULL)

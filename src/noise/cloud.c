@@ -51,7 +51,7 @@ static const pendres_cloud_request *open_request(pendres_door *d, pendres_contex
                                                  const pendres_cloud_request *request,
                                                  pendres_cloud_request *inside)
 {
-  pendres_attractors_open(d, ctx, request != NULL ? request->set : NULL);
+  *d = pendres_attractors_open(ctx, request != NULL ? request->set : NULL);
   if (request == NULL || !pendres_door_changes(d)) return request;
   *inside = *request;
   inside->set = pendres_attractors_inside(d, request->set);
@@ -276,9 +276,8 @@ static pendres_status behind_door(pendres_context *ctx, const pendres_cloud_requ
   pendres_cloud_request inside;
   request = open_request(&d, ctx, request, &inside);
   announce(&d, request != NULL ? request->trajectories : 0, request, x, v);
-  cloud = pendres_door_out(&d, &pendres_dim_whole_cloud, 1, cloud);
-  PENDRES_DOOR_CALL(&d, body(ctx, request, cloud, x, v));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, whole_cloud, 1, cloud);
+  return PENDRES_DOOR_END(&d, body(ctx, request, cloud, x, v));
 }
 
 pendres_status pendres_cloud_prepare(pendres_context *ctx, const pendres_cloud_request *request,
@@ -329,9 +328,8 @@ pendres_status pendres_cloud_follow(pendres_context *ctx, const pendres_cloud_re
   pendres_cloud_request inside;
   request = open_request(&d, ctx, request, &inside);
   announce(&d, pendres_cloud_part(request, part, NULL), request, x, v);
-  out = pendres_door_out(&d, &pendres_dim_cloud, 1, out);
-  PENDRES_DOOR_CALL(&d, follow(ctx, request, part, out, x, v));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, cloud, 1, out);
+  return PENDRES_DOOR_END(&d, follow(ctx, request, part, out, x, v));
 }
 
 pendres_status pendres_cloud_conclude(const pendres_cloud_request *request, size_t parts,

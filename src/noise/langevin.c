@@ -185,20 +185,19 @@ static const uint64_t *count_up(pendres_door *d, size_t first, size_t n)
 pendres_status pendres_langevin_advance(pendres_context *ctx, const pendres_langevin_run *run,
                                         double *x, double *v)
 {
-  pendres_door d;
-  pendres_door_open_many(&d, ctx, run != NULL ? run->n : 0, run != NULL ? run->pendulums : NULL,
-                         sizeof *run->pendulums);
+  pendres_door d =
+    pendres_door_open_many(ctx, run != NULL ? run->n : 0, run != NULL ? run->pendulums : NULL,
+                           sizeof *run->pendulums);
   while (pendres_door_next(&d)) {
     const size_t i = d.first, m = d.count;
     pendres_langevin_run part = {.n = 0};
     pendres_noise_window window;
-    double *x_out = pendres_door_out(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(x, i));
-    double *v_out = pendres_door_out(&d, &pendres_dim_speed, m, PENDRES_DOOR_AT(v, i));
+    double *x_out = pendres_door_out_run(&d, &pendres_dim_length, x);
+    double *v_out = pendres_door_out_run(&d, &pendres_dim_speed, v);
     if (run != NULL) {
       part = *run;
       part.n = m;
-      part.pendulums =
-        pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(run->pendulums, i));
+      part.pendulums = pendres_door_in_run(&d, &pendres_dim_pendulum, run->pendulums);
       part.ids = i > 0 && run->ids == NULL ? count_up(&d, i, m) : PENDRES_DOOR_AT(run->ids, i);
       part.observer = pendres_noise_observer(&d, run->observer, &window);
     }

@@ -69,14 +69,12 @@ pendres_status pendres_langevin_measure_bias(pendres_context *ctx,
                                              const pendres_langevin_request *request,
                                              pendres_langevin_bias *bias)
 {
-  pendres_door d;
   pendres_noise_window window;
   pendres_langevin_request inside;
-  pendres_door_open(&d, ctx, request != NULL ? &request->pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, request != NULL ? &request->pendulum : NULL);
   request = pendres_noise_request(&d, request, &window, &inside);
-  bias = pendres_door_out(&d, &pendres_dim_bias, 1, bias);
-  PENDRES_DOOR_CALL(&d, bias_of(ctx, request, bias));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, bias, 1, bias);
+  return PENDRES_DOOR_END(&d, bias_of(ctx, request, bias));
 }
 
 /* Raise *most to a number in units of its scale. NaN is kept: an unknown bias may be large. */
@@ -145,12 +143,10 @@ pendres_status pendres_langevin_choose_steps(pendres_context *ctx,
                                              unsigned statistics, double tolerance,
                                              pendres_langevin_bias *bias)
 {
-  pendres_door d;
   pendres_noise_window window;
   pendres_langevin_request inside;
-  pendres_door_open(&d, ctx, request != NULL ? &request->pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, request != NULL ? &request->pendulum : NULL);
   request = pendres_noise_request(&d, request, &window, &inside);
-  bias = pendres_door_out(&d, &pendres_dim_bias, 1, bias);
-  PENDRES_DOOR_CALL(&d, choose_steps(ctx, request, statistics, tolerance, bias));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, bias, 1, bias);
+  return PENDRES_DOOR_END(&d, choose_steps(ctx, request, statistics, tolerance, bias));
 }

@@ -293,18 +293,16 @@ pendres_status pendres_langevin_cloud_find(pendres_context *ctx,
                                            pendres_langevin_cloud *cloud, double *strobe_x,
                                            double *strobe_v)
 {
-  pendres_door d;
   pendres_noise_window window;
   pendres_langevin_request inside;
-  pendres_door_open(&d, ctx, request != NULL ? &request->pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, request != NULL ? &request->pendulum : NULL);
   request = pendres_noise_request(&d, request, &window, &inside);
-  cloud = pendres_door_out(&d, &pendres_dim_cloud, 1, cloud);
+  PENDRES_DOOR_OUT(&d, cloud, 1, cloud);
   if (request != NULL && d.status == PENDRES_OK && pendres_door_changes(&d) &&
       pendres_sums_accept(ctx, request, 2) == PENDRES_OK) {
     const size_t n = request->trajectories * (size_t)request->record;
     (void)pendres_door_out(&d, &pendres_dim_length, n, strobe_x);
     (void)pendres_door_out(&d, &pendres_dim_speed, n, strobe_v);
   }
-  PENDRES_DOOR_CALL(&d, measure(ctx, request, cloud, strobe_x, strobe_v));
-  return pendres_door_close(&d);
+  return PENDRES_DOOR_END(&d, measure(ctx, request, cloud, strobe_x, strobe_v));
 }

@@ -255,18 +255,16 @@ pendres_status pendres_switching_count(pendres_context *ctx,
                                        const pendres_switching_request *request,
                                        pendres_switching_tally *tally)
 {
-  pendres_door d;
   pendres_switching_request inside;
-  pendres_attractors_open(&d, ctx, request != NULL ? request->set : NULL);
+  pendres_door d = pendres_attractors_open(ctx, request != NULL ? request->set : NULL);
   if (request != NULL && pendres_door_changes(&d)) {
     inside = *request;
     inside.set = pendres_attractors_inside(&d, request->set);
     pendres_units_in(&d.scales, &pendres_dim_pendulum, 1, &inside.pendulum);
     request = &inside;
   }
-  tally = pendres_door_out(&d, &pendres_dim_tally, 1, tally);
-  PENDRES_DOOR_CALL(&d, count(ctx, request, tally));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, tally, 1, tally);
+  return PENDRES_DOOR_END(&d, count(ctx, request, tally));
 }
 
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other)

@@ -56,7 +56,7 @@ static const pendres_switching_survey *open_survey(pendres_door *d, pendres_cont
                                                    const pendres_switching_survey *survey,
                                                    pendres_switching_survey *inside)
 {
-  pendres_attractors_open(d, ctx, survey != NULL ? survey->set : NULL);
+  *d = pendres_attractors_open(ctx, survey != NULL ? survey->set : NULL);
   if (survey == NULL || !pendres_door_changes(d)) return survey;
   *inside = *survey;
   inside->set = pendres_attractors_inside(d, survey->set);
@@ -99,8 +99,7 @@ pendres_status pendres_switching_choose_steps(pendres_context *ctx,
   pendres_door d;
   pendres_switching_survey inside;
   survey = open_survey(&d, ctx, survey, &inside);
-  PENDRES_DOOR_CALL(&d, choose_steps(ctx, survey, state, steps));
-  return pendres_door_close(&d);
+  return PENDRES_DOOR_END(&d, choose_steps(ctx, survey, state, steps));
 }
 
 /* Trajectories that start on a state. */
@@ -147,9 +146,8 @@ pendres_status pendres_switching_follow(pendres_context *ctx,
   pendres_switching_survey inside;
   survey = open_survey(&d, ctx, survey, &inside);
   const double warm = temperature / pendres_units_factor(&d.scales, 2, -2);
-  tally = pendres_door_out(&d, &pendres_dim_tally, 1, tally);
-  PENDRES_DOOR_CALL(&d, follow(ctx, survey, warm, part, tally));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, tally, 1, tally);
+  return PENDRES_DOOR_END(&d, follow(ctx, survey, warm, part, tally));
 }
 
 /* ---- Rates and energies -------------------------------------------------------------------- */

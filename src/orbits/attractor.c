@@ -96,10 +96,10 @@ static int index_sets(pendres_attractors *set)
   return 0;
 }
 
-void pendres_attractors_open(pendres_door *d, pendres_context *ctx, const pendres_attractors *set)
+pendres_door pendres_attractors_open(pendres_context *ctx, const pendres_attractors *set)
 {
   const pendres_units none = {1.0, 1.0};
-  pendres_door_open_in(d, ctx, set != NULL && set->sets == 1 ? set->units[0] : none);
+  return pendres_door_open_in(ctx, set != NULL && set->sets == 1 ? set->units[0] : none);
 }
 
 const pendres_attractors *pendres_attractors_inside(pendres_door *d, const pendres_attractors *set)
@@ -166,13 +166,11 @@ done:
 pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
                                        const double *x, const double *v, pendres_attractors **out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, p);
-  p = pendres_door_in(&d, &pendres_dim_pendulum, 1, p);
-  x = pendres_door_in(&d, &pendres_dim_length, n, x);
-  v = pendres_door_in(&d, &pendres_dim_speed, n, v);
-  PENDRES_DOOR_CALL(&d, attractors_find(&d, p, n, x, v, out));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_door_open(ctx, p);
+  PENDRES_DOOR_IN(&d, pendulum, 1, p);
+  PENDRES_DOOR_IN(&d, length, n, x);
+  PENDRES_DOOR_IN(&d, speed, n, v);
+  return PENDRES_DOOR_END(&d, attractors_find(&d, p, n, x, v, out));
 }
 
 static pendres_status attractors_settle(pendres_context *ctx, const pendres_attractors *set,
@@ -195,12 +193,10 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
                                          size_t n, const double *x, const double *v,
                                          pendres_outcome *outcome)
 {
-  pendres_door d;
-  pendres_attractors_open(&d, ctx, set);
-  x = pendres_door_in(&d, &pendres_dim_length, n, x);
-  v = pendres_door_in(&d, &pendres_dim_speed, n, v);
-  PENDRES_DOOR_CALL(&d, attractors_settle(ctx, set, n, x, v, outcome));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_attractors_open(ctx, set);
+  PENDRES_DOOR_IN(&d, length, n, x);
+  PENDRES_DOOR_IN(&d, speed, n, v);
+  return PENDRES_DOOR_END(&d, attractors_settle(ctx, set, n, x, v, outcome));
 }
 
 static pendres_status attractors_point(pendres_context *ctx, const pendres_attractors *set,
@@ -238,12 +234,10 @@ static pendres_status attractors_point(pendres_context *ctx, const pendres_attra
 pendres_status pendres_attractors_point_find(pendres_context *ctx, const pendres_attractors *set,
                                              size_t i, pendres_state *out)
 {
-  pendres_door d;
-  pendres_attractors_open(&d, ctx, set);
+  pendres_door d = pendres_attractors_open(ctx, set);
   const pendres_attractors *inside = pendres_attractors_inside(&d, set);
-  out = pendres_door_out(&d, &pendres_dim_state, 1, out);
-  PENDRES_DOOR_CALL(&d, attractors_point(ctx, inside, i, out));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, state, 1, out);
+  return PENDRES_DOOR_END(&d, attractors_point(ctx, inside, i, out));
 }
 
 double pendres_attractors_weakest_multiplier(const pendres_attractors *set)
@@ -344,17 +338,15 @@ pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pend
                               const double *x, const double *v, pendres_outcome *outcome,
                               pendres_attractors **found)
 {
-  pendres_door d;
   settling s = {.n = n, .pendulums = pendulums, .x = x, .v = v, .outcome = outcome};
   if (found != NULL) *found = NULL;
-  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
   PENDRES_DOOR_CALL(&d, settle_begin(ctx, &s));
   while (pendres_door_next(&d)) {
     s.n = d.count;
-    s.pendulums = pendres_door_in(&d, &pendres_dim_pendulum, d.count,
-                                  PENDRES_DOOR_AT(pendulums, d.first));
-    s.x = pendres_door_in(&d, &pendres_dim_length, d.count, PENDRES_DOOR_AT(x, d.first));
-    s.v = pendres_door_in(&d, &pendres_dim_speed, d.count, PENDRES_DOOR_AT(v, d.first));
+    s.pendulums = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
+    s.x = pendres_door_in_run(&d, &pendres_dim_length, x);
+    s.v = pendres_door_in_run(&d, &pendres_dim_speed, v);
     s.outcome = PENDRES_DOOR_AT(outcome, d.first);
     PENDRES_DOOR_CALL(&d, settle_stretch(&d, &s));
   }

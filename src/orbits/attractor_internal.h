@@ -19,7 +19,7 @@ struct pendres_attractors {
 };
 
 /* Open a door with the units of a set of one parameter set. */
-void pendres_attractors_open(pendres_door *d, pendres_context *ctx, const pendres_attractors *set);
+pendres_door pendres_attractors_open(pendres_context *ctx, const pendres_attractors *set);
 
 /* The same set behind its door: all of it in canonical units, until the door is closed. */
 const pendres_attractors *pendres_attractors_inside(pendres_door *d, const pendres_attractors *set);

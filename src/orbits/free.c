@@ -220,8 +220,6 @@ pendres_status pendres_free_find(pendres_context *ctx, size_t n,
                                  const double *amplitude, double *frequency,
                                  double *error)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, NULL);
-  PENDRES_DOOR_CALL(&d, free_frequency_integrate(ctx, n, amplitude, frequency, error));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_door_open(ctx, NULL);
+  return PENDRES_DOOR_END(&d, free_frequency_integrate(ctx, n, amplitude, frequency, error));
 }

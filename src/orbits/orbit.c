@@ -413,13 +413,10 @@ pendres_status pendres_orbit_find(pendres_context *ctx, size_t n,
                                   const pendres_orbit_guess *guess, pendres_orbit_want want,
                                   pendres_orbit *out, pendres_status *outcome)
 {
-  pendres_door d;
-  pendres_door_open_many(&d, ctx, n, guess, sizeof *guess);
+  pendres_door d = pendres_door_open_many(ctx, n, guess, sizeof *guess);
   while (pendres_door_next(&d)) {
-    const pendres_orbit_guess *in =
-      pendres_door_in(&d, &pendres_dim_guess, d.count, PENDRES_DOOR_AT(guess, d.first));
-    const outputs to = {.orbit = pendres_door_out(&d, &pendres_dim_orbit, d.count,
-                                                  PENDRES_DOOR_AT(out, d.first)),
+    const pendres_orbit_guess *in = pendres_door_in_run(&d, &pendres_dim_guess, guess);
+    const outputs to = {.orbit = pendres_door_out_run(&d, &pendres_dim_orbit, out),
                         .outcome = PENDRES_DOOR_AT(outcome, d.first)};
     PENDRES_DOOR_CALL(&d, orbit_refine(ctx, d.count, in, want, &to));
   }

@@ -206,19 +206,12 @@ pendres_status pendres_orbit_record(pendres_context *ctx, const pendres_orbit *o
                                     const pendres_orbit_stretch *stretch,
                                     const pendres_record *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, orbit != NULL ? &orbit->pendulum : NULL);
-  const pendres_orbit *o = pendres_door_in(&d, &pendres_dim_orbit, 1, orbit);
+  pendres_door d = pendres_door_open(ctx, orbit != NULL ? &orbit->pendulum : NULL);
+  PENDRES_DOOR_IN(&d, orbit, 1, orbit);
   if (orbit != NULL && stretch != NULL && out != NULL &&
-      refuses_samples(orbit, stretch->samples) == NULL && refuses(stretch) == NULL) {
-    const size_t points = (size_t)stretch->periods * (size_t)stretch->samples;
-    (void)pendres_door_out(&d, &pendres_dim_length, points, out->x);
-    (void)pendres_door_out(&d, &pendres_dim_speed, points, out->v);
-    (void)pendres_door_out(&d, &pendres_dim_length, points, out->x_error);
-    (void)pendres_door_out(&d, &pendres_dim_speed, points, out->v_error);
-  }
-  PENDRES_DOOR_CALL(&d, record(ctx, o, stretch, out));
-  return pendres_door_close(&d);
+      refuses_samples(orbit, stretch->samples) == NULL && refuses(stretch) == NULL)
+    pendres_door_out_record(&d, (size_t)stretch->periods * (size_t)stretch->samples, out);
+  return PENDRES_DOOR_END(&d, record(ctx, orbit, stretch, out));
 }
 
 pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
@@ -226,15 +219,13 @@ pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *o
 {
   const size_t points = orbit != NULL && refuses_samples(orbit, count) == NULL
                           ? (size_t)orbit->period * (size_t)count : 0;
-  pendres_door d;
-  pendres_door_open(&d, ctx, orbit != NULL ? &orbit->pendulum : NULL);
-  const pendres_orbit *o = pendres_door_in(&d, &pendres_dim_orbit, 1, orbit);
-  double *x_out = pendres_door_out(&d, &pendres_dim_length, points, x);
-  double *v_out = pendres_door_out(&d, &pendres_dim_speed, points, v);
+  pendres_door d = pendres_door_open(ctx, orbit != NULL ? &orbit->pendulum : NULL);
+  PENDRES_DOOR_IN(&d, orbit, 1, orbit);
+  PENDRES_DOOR_OUT(&d, length, points, x);
+  PENDRES_DOOR_OUT(&d, speed, points, v);
   if (error != NULL) {
     (void)pendres_door_out(&d, &pendres_dim_length, 1, &error[0]);
     (void)pendres_door_out(&d, &pendres_dim_speed, 1, &error[1]);
   }
-  PENDRES_DOOR_CALL(&d, sample(ctx, o, count, x_out, v_out, error));
-  return pendres_door_close(&d);
+  return PENDRES_DOOR_END(&d, sample(ctx, orbit, count, x, v, error));
 }

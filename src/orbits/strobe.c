@@ -278,16 +278,13 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
                                       const pendres_pendulum *pendulums, double *x, double *v,
                                       long periods, double *error)
 {
-  pendres_door d;
-  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
   while (pendres_door_next(&d)) {
-    const size_t i = d.first, m = d.count;
-    const pendres_pendulum *p =
-      pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(pendulums, i));
-    double *x_out = pendres_door_out(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(x, i));
-    double *v_out = pendres_door_out(&d, &pendres_dim_speed, m, PENDRES_DOOR_AT(v, i));
-    double *e_out = pendres_door_out(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(error, i));
-    PENDRES_DOOR_CALL(&d, strobe_advance(ctx, m, p, x_out, v_out, periods, e_out));
+    const pendres_pendulum *p = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
+    double *x_out = pendres_door_out_run(&d, &pendres_dim_length, x);
+    double *v_out = pendres_door_out_run(&d, &pendres_dim_speed, v);
+    double *e_out = pendres_door_out_run(&d, &pendres_dim_length, error);
+    PENDRES_DOOR_CALL(&d, strobe_advance(ctx, d.count, p, x_out, v_out, periods, e_out));
   }
   return pendres_door_close(&d);
 }

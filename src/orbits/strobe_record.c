@@ -184,23 +184,11 @@ pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendu
                                        const pendres_state *start, long periods, int samples,
                                        pendres_recording *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, pendulum);
-  const pendres_pendulum *p = pendres_door_in(&d, &pendres_dim_pendulum, 1, pendulum);
-  const pendres_state *s = pendres_door_in(&d, &pendres_dim_state, 1, start);
-  PENDRES_DOOR_CALL(&d, begin(ctx, p, s, periods, samples,
-                              pendres_door_out(&d, &pendres_dim_recording, 1, out)));
-  return pendres_door_close(&d);
-}
-
-/* Announce the first `points` points of a record. */
-static void announce(pendres_door *d, size_t points, const pendres_record *to)
-{
-  if (to == NULL) return;
-  (void)pendres_door_out(d, &pendres_dim_length, points, to->x);
-  (void)pendres_door_out(d, &pendres_dim_speed, points, to->v);
-  (void)pendres_door_out(d, &pendres_dim_length, points, to->x_error);
-  (void)pendres_door_out(d, &pendres_dim_speed, points, to->v_error);
+  pendres_door d = pendres_door_open(ctx, pendulum);
+  PENDRES_DOOR_IN(&d, pendulum, 1, pendulum);
+  PENDRES_DOOR_IN(&d, state, 1, start);
+  PENDRES_DOOR_OUT(&d, recording, 1, out);
+  return PENDRES_DOOR_END(&d, begin(ctx, pendulum, start, periods, samples, out));
 }
 
 static int too_many(const pendres_recording *r, long periods)
@@ -252,12 +240,10 @@ pendres_status pendres_recording_advance(pendres_context *ctx, pendres_recording
 {
   const int valid = recording != NULL && !too_many(recording, periods);
   const size_t points = valid ? (size_t)periods * (size_t)recording->samples + 1 : 0;
-  pendres_door d;
-  pendres_door_open(&d, ctx, recording != NULL ? &recording->pendulum : NULL);
-  pendres_recording *r = pendres_door_out(&d, &pendres_dim_recording, 1, recording);
-  announce(&d, points, out);
-  PENDRES_DOOR_CALL(&d, go_on(ctx, r, periods, out));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_door_open(ctx, recording != NULL ? &recording->pendulum : NULL);
+  PENDRES_DOOR_OUT(&d, recording, 1, recording);
+  if (out != NULL) pendres_door_out_record(&d, points, out);
+  return PENDRES_DOOR_END(&d, go_on(ctx, recording, periods, out));
 }
 
 static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum *pendulum,

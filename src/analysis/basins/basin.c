@@ -37,17 +37,6 @@ static pendres_status check_grid(pendres_context *ctx, const pendres_attractors 
   return PENDRES_OK;
 }
 
-/* A grid behind the door. */
-static const pendres_basin_grid *grid_inside(pendres_door *d, const pendres_basin_grid *grid)
-{
-  if (grid == NULL || !pendres_door_changes(d)) return grid;
-  pendres_basin_grid *inside = pendres_door_copy(d, grid, sizeof *grid);
-  if (inside == NULL) return NULL;
-  inside->x = pendres_door_in(d, &pendres_dim_length, grid->nx, grid->x);
-  inside->v = pendres_door_in(d, &pendres_dim_speed, grid->nv, grid->v);
-  return inside;
-}
-
 /* A state whose well is beyond those that 32 bits can number is as good as unresolved. */
 static void compact(const pendres_outcome *from, pendres_basin_state *to)
 {
@@ -158,11 +147,9 @@ pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attracto
                                     const pendres_basin_grid *grid, size_t n, const size_t *index,
                                     pendres_basin_state *state)
 {
-  pendres_door d;
-  pendres_attractors_open(&d, ctx, set);
-  const pendres_basin_grid *inside = grid_inside(&d, grid);
-  PENDRES_DOOR_CALL(&d, basin_states(ctx, set, inside, n, index, state));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_attractors_open(ctx, set);
+  const pendres_basin_grid *inside = pendres_basin_grid_inside(&d, grid);
+  return PENDRES_DOOR_END(&d, basin_states(ctx, set, inside, n, index, state));
 }
 
 /* Finish the states that have not settled soon if there are many of them; otherwise mark them. */
@@ -221,11 +208,9 @@ pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors
                                   const pendres_basin_grid *grid, size_t first, size_t rows,
                                   pendres_basin_state *state)
 {
-  pendres_door d;
-  pendres_attractors_open(&d, ctx, set);
-  const pendres_basin_grid *inside = grid_inside(&d, grid);
-  PENDRES_DOOR_CALL(&d, basin_rows(ctx, set, inside, first, rows, state));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_attractors_open(ctx, set);
+  const pendres_basin_grid *inside = pendres_basin_grid_inside(&d, grid);
+  return PENDRES_DOOR_END(&d, basin_rows(ctx, set, inside, first, rows, state));
 }
 
 static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set,
@@ -256,11 +241,9 @@ pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *se
                                     const pendres_basin_grid *grid, size_t n, const size_t *index,
                                     size_t *grown)
 {
-  pendres_door d;
-  pendres_attractors_open(&d, ctx, set);
-  const pendres_basin_grid *inside = grid_inside(&d, grid);
-  PENDRES_DOOR_CALL(&d, basin_extend(ctx, set, inside, n, index, grown));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_attractors_open(ctx, set);
+  const pendres_basin_grid *inside = pendres_basin_grid_inside(&d, grid);
+  return PENDRES_DOOR_END(&d, basin_extend(ctx, set, inside, n, index, grown));
 }
 
 /* List the numbers of the states that are marked as deferred, or of those that are not resolved. */

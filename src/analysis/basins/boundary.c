@@ -354,12 +354,10 @@ pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *
                                      const pendres_boundary_options *options,
                                      pendres_boundary **out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, saddle != NULL ? &saddle->pendulum : NULL);
-  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, saddle);
-  const pendres_boundary_options *o =
-    pendres_door_in(&d, &pendres_dim_boundary_options, 1, options);
-  PENDRES_DOOR_CALL(&d, boundary_find(ctx, from, o, out));
+  pendres_door d = pendres_door_open(ctx, saddle != NULL ? &saddle->pendulum : NULL);
+  PENDRES_DOOR_IN(&d, orbit, 1, saddle);
+  PENDRES_DOOR_IN(&d, boundary_options, 1, options);
+  PENDRES_DOOR_CALL(&d, boundary_find(ctx, saddle, options, out));
   if (d.status == PENDRES_OK) {
     pendres_boundary *b = *out;
     growing *g = (growing *)b;

@@ -76,10 +76,8 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
 pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
                                    pendres_orbit *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, attractor != NULL ? &attractor->pendulum : NULL);
-  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, attractor);
-  pendres_orbit *to = pendres_door_out(&d, &pendres_dim_orbit, 1, out);
-  PENDRES_DOOR_CALL(&d, saddle_find(ctx, from, to));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_door_open(ctx, attractor != NULL ? &attractor->pendulum : NULL);
+  PENDRES_DOOR_IN(&d, orbit, 1, attractor);
+  PENDRES_DOOR_OUT(&d, orbit, 1, out);
+  return PENDRES_DOOR_END(&d, saddle_find(ctx, attractor, out));
 }

@@ -222,9 +222,8 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
                                          const pendres_basin_sample *asked,
                                          pendres_basin_statistics *out)
 {
-  pendres_door d;
-  pendres_attractors_open(&d, ctx, set);
-  const pendres_basin_window *w = pendres_door_in(&d, &pendres_dim_window, 1, window);
+  pendres_door d = pendres_attractors_open(ctx, set);
+  PENDRES_DOOR_IN(&d, window, 1, window);
   pendres_basin_sample inside = {0}, *sample = asked != NULL ? &inside : NULL;
   if (asked != NULL) {
     inside = *asked;
@@ -232,9 +231,9 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
     const size_t scales = some ? (size_t)asked->scales : 0;
     inside.distance = pendres_door_in(&d, &pendres_dim_speed, scales, asked->distance);
   }
-  pendres_basin_statistics *s = pendres_door_out(&d, &pendres_dim_statistics, 1, out);
-  PENDRES_DOOR_CALL(&d, pendres_basin_uncertainty_within(ctx, most_slopes, set, w, sample, s));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, statistics, 1, out);
+  return PENDRES_DOOR_END(&d, pendres_basin_uncertainty_within(ctx, most_slopes, set, window,
+                                                               sample, out));
 }
 
 /* ---- in place of a grid's exponent ---- */
@@ -305,20 +304,24 @@ static pendres_status statistics_refine(pendres_context *ctx, const pendres_attr
   return PENDRES_OK;
 }
 
+const pendres_basin_grid *pendres_basin_grid_inside(pendres_door *d,
+                                                    const pendres_basin_grid *grid)
+{
+  if (grid == NULL || !pendres_door_changes(d)) return grid;
+  pendres_basin_grid *inside = pendres_door_copy(d, grid, sizeof *grid);
+  if (inside == NULL) return NULL;
+  inside->x = pendres_door_in(d, &pendres_dim_length, grid->nx, grid->x);
+  inside->v = pendres_door_in(d, &pendres_dim_speed, grid->nv, grid->v);
+  return inside;
+}
+
 pendres_status pendres_basin_statistics_refine(pendres_context *ctx, const pendres_attractors *set,
                                                const pendres_basin_grid *grid,
                                                pendres_basin_statistics *statistics,
                                                size_t *states)
 {
-  pendres_door d;
-  pendres_attractors_open(&d, ctx, set);
-  pendres_basin_grid inside = {0}, *g = grid != NULL ? &inside : NULL;
-  if (grid != NULL) {
-    inside = *grid;
-    inside.x = pendres_door_in(&d, &pendres_dim_length, grid->nx, grid->x);
-    inside.v = pendres_door_in(&d, &pendres_dim_speed, grid->nv, grid->v);
-  }
-  pendres_basin_statistics *s = pendres_door_out(&d, &pendres_dim_statistics, 1, statistics);
-  PENDRES_DOOR_CALL(&d, statistics_refine(ctx, set, g, s, states));
-  return pendres_door_close(&d);
+  pendres_door d = pendres_attractors_open(ctx, set);
+  grid = pendres_basin_grid_inside(&d, grid);
+  PENDRES_DOOR_OUT(&d, statistics, 1, statistics);
+  return PENDRES_DOOR_END(&d, statistics_refine(ctx, set, grid, statistics, states));
 }

@@ -6,6 +6,8 @@
 
 #include <pendres/basin.h>
 
+#include "engine/door.h"
+
 /*
  * pendres_basin_uncertainty() with a bound on its work: of n states the first are settled, as many
  * as take at most `most` evaluations of the equation (pendres_context_slopes), but a first part of
@@ -25,5 +27,9 @@ pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double mos
  * PENDRES_BASIN_UNCERTAIN.
  */
 double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid);
+
+/* A grid behind the door, as long as that is open. */
+const pendres_basin_grid *pendres_basin_grid_inside(pendres_door *d,
+                                                    const pendres_basin_grid *grid);
 
 #endif

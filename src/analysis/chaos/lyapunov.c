@@ -90,17 +90,13 @@ pendres_status pendres_lyapunov_find(pendres_context *ctx, size_t n,
                                      const double *v, const pendres_lyapunov_options *options,
                                      pendres_lyapunov *out)
 {
-  pendres_door d;
-  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
   while (pendres_door_next(&d)) {
-    const size_t i = d.first, m = d.count;
-    const pendres_pendulum *p =
-      pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(pendulums, i));
-    const double *x_in = pendres_door_in(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(x, i));
-    const double *v_in = pendres_door_in(&d, &pendres_dim_speed, m, PENDRES_DOOR_AT(v, i));
-    pendres_lyapunov *to =
-      pendres_door_out(&d, &pendres_dim_lyapunov, m, PENDRES_DOOR_AT(out, i));
-    PENDRES_DOOR_CALL(&d, lyapunov_find(ctx, m, p, x_in, v_in, options, to));
+    const pendres_pendulum *p = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
+    const double *x_in = pendres_door_in_run(&d, &pendres_dim_length, x);
+    const double *v_in = pendres_door_in_run(&d, &pendres_dim_speed, v);
+    pendres_lyapunov *to = pendres_door_out_run(&d, &pendres_dim_lyapunov, out);
+    PENDRES_DOOR_CALL(&d, lyapunov_find(ctx, d.count, p, x_in, v_in, options, to));
   }
   return pendres_door_close(&d);
 }

@@ -202,9 +202,9 @@ static pendres_status follow(pendres_door *door, const pendres_phase_diagram *d,
 pendres_status pendres_phase_follow_family(pendres_context *ctx, const pendres_phase_diagram *d,
                                            size_t family, pendres_phase_bytes *out)
 {
-  pendres_door door;
   pendres_phase_family f = {.curves = NULL};
-  pendres_door_open(&door, ctx, &d->bifurcation[d->family[family].first].orbit.pendulum);
+  const pendres_bifurcation *first = &d->bifurcation[d->family[family].first];
+  pendres_door door = pendres_door_open(ctx, &first->orbit.pendulum);
   PENDRES_DOOR_CALL(&door, follow(&door, d, family, &f));
   pendres_status status = pendres_door_close(&door);
   if (status == PENDRES_OK && pack(&f, out) != PENDRES_OK)

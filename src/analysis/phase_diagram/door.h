@@ -9,8 +9,8 @@
 #include "engine/door.h"
 
 /* Open the door to a line of n pendulums between these two; NULL: there are none. */
-void pendres_phase_open(pendres_door *d, pendres_context *ctx, const pendres_phase_options *o,
-                        size_t n, const pendres_pendulum *first, const pendres_pendulum *last);
+pendres_door pendres_phase_open(pendres_context *ctx, const pendres_phase_options *o, size_t n,
+                                const pendres_pendulum *first, const pendres_pendulum *last);
 
 /* Its options behind the door, in *inside; NULL for NULL. */
 const pendres_phase_options *pendres_phase_options_inside(const pendres_door *d,

@@ -313,13 +313,12 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
                                   pendres_branches **branches)
 {
   if (branches != NULL) *branches = NULL;
-  pendres_door d;
-  pendres_phase_open(&d, ctx, options, n, n > 0 ? pendulums : NULL,
-                     n > 0 && pendulums != NULL ? &pendulums[n - 1] : NULL);
-  pendulums = pendres_door_in(&d, &pendres_dim_pendulum, n, pendulums);
+  pendres_door d = pendres_phase_open(ctx, options, n, n > 0 ? pendulums : NULL,
+                                      n > 0 && pendulums != NULL ? &pendulums[n - 1] : NULL);
+  PENDRES_DOOR_IN(&d, pendulum, n, pendulums);
   pendres_phase_options inside;
   options = pendres_phase_options_inside(&d, options, &inside);
-  out = pendres_door_out(&d, &pendres_dim_phase_point, n, out);
+  PENDRES_DOOR_OUT(&d, phase_point, n, out);
   PENDRES_DOOR_CALL(&d, phase_line(ctx, n, pendulums, options, out, branches));
   if (branches != NULL) pendres_curves_leave(&d, pendres_branches_set(*branches));
   return pendres_door_close(&d);
@@ -472,13 +471,13 @@ pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
                                            pendres_phase_point *points,
                                            pendres_branches *branches)
 {
-  pendres_door d;
-  pendres_phase_open(&d, ctx, options, n, n > 0 && points != NULL ? &points[0].pendulum : NULL,
-                     n > 0 && points != NULL ? &points[n - 1].pendulum : NULL);
+  pendres_door d = pendres_phase_open(ctx, options, n,
+                                      n > 0 && points != NULL ? &points[0].pendulum : NULL,
+    n > 0 && points != NULL ? &points[n - 1].pendulum : NULL);
   pendres_phase_options inside;
   curves = pendres_curves_inside(&d, curves);
   options = pendres_phase_options_inside(&d, options, &inside);
-  points = pendres_door_out(&d, &pendres_dim_phase_point, n, points);
+  PENDRES_DOOR_OUT(&d, phase_point, n, points);
   if (d.status == PENDRES_OK) {
     pendres_curves_enter(&d, pendres_branches_set(branches));
     PENDRES_DOOR_CALL(&d, phase_line_complete(ctx, n, curves, options, points, branches));

@@ -104,15 +104,14 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
                                                const pendres_ensemble *ensemble,
                                                pendres_resonance *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, p);
+  pendres_door d = pendres_door_open(ctx, p);
   const double unit = pendres_units_factor(&d.scales, 0, -1);
   const double range[2] = {lowest / unit, highest / unit};
-  p = pendres_door_in(&d, &pendres_dim_pendulum, 1, p);
-  ensemble = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble);
-  out = pendres_door_out(&d, &pendres_dim_resonance, 1, out);
-  PENDRES_DOOR_CALL(&d, pendres_resonance_find_within(ctx, p, range, ensemble, most_work, out));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_IN(&d, pendulum, 1, p);
+  PENDRES_DOOR_IN(&d, ensemble, 1, ensemble);
+  PENDRES_DOOR_OUT(&d, resonance, 1, out);
+  return PENDRES_DOOR_END(&d, pendres_resonance_find_within(ctx, p, range, ensemble, most_work,
+                                                            out));
 }
 
 /* ---- side by side ---- */
@@ -239,12 +238,10 @@ pendres_status pendres_resonance_find_many(pendres_context *ctx, size_t n,
                                            pendres_resonance_search *searches,
                                            const pendres_ensemble *ensemble)
 {
-  pendres_door d;
-  pendres_door_open_many(&d, ctx, n, searches, sizeof *searches);
+  pendres_door d = pendres_door_open_many(ctx, n, searches, sizeof *searches);
   while (pendres_door_next(&d)) {
     const pendres_ensemble *e = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble);
-    pendres_resonance_search *s =
-      pendres_door_out(&d, &pendres_dim_search, d.count, PENDRES_DOOR_AT(searches, d.first));
+    pendres_resonance_search *s = pendres_door_out_run(&d, &pendres_dim_search, searches);
     PENDRES_DOOR_CALL(&d, pendres_resonance_find_together(ctx, d.count, s, e, most_work));
   }
   return pendres_door_close(&d);

@@ -364,14 +364,11 @@ pendres_status pendres_response_find(pendres_context *ctx, size_t n,
                                      const pendres_pendulum *pendulums,
                                      const pendres_ensemble *ensemble, pendres_response *out)
 {
-  pendres_door d;
-  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
   while (pendres_door_next(&d)) {
-    const pendres_pendulum *p =
-      pendres_door_in(&d, &pendres_dim_pendulum, d.count, PENDRES_DOOR_AT(pendulums, d.first));
+    const pendres_pendulum *p = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
     const pendres_ensemble *e = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble);
-    pendres_response *r =
-      pendres_door_out(&d, &pendres_dim_response, d.count, PENDRES_DOOR_AT(out, d.first));
+    pendres_response *r = pendres_door_out_run(&d, &pendres_dim_response, out);
     PENDRES_DOOR_CALL(&d, compute(ctx, d.count, p, e, r));
   }
   return pendres_door_close(&d);

@@ -194,11 +194,9 @@ pendres_status pendres_response_noise_find(pendres_context *ctx, const pendres_r
                                            double temperature, size_t trajectories, long periods,
                                            pendres_response_noise *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, still != NULL ? &still->pendulum : NULL);
-  const pendres_response *r = pendres_door_in(&d, &pendres_dim_response, 1, still);
+  pendres_door d = pendres_door_open(ctx, still != NULL ? &still->pendulum : NULL);
+  PENDRES_DOOR_IN(&d, response, 1, still);
   const double warm = temperature / pendres_units_factor(&d.scales, 2, -2);
-  pendres_response_noise *to = pendres_door_out(&d, &pendres_dim_response_noise, 1, out);
-  PENDRES_DOOR_CALL(&d, add_noise(ctx, r, warm, trajectories, periods, to));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, response_noise, 1, out);
+  return PENDRES_DOOR_END(&d, add_noise(ctx, still, warm, trajectories, periods, out));
 }

@@ -156,13 +156,11 @@ pendres_status pendres_resonance_turn_find(pendres_context *ctx, const pendres_p
                                            const pendres_ensemble *ensemble,
                                            pendres_resonance_turn *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, near);
+  pendres_door d = pendres_door_open(ctx, near);
   const double unit = pendres_units_factor(&d.scales, 0, -1);
   const request q = {.near = pendres_door_in(&d, &pendres_dim_pendulum, 1, near),
                      .lowest = lowest / unit, .highest = highest / unit,
                      .ensemble = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble)};
-  out = pendres_door_out(&d, &pendres_dim_turn, 1, out);
-  PENDRES_DOOR_CALL(&d, turn_find(ctx, &q, out));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_OUT(&d, turn, 1, out);
+  return PENDRES_DOOR_END(&d, turn_find(ctx, &q, out));
 }

@@ -118,11 +118,9 @@ pendres_status pendres_cascade_find(pendres_context *ctx, const pendres_orbit *o
                                     pendres_parameter parameter, double limit,
                                     pendres_cascade *out)
 {
-  pendres_door d;
-  pendres_door_open(&d, ctx, orbit != NULL ? &orbit->pendulum : NULL);
+  pendres_door d = pendres_door_open(ctx, orbit != NULL ? &orbit->pendulum : NULL);
   pendres_door_move(&d, parameter, parameter);
-  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, orbit);
-  out = pendres_door_out(&d, &pendres_dim_cascade, 1, out);
-  PENDRES_DOOR_CALL(&d, cascade_find(ctx, from, parameter, limit / d.scales.first, out));
-  return pendres_door_close(&d);
+  PENDRES_DOOR_IN(&d, orbit, 1, orbit);
+  PENDRES_DOOR_OUT(&d, cascade, 1, out);
+  return PENDRES_DOOR_END(&d, cascade_find(ctx, orbit, parameter, limit / d.scales.first, out));
 }

@@ -249,12 +249,11 @@ pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendu
                                        const pendres_hysteresis_path *along,
                                        pendres_hysteresis **out)
 {
-  pendres_door d;
   pendres_hysteresis_path inside = {.n = 0};
   if (along != NULL) inside = *along;
-  pendres_door_open_along(&d, ctx, p, inside.parameter, inside.n, inside.value);
-  p = pendres_door_in(&d, &pendres_dim_pendulum, 1, p);
-  start = pendres_door_in(&d, &pendres_dim_state, 1, start);
+  pendres_door d = pendres_door_open_along(ctx, p, inside.parameter, inside.n, inside.value);
+  PENDRES_DOOR_IN(&d, pendulum, 1, p);
+  PENDRES_DOOR_IN(&d, state, 1, start);
   inside.value = pendres_door_in(&d, &pendres_dim_first, inside.n, inside.value);
   PENDRES_DOOR_CALL(&d, checked(ctx, p, start, along != NULL ? &inside : NULL, out));
   if ((d.status == PENDRES_OK || d.status == PENDRES_INTERRUPTED) && *out != NULL) {

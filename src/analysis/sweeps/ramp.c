@@ -348,8 +348,8 @@ static const pendres_ramp *open_ramp(pendres_door *d, pendres_context *ctx,
 {
   *inside = (pendres_ramp){.corners = 0};
   if (ramp != NULL) *inside = *ramp;
-  pendres_door_open_along(d, ctx, &inside->pendulum, inside->parameter, inside->corners,
-                          inside->value);
+  *d = pendres_door_open_along(ctx, &inside->pendulum, inside->parameter, inside->corners,
+                               inside->value);
   if (ramp == NULL || d->status != PENDRES_OK || !pendres_door_changes(d)) return ramp;
   pendres_units_in(&d->scales, &pendres_dim_pendulum, 1, &inside->pendulum);
   inside->value = pendres_door_in(d, &pendres_dim_first, ramp->corners, ramp->value);
@@ -367,13 +367,10 @@ pendres_status pendres_ramp_find(pendres_context *ctx, const pendres_ramp *ramp,
   if (ramp != NULL) jump = pendres_door_out(&d, &pendres_dim_ramp_jump, ramp->jumps, jump);
   if (ramp != NULL && record != NULL && record->every > 0) {
     const size_t n = (size_t)(pendres_ramp_periods(ramp) / record->every) + 1;
-    (void)pendres_door_out(&d, &pendres_dim_length, n, record->x);
-    (void)pendres_door_out(&d, &pendres_dim_speed, n, record->v);
-    (void)pendres_door_out(&d, &pendres_dim_length, n, record->x_error);
-    (void)pendres_door_out(&d, &pendres_dim_speed, n, record->v_error);
+    pendres_door_out_record(&d, n, &(pendres_record){record->x, record->v, record->x_error,
+                                                     record->v_error});
   }
-  PENDRES_DOOR_CALL(&d, ramp_follow(ctx, ramp, record, jump));
-  return pendres_door_close(&d);
+  return PENDRES_DOOR_END(&d, ramp_follow(ctx, ramp, record, jump));
 }
 
 /* ---- with noise ---- */
@@ -402,8 +399,7 @@ pendres_status pendres_ramp_scatter(pendres_context *ctx, const pendres_ramp *ra
   pendres_ramp inside;
   ramp = open_ramp(&d, ctx, ramp, &inside);
   if (ramp != NULL) value = pendres_door_out(&d, &pendres_dim_first, ramp->jumps * n, value);
-  PENDRES_DOOR_CALL(&d, ramp_scatter(ctx, ramp, n, first_id, time, value));
-  return pendres_door_close(&d);
+  return PENDRES_DOOR_END(&d, ramp_scatter(ctx, ramp, n, first_id, time, value));
 }
 
 pendres_status pendres_ramp_summarize(size_t n, const double *value, pendres_ramp_summary *out)
