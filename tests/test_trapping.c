@@ -258,6 +258,64 @@ static void period_two(void **state)
   check_inside(ctx, &o, &t, 500, 10, 40, 1e-8);
 }
 
+/* A state of the region about an ellipse, evenly over its area: out of the largest square in which
+   it may lie, since no unit vector of the metric is longer than one. */
+static void state_of_region(const pendres_trapping_ellipse *t, uint64_t *z, double *y, double *w)
+{
+  do {
+    *y = t->y + t->reach * (2.0 * next_random(z) - 1.0);
+    *w = t->w + t->reach * (2.0 * next_random(z) - 1.0);
+  } while (!pendres_trapping_holds(t, *y, *w));
+}
+
+/*
+ * Around weakly damped orbits regions reach tens of times farther than ellipses whose linear map
+ * outweighs the nonlinearity. Their polynomial falls in every period, by the reference; and states
+ * settle on the orbit: after 16/gamma times two they are exp(-16) of their distance away.
+ */
+static void weak_damping(void **state)
+{
+  pendres_context *ctx = *state;
+  enum { N = 64, BY_REFERENCE = 12 };
+  static const struct {
+    pendres_pendulum p;
+    double x, v, least;
+  } cases[] = {
+    {{.damping = 2e-3, .drive_amplitude = 0.05, .drive_frequency = 0.8}, 1.71061, 0.0005, 0.5},
+    {{.damping = 2e-3, .drive_amplitude = 0.05, .drive_frequency = 0.8}, -0.298015, 0.0771961, 0.3},
+    {{.damping = 2e-4, .drive_amplitude = 0.02, .drive_frequency = 0.9}, 0.249115, 0.0132122, 0.2},
+    {{.damping = 2e-3, .drive_amplitude = 1e-3, .drive_frequency = 1.001,
+      .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.3, 1.0}}, 0.0, 0.0, 0.05}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const pendres_pendulum *p = &cases[k].p;
+    const double origin = p->force == PENDRES_FORCE_POLYNOMIAL ? 0.0 : 0.5 * pi;
+    const pendres_orbit o = orbit_near(ctx, p, cases[k].x, cases[k].v, 1, 0);
+    pendres_trapping_ellipse t;
+    check_ok(pendres_trapping_find(ctx, 1, &o, PENDRES_TRAPPING_FEW, &t));
+    assert_true(o.stable && t.radius > cases[k].least && t.reach > t.radius);
+    uint64_t z = 1;
+    pendres_pendulum same[N];
+    double x[N], v[N];
+    for (int i = 0; i < N; i++) {
+      double y, w;
+      state_of_region(&t, &z, &y, &w);
+      same[i] = *p;
+      x[i] = y + origin;
+      v[i] = w * p->drive_frequency;
+      if (i >= BY_REFERENCE) continue;
+      long double ry = y, rv = v[i];
+      const double before = pendres_trapping_polynomial(&t, y, w);
+      check_ok(pendres_reference_advance(p, &ry, &rv, NULL, 1));
+      assert_true(pendres_trapping_polynomial(&t, (double)ry, (double)rv / p->drive_frequency) <
+                  before);
+    }
+    const long periods = (long)(32.0 / p->damping * p->drive_frequency / (2.0 * pi));
+    check_ok(pendres_strobe_advance(ctx, N, same, x, v, periods, NULL));
+    for (int i = 0; i < N; i++)
+      check_near(hypot(remainder(x[i] - o.x, 2.0 * pi), v[i] - o.v), 0.0, 1e-5);
+  }
+}
+
 /* An ellipse across the upright position, where angles jump by a turn: wells are counted right. */
 static void across_the_top(void **state)
 {
@@ -409,6 +467,7 @@ int main(void)
     cmocka_unit_test(short_of_the_saddle),
     cmocka_unit_test_setup_teardown(unstable_orbits_have_none, setup, teardown),
     cmocka_unit_test_setup_teardown(period_two, setup, teardown),
+    cmocka_unit_test_setup_teardown(weak_damping, setup, teardown),
     cmocka_unit_test(across_the_top),
     cmocka_unit_test(tongues_between_points),
     cmocka_unit_test(departures_are_bounded),

@@ -118,8 +118,8 @@ typedef struct pendres_outcome {
   int attractor;         /**< index in the set, or PENDRES_ATTRACTOR_UNKNOWN, or
                               PENDRES_ATTRACTOR_ESCAPED */
   long well;             /**< well that it settled in; 0 for running and chaotic ones */
-  long settling_periods; /**< drive periods until it was inside the ellipse, or had escaped; -1:
-                              unresolved */
+  long settling_periods; /**< drive periods until it was inside the ellipse or, with weak
+                              damping, a larger region about it, or had escaped; -1: unresolved */
   int certain;           /**< 1: the error that it carried into the ellipse was small against the
                             ellipse, so that it could not have ended elsewhere; 0 also if
                             unresolved */

@@ -29,7 +29,7 @@ const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attr
 {
   for (size_t i = 0; i < c->ellipses; i++) {
     const pendres_trapping_ellipse *t = &c->ellipse[i];
-    if (pendres_trapping_norm2(t, lane->y, lane->w) <= t->radius * t->radius) return t;
+    if (pendres_trapping_holds(t, lane->y, lane->w)) return t;
   }
   return NULL;
 }

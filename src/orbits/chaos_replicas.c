@@ -31,9 +31,7 @@ pendres_replica pendres_replica_at(double y, double w)
 static int in_ellipse(const pendres_attractor_set *c, const pendres_replica *a)
 {
   for (size_t i = 0; i < c->ellipses; i++)
-    if (pendres_trapping_norm2(&c->ellipse[i], a->y, a->w) <=
-        c->ellipse[i].radius * c->ellipse[i].radius)
-      return 1;
+    if (pendres_trapping_holds(&c->ellipse[i], a->y, a->w)) return 1;
   return 0;
 }
 

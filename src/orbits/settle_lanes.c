@@ -126,7 +126,7 @@ static double error_ratio_in_ellipse(const pendres_trapping_ellipse *t,
   const pendres_flow_error *e = &lane->off;
   const double variance =
     t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
-  const double here = deviations * sqrt(variance) / (pendres_trapping_margin * t->radius);
+  const double here = deviations * sqrt(variance) / t->room;
   const double before = pendres_settle_error_ratio(lane->worst);
   if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not propagated */
   return isnan(before) || before > here ? before : here;

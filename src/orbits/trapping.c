@@ -8,6 +8,7 @@
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
+#include "orbits/trapping_level.h"
 #include "orbits/trapping_ring.h"
 
 enum {
@@ -302,12 +303,6 @@ static void judge(search *s, const pendres_trapping_point *points, const pendres
   }
 }
 
-/* The tolerance of rings: small against their margin, and one of few, so that blocks stay full. */
-static double ring_tolerance(double margin)
-{
-  return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
-}
-
 /* Room for the points of all rings of a pass, and for the lanes that they are integrated in. */
 typedef struct room {
   pendres_trapping_point *points;
@@ -335,7 +330,8 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
                              ? 0.0
                              : pendres_steps_speed(r->pendulum, t->y,
                                                    t->w * r->pendulum->drive_frequency);
-      status = pendres_steps_choose(ctx, r->pendulum, speed, ring_tolerance(r->margin), &r->steps);
+      status = pendres_steps_choose(ctx, r->pendulum, speed,
+                                    pendres_trapping_tolerance(r->margin), &r->steps);
     }
   if (status == PENDRES_OK) status = pendres_trapping_rings_run(ctx, count, rings, points,
                                                                 room->lanes);
@@ -381,10 +377,12 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
       judge(&s[i], room.points, &orbits[s[i].orbit], effort);
       ellipses[s[i].orbit].radius = (1.0 - pendres_trapping_margin) * s[i].proven;
+      ellipses[s[i].orbit].room = pendres_trapping_margin * ellipses[s[i].orbit].radius;
       if (s[i].stage != STAGE_DONE) s[again++] = s[i];
     }
     left = again;
   }
+  if (status == PENDRES_OK) status = pendres_trapping_levels_find(ctx, n, orbits, ellipses);
   goto done;
 no_memory:
   status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");

@@ -5,16 +5,27 @@
  * Metric: P - M' P M = I with M the derivative of the q-th iterate of the map at the point, so
  * that the linear map contracts in it. Close to a fold it is that of components along the unit
  * eigenvectors of M instead. Scaled so that the unit ellipse's longest semi-axis is 1.
+ *
+ * Around an orbit of weak damping a larger region is known as well, bounded by a level line of a
+ * polynomial (trapping_level.h); the ellipse lies inside it.
  */
 #ifndef PENDRES_TRAPPING_ELLIPSE_H
 #define PENDRES_TRAPPING_ELLIPSE_H
 
 #include "base/angles.h"
 
+/* Terms of the third to the sixth degree in two coordinates. */
+enum { PENDRES_TRAPPING_DEGREE = 6, PENDRES_TRAPPING_TERMS = 22 };
+
 typedef struct pendres_trapping_ellipse {
   double y, w;      /* centre: a Poincaré point of the orbit; y as in orbit.h, mean in well 0 */
   double metric[3]; /* P_yy, P_yw, P_ww */
   double radius;    /* 0: no ellipse was found */
+  double room;      /* for the error of what is inside, in the metric */
+  double reach;     /* distance in the metric within which the larger region lies; 0: none */
+  double unit;      /* of length, of the polynomial in the metric */
+  double level;     /* its value on the region's edge */
+  double term[PENDRES_TRAPPING_TERMS];
   int period;       /* of the orbit */
   int winding;
   double turn;      /* of the coordinate: model.h */
@@ -30,5 +41,16 @@ static inline double pendres_trapping_norm2(const pendres_trapping_ellipse *t, d
 /* The radius is less by this share than that of the largest ring that came home, which leaves room
    for the error of a pendulum that is inside. */
 static const double pendres_trapping_margin = 0.05;
+
+/* The polynomial of the larger region. */
+double pendres_trapping_polynomial(const pendres_trapping_ellipse *t, double y, double w);
+
+/* Whether a state is in the ellipse, or in the larger region about it. */
+static inline int pendres_trapping_holds(const pendres_trapping_ellipse *t, double y, double w)
+{
+  const double norm2 = pendres_trapping_norm2(t, y, w);
+  if (norm2 <= t->radius * t->radius) return 1;
+  return norm2 < t->reach * t->reach && pendres_trapping_polynomial(t, y, w) <= t->level;
+}
 
 #endif

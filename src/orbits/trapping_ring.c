@@ -16,6 +16,11 @@ static const double beside = 0.125;
 
 /* ---- running ---- */
 
+double pendres_trapping_tolerance(double margin)
+{
+  return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
+}
+
 /* A point of the ellipse, by the Cholesky factor of its metric. */
 static void start(pendres_trapping_point *q, pendres_trapping_ring *r, double angle,
                   pendres_strobe_lane *lane)

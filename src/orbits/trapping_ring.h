@@ -50,6 +50,9 @@ typedef struct pendres_trapping_point {
   double tw[PENDRES_TRAPPING_LOOKS + PENDRES_TRAPPING_AFTER + 1];
 } pendres_trapping_point;
 
+/* The tolerance of a period: small against a margin, and one of few, so that blocks stay full. */
+double pendres_trapping_tolerance(double margin);
+
 /* Run rings (all points lie in `points`, ring after ring; room for as many lanes). */
 pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
                                           pendres_trapping_ring **rings,
