@@ -12,6 +12,7 @@
 
 #include "context_fixture.h"
 #include "analysis/sweeps/hysteresis_path.h"
+#include "engine/context_internal.h"
 
 static int setup_exact(void **state)
 {
@@ -322,6 +323,29 @@ static void left_out(void **state)
   pendres_hysteresis_free(kept);
 }
 
+/* To find what there is beyond the end of SA at 0.8416 takes more than a value may take here. That
+   is tried once, not at each of the values beyond; back before the end SA goes on. */
+static void beyond_an_end(void **state)
+{
+  enum { VALUES = 6 };
+  static const double value[VALUES] = {0.83, 0.85, 0.86, 0.87, 0.845, 0.835};
+  static const double most = 2e6;
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
+  pendres_path w = {.ctx = ctx, .parameter = PENDRES_DRIVE_FREQUENCY, .n = VALUES, .all = value,
+                    .value = value, .most_slopes = most};
+  pendres_hysteresis *h = NULL;
+  (void)state;
+  w.pendulum = (pendres_pendulum){.damping = 0.12, .drive_amplitude = 0.2};
+  check_ok(pendres_path_run(&w, 1.57, 0.0, &h));
+  for (size_t i = 0; i < VALUES; i++)
+    assert_int_equal(pendres_hysteresis_get(h, i)->outcome,
+                     i == 0 || i + 1 == VALUES ? PENDRES_OK : PENDRES_UNRESOLVED);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 0);
+  assert_true(pendres_context_slopes(ctx) < 3.0 * most);
+  pendres_hysteresis_free(h);
+  pendres_context_free(ctx);
+}
+
 /* The way to a torque far away takes more than a value may take here: it is left out as well,
    whatever the size of blocks. 0.1 and 0.2 take a tenth of that. */
 static void not_worth_it(void **state)
@@ -363,6 +387,7 @@ int main(void)
     cmocka_unit_test(escaped),
     cmocka_unit_test_setup_teardown(left_out, setup_exact, teardown),
     cmocka_unit_test(not_worth_it),
+    cmocka_unit_test(beyond_an_end),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

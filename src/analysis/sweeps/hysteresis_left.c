@@ -52,6 +52,14 @@ void pendres_path_allow_all(pendres_path *w)
   w->ctx->most_slopes = INFINITY;
 }
 
+/* What was begun within the limit counts, not what was noticed to be beyond it. */
+void pendres_path_search_beyond(pendres_path *w, int direction, double end)
+{
+  if (pendres_context_slopes(w->ctx) > w->ctx->most_slopes) return;
+  w->beyond = direction;
+  w->end = end;
+}
+
 pendres_path_mark pendres_path_mark_here(const pendres_path *w)
 {
   return (pendres_path_mark){.path = *w, .jumps = w->h->jumps, .parts = w->h->parts};
@@ -91,8 +99,12 @@ int pendres_path_came(pendres_path *w, pendres_path_left *left, const pendres_pa
   const int spent = pendres_context_slopes(w->ctx) > w->ctx->most_slopes &&
                     (*status == PENDRES_OK || *status == PENDRES_INTERRUPTED);
   if (!spent && !pendres_path_own(*status)) return 1;
+  const int beyond = spent ? w->beyond : 0;
+  const double end = w->end;
   go_back(w, mark);
-  leave_out(w, left, i, spent ? PENDRES_UNRESOLVED : *status);
+  do
+    leave_out(w, left, i, spent ? PENDRES_UNRESOLVED : *status);
+  while (i < w->n && (left->value[i] - end) * beyond > 0.0);
   *status = PENDRES_OK;
   return 0;
 }

@@ -232,7 +232,9 @@ pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
       if (status != PENDRES_OK) pendres_part_free(&w->part);
       if (status != PENDRES_OK) return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
     } else {
+      pendres_path_search_beyond(w, direction, w->part.end_value);
       status = end_part(w, *i, limit);
+      pendres_path_search_beyond(w, 0, NAN);
     }
     if (status != PENDRES_OK || !pendres_path_short(&w->state.attractor)) return status;
   }

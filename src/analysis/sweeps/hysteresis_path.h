@@ -29,6 +29,9 @@ typedef struct pendres_path {
   double at;               /* the present value of the parameter */
   pendres_settled state;   /* what the pendulum is on there */
   pendres_part part; /* that it is followed along; none: not yet, or no closed orbit */
+  int beyond;              /* while it is searched for what there is beyond the end of a state: the
+                              direction in which that lies, else 0, ... */
+  double end;              /* ... and where the state ends */
   size_t tried;            /* number of the value to which a way out of chaos was last tried, ... */
   int tries;               /* ... and how often */
   pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
