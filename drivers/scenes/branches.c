@@ -11,7 +11,7 @@
 #include <pendres/free.h>
 #include <pendres/rotation.h>
 
-#include "scenes/curves.h"
+#include "scenes/lines.h"
 
 enum { BACKBONE = 101, FREE = 156, MOST_PARTS = 64 };
 

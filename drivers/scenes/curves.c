@@ -1,5 +1,5 @@
-/* curves.c -- folds, flips and cusps of a diagram; see curves.h. */
-#include "scenes/curves.h"
+/* curves.c -- folds, flips and cusps of a diagram; see lines.h. */
+#include "scenes/lines.h"
 
 #include <math.h>
 

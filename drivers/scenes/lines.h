@@ -59,6 +59,11 @@ pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point);
 /* Whether a parameter is one of the diagram's two. */
 int scene_lines_changes(const scene_lines *l, pendres_parameter parameter);
 
+/* curves.c: write the bifurcations of the diagram, dimensions `fold`, `flip` and `bifurcation` with
+   their arrays, and the cusp; and what the paper prints of these, where the deck has it. */
+void scene_curves_write(const scene_lines *l);
+void scene_curves_write_paper(const scene_lines *l);
+
 /* One line on what is computed, for --dry-run: axes and what is fixed. */
 void scene_lines_describe(const deck *d, FILE *out);
 

@@ -4,7 +4,7 @@
  * The paper's Fig. 8, and its loop area as a surface (section III D): pendres_phase_diagram, one
  * task a line.
  */
-#include "scenes/curves.h"
+#include "scenes/lines.h"
 
 static void describe(const deck *d, FILE *out)
 {

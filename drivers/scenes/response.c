@@ -5,7 +5,8 @@
  * Each task computes some points of a line, or its resonance. There may be one line for each drive
  * amplitude, torque or parametric amplitude instead, or for each pair of such a parameter and a
  * damping, which makes a volume; or lines may go along one of these, and then have no resonance.
- * With temperatures in the deck the results have one more dimension: see response_noise.c.
+ * With temperatures in the deck the results have one more dimension; there is a task for each of
+ * their points then (pendres_response_noise_find).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,9 +14,18 @@
 
 #include "scenes/check.h"
 #include "scenes/peak.h"
-#include "scenes/response_noise.h"
+#include "scenes/points.h"
 
 enum { CHUNK = 16 /* points a task */ };
+
+/* What is written of a point: see pendres_response. */
+typedef struct response_row {
+  double mean_loop_area, mean_loop_area_error, mean_loop_amplitude, mean_loop_amplitude_error;
+  double mean_amplitude, mean_amplitude_error, phase_lag, phase_lag_error;
+  double mean_power, mean_power_error, sa_fraction, sa_fraction_error;
+  double la_fraction, la_fraction_error;
+  size_t uncertain;
+} response_row;
 
 typedef struct grid {
   scene_run *run;
@@ -26,7 +36,7 @@ typedef struct grid {
   int axes;
   size_t values;           /* points of a line */
   scene_temporary kept;    /* [line][value] of pendres_response, until its line has names */
-  scene_temporary rows;    /* [line][value] of scene_response_row */
+  scene_temporary rows;    /* [line][value] of response_row */
   scene_points points;     /* [line][value] of pendres_response */
   scene_points peaks;      /* [line] of scene_peak; none where lines have no resonances */
 } grid;
@@ -150,10 +160,10 @@ static pendres_status find_peak(const scene_some *some)
 
 /* ---- names --------------------------------------------------------------------------------- */
 
-static scene_response_row row_of(const pendres_response *p)
+static response_row row_of(const pendres_response *p)
 {
 #define PAIR(field) .field = p->field, .field##_error = p->field##_error
-  return (scene_response_row){PAIR(mean_loop_area), PAIR(mean_loop_amplitude), PAIR(mean_amplitude),
+  return (response_row){PAIR(mean_loop_area), PAIR(mean_loop_amplitude), PAIR(mean_amplitude),
                               PAIR(phase_lag), PAIR(mean_power), PAIR(sa_fraction),
                               PAIR(la_fraction), .uncertain = p->uncertain};
 #undef PAIR
@@ -174,7 +184,7 @@ static pendres_status collect_names(const scene_points *p, size_t first, size_t 
   const grid *g = p->arg;
   const pendres_response *points = rows;
   for (size_t i = 0; i < n; i++) {
-    const scene_response_row row = row_of(&points[i]);
+    const response_row row = row_of(&points[i]);
     scene_temporary_put(g->run, &g->rows, first + i, 1, &row);
   }
   /* Noise begins from the whole of a point. */
@@ -183,27 +193,149 @@ static pendres_status collect_names(const scene_points *p, size_t first, size_t 
   return g->run->status;
 }
 
+/* ---- noise --------------------------------------------------------------------------------- */
+
+typedef struct noisy {
+  const grid *still;
+  size_t plane;        /* points at each temperature: those of the grid */
+  scene_points points; /* [temperature][line][value] of pendres_response_noise */
+} noisy;
+
+static pendres_status add_noise(const scene_some *some)
+{
+  const noisy *w = some->of->arg;
+  const deck *d = w->still->d;
+  const double temperature = d->axis[DECK_AXIS_TEMPERATURE].value[some->first / w->plane];
+  pendres_response still;
+  const pendres_status status =
+    scene_temporary_get(&w->still->kept, some->first % w->plane, 1, &still, some->message,
+                        SCENE_MESSAGE);
+  if (status != PENDRES_OK) return status;
+  return pendres_response_noise_find(some->ctx, &still, temperature,
+                                     (size_t)d->noise.trajectories, (long)d->noise.periods,
+                                     some->rows);
+}
+
+#define MEAN(label, field, words, unit)                                                       \
+  {.name = #label, .long_name = words, .units = unit,                                         \
+   .value = offsetof(pendres_response_noise, field.value),                                    \
+   .error = offsetof(pendres_response_noise, field.error)}
+#define BIAS(label, field, words, unit)                                                       \
+  {.name = "bias_" #label, .long_name = "bias by finite steps: " words, .units = unit,        \
+   .value = offsetof(pendres_response_noise, field.bias),                                     \
+   .error = offsetof(pendres_response_noise, field.bias_error)}
+
+static const scene_column of_noise[] = {
+  MEAN(mean_loop_area, loop_area, "mean loop area of the ensemble", "1"),
+  BIAS(loop_area, loop_area, "mean loop area of the ensemble", "1"),
+  MEAN(first_harmonic_amplitude, amplitude, "amplitude of the mean loop's first harmonic", "rad"),
+  BIAS(first_harmonic_amplitude, amplitude, "amplitude of the mean loop's first harmonic", "rad"),
+  MEAN(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  BIAS(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  MEAN(mean_power, mean_power, "mean power taken up from the drive", "1"),
+  BIAS(mean_power, mean_power, "mean power taken up from the drive", "1"),
+};
+
+static const scene_column steps = {
+  .name = "noise_steps_per_period", .long_name = "steps a drive period of the noisy integrator",
+  .type = SCENE_NUMBER, .value = offsetof(pendres_response_noise, steps_per_period)};
+
+/* The columns of results that exist only without noise. */
+#define STILL(field, words, unit)                                                             \
+  {.name = #field, .long_name = words, .units = unit, .comment = "at temperature 0 alone",    \
+   .value = offsetof(response_row, field),                                              \
+   .error = offsetof(response_row, field##_error)}
+static const scene_column of_still[] = {
+  STILL(mean_loop_amplitude, "amplitude of the ensemble-averaged loop", "rad"),
+  STILL(mean_amplitude, "mean of the members' amplitudes", "rad"),
+  STILL(sa_fraction, "share of the members on the small-amplitude state", "1"),
+  STILL(la_fraction, "share of the members on the large-amplitude state", "1"),
+};
+
+static void write_still(scene_run *run, const noisy *w, const scene_table *table)
+{
+  const double *temperature = w->still->d->axis[DECK_AXIS_TEMPERATURE].value;
+  response_row *rows = scene_array(run, table->n, sizeof *rows);
+  if (rows == NULL) return;
+  scene_temporary_read(run, &w->still->rows, 0, w->plane, rows);
+  for (size_t i = table->n; i-- > 0;) {
+    rows[i] = rows[i % w->plane];
+    if (temperature[i / w->plane] > 0.0) SCENE_BLANK(of_still, &rows[i]);
+  }
+  scene_table without = *table;
+  without.stride = sizeof *rows;
+  without.rows = rows;
+  SCENE_WRITE(run, &without, of_still);
+}
+
+static void write_noisy(scene_run *run, const noisy *w)
+{
+  const scene_table table = scene_points_table(&w->points, w->still->d);
+  scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
+  scene_points_write(run, &w->points);
+  write_still(run, w, &table);
+  scene_columns_write(run, &table, 1, &steps);
+  scene_points_write_failed(run, &w->points, "noise_failed",
+                            "why there is no whole result for the response with noise");
+}
+
+/* Along the temperatures, at the first damping and the middle of the drive axis. */
+static void print_noisy(scene_run *run, const noisy *w)
+{
+  FILE *out = run->table;
+  const size_t drives = w->still->d->axis[w->points.axis[2]].count, at = drives / 2;
+  const pendres_response_noise *points = w->points.rows;
+  pendres_response still;
+  scene_temporary_read(run, &w->still->kept, at, 1, &still);
+  if (!scene_prints(run)) return;
+  fprintf(out, "damping %g, drive period %g:\n", still.pendulum.damping,
+          2.0 * PENDRES_PI / still.pendulum.drive_frequency);
+  fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");
+  for (size_t i = at; i < w->points.n; i += w->plane) {
+    const pendres_response_noise *q = &points[i];
+    fprintf(out, "%-12g %-13.8f %-9.2g %-11.7f %-9.2g %-11.7f %.2g\n",
+            w->still->d->axis[DECK_AXIS_TEMPERATURE].value[i / w->plane], q->loop_area.value,
+            q->loop_area.error, q->phase_lag.value, q->phase_lag.error, q->amplitude.value,
+            q->amplitude.error);
+  }
+}
+
+/* The response at the deck's temperatures, with a dimension of them before those of the grid; at
+   temperature 0 it is what the grid holds. */
+static void write_noise(const grid *g)
+{
+  noisy w = {.still = g, .plane = g->points.n,
+             .points = {.size = sizeof(pendres_response_noise), .chunk = 1, .compute = add_noise,
+                        SCENE_COLUMNS(of_noise), .what = "response with noise", .arg = &w}};
+  deck_axis_id axis[DECK_AXES + 1] = {DECK_AXIS_TEMPERATURE};
+  for (int i = 0; i < g->axes; i++) axis[1 + i] = g->axis[i];
+  scene_points_over(&w.points, g->d, 1 + g->axes, axis);
+  SCENE_COMPUTE(g->run, &w.points, "points with noise", .last = 1);
+  write_noisy(g->run, &w);
+  print_noisy(g->run, &w);
+}
+
 /* ---- results ------------------------------------------------------------------------------- */
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(scene_response_row, mean_loop_area, "mean loop area of the ensemble", "1"),
-  SCENE_COLUMN(scene_response_row, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
+  SCENE_COLUMN(response_row, mean_loop_area, "mean loop area of the ensemble", "1"),
+  SCENE_COLUMN(response_row, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
                "rad"),
-  SCENE_COLUMN(scene_response_row, mean_amplitude, "mean of the members' amplitudes", "rad"),
-  SCENE_COLUMN(scene_response_row, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
-  SCENE_COLUMN(scene_response_row, mean_power, "mean power taken up from the drive", "1"),
-  SCENE_COLUMN(scene_response_row, sa_fraction, "share of the members on the small-amplitude state",
+  SCENE_COLUMN(response_row, mean_amplitude, "mean of the members' amplitudes", "rad"),
+  SCENE_COLUMN(response_row, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  SCENE_COLUMN(response_row, mean_power, "mean power taken up from the drive", "1"),
+  SCENE_COLUMN(response_row, sa_fraction, "share of the members on the small-amplitude state",
                "1"),
-  SCENE_COLUMN(scene_response_row, la_fraction, "share of the members on the large-amplitude state",
+  SCENE_COLUMN(response_row, la_fraction, "share of the members on the large-amplitude state",
                "1"),
 };
 
-static const scene_column uncertain = SCENE_UNCERTAIN(scene_response_row, uncertain);
+static const scene_column uncertain = SCENE_UNCERTAIN(response_row, uncertain);
 
 static void write_points(const grid *g, size_t count, const scene_column *some)
 {
   scene_table table = scene_points_table(&g->points, g->d);
-  table.stride = sizeof(scene_response_row);
+  table.stride = sizeof(response_row);
   table.temporary = &g->rows;
   scene_columns_write(g->run, &table, count, some);
 }
@@ -236,7 +368,7 @@ static void write_results(const grid *g)
   scene_printed values[SCENE_PRINTED_PERIODS];
   for (int i = 0; i < g->axes; i++) scene_dimension_short(run, g->axis[i]);
   if (g->d->axis[DECK_AXIS_TEMPERATURE].count > 0)
-    scene_response_write_noise(run, &(scene_response_grid){&g->points, &g->kept, &g->rows});
+    write_noise(g);
   else
     write_points(g, sizeof columns / sizeof *columns, columns);
   write_points(g, 1, &uncertain);
@@ -279,7 +411,7 @@ static void compute_all(scene_run *run, grid *g)
   scene_points names = {.n = g->points.n, .chunk = g->values, .size = sizeof(pendres_response),
                         .compute = name_states, .check = check, .collect = collect_names,
                         .unmarked = 1, .arg = g};
-  scene_temporary_create(run, g->points.n, sizeof(scene_response_row), SCENE_TEMPORARY_MEMORY,
+  scene_temporary_create(run, g->points.n, sizeof(response_row), SCENE_TEMPORARY_MEMORY,
                          &g->rows);
   scene_points_compute(run, &(farm_stage){.what = "chunks"}, g->peaks.n > 0 ? 2 : 1,
                        (scene_points *[]){&g->points, &g->peaks});
