@@ -115,17 +115,16 @@ static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
 /* The attractor that a path starts on, at its first value at which something settles: the path
    leaves out those before, but where it comes to them soon. */
 static pendres_status find_start(const deck *d, const scene_along_way *way, pendres_context *ctx,
-                                 pendres_attractor *start, farm_record *out)
+                                 char *message, pendres_attractor *start)
 {
   pendres_pendulum p = deck_pendulum(d);
   pendres_status status = PENDRES_NOT_FOUND;
   for (size_t i = 0; i < way->n; i++) {
     char why[SCENE_TOLD];
-    request r = {
-      .start = d->orbit.start, .why = out->message, .size = sizeof out->message};
+    request r = {.start = d->orbit.start, .why = message, .size = SCENE_MESSAGE};
     pendres_parameter_set(deck_axis_parameter(way->axis), way->value[i], &p);
     if (scene_settling_too_long(d, &p, 1.0, why, sizeof why)) {
-      if (i == 0) snprintf(out->message, sizeof out->message, "%s", why);
+      if (i == 0) snprintf(message, SCENE_MESSAGE, "%s", why);
       continue;
     }
     status = named(ctx, &p, &r, start);
@@ -136,28 +135,32 @@ static pendres_status find_start(const deck *d, const scene_along_way *way, pend
   return status;
 }
 
+pendres_status scene_along_start(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                 char *message, pendres_state *out)
+{
+  pendres_attractor start;
+  *out = (pendres_state){d->orbit.x, d->orbit.v};
+  if (d->orbit.start[0] == '\0') return PENDRES_OK;
+  const pendres_status status = find_start(d, way, ctx, message, &start);
+  if (status == PENDRES_OK) *out = (pendres_state){start.orbit.x, start.orbit.v};
+  return status;
+}
+
 static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const sweep *s = arg;
   const deck *d = s->run->deck;
   const scene_along_way *way = s->way;
   const pendres_pendulum p = deck_pendulum(d);
-  double x = d->orbit.x, v = d->orbit.v;
+  const pendres_hysteresis_path path = {deck_axis_parameter(way->axis), way->n, way->value};
+  pendres_state from;
   pendres_hysteresis *h = NULL;
-  pendres_status status = PENDRES_OK;
   (void)task;
-  if (d->orbit.start[0] != '\0') {
-    pendres_attractor start;
-    status = find_start(d, way, ctx, &start, out);
-    if (status != PENDRES_OK) return status;
-    x = start.orbit.x;
-    v = start.orbit.v;
-  }
+  pendres_status status = scene_along_start(d, way, ctx, out->message, &from);
+  if (status != PENDRES_OK) return status;
   farm_point(out, way->n, "the path of %zu values of %s from %.10g on", way->n,
              deck_axis_name(way->axis), way->value[0]);
-  const pendres_hysteresis_path path = {deck_axis_parameter(way->axis), way->n,
-                                        way->value};
-  status = pendres_hysteresis_find(ctx, &p, &(pendres_state){x, v}, &path, &h);
+  status = pendres_hysteresis_find(ctx, &p, &from, &path, &h);
   if (farm_gave_up(out, status)) status = leave_rest(h, out);
   if (status == PENDRES_OK) status = keep(h, out);
   pendres_hysteresis_free(h);
@@ -217,12 +220,14 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   return PENDRES_OK;
 }
 
-void scene_along_compute(scene_run *run, const scene_along_way *way, scene_along_path *path)
+void scene_along_compute(scene_run *run, const scene_along_way *way, scene_along_path *path,
+                         size_t beside, scene_points *const *points)
 {
   sweep s = {run, way, path};
-  scene_compute(run, &(farm_stage){.what = "sweeps", .tasks = 1, .record_size = 1,
+  scene_points_compute(run, &(farm_stage){.what = "sweeps", .tasks = 1, .record_size = 1,
                                           .task = follow, .check = check, .collect = collect,
-                                          .arg = &s});
+                                          .arg = &s},
+                       beside, points);
 }
 
 /* Why a point has no attractor; SCENE_FAILURE_NONE: it has one. */

@@ -10,6 +10,7 @@
 #include "scenes/check.h"
 #include "scenes/columns.h"
 #include "scenes/failed.h"
+#include "scenes/points.h"
 
 /*
  * The attractor that a deck's `start` names at some parameters: "sa", "la", or its number from 1
@@ -33,9 +34,16 @@ typedef struct scene_along_way {
   const double *value;
 } scene_along_way;
 
+/* The state that the deck's pendulum starts from along a way; message[SCENE_MESSAGE] says why there
+   is none. */
+pendres_status scene_along_start(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                 char *message, pendres_state *out);
+
 /* Follow the deck's pendulum from its start along a way, in a task; the path is the run's. The
-   budget is of all values together: where it ends the path, the rest of it stays unresolved. */
-void scene_along_compute(scene_run *run, const scene_along_way *way, scene_along_path *path);
+   budget is of all values together: where it ends the path, the rest of it stays unresolved. What
+   does not depend on the path is computed meanwhile: points of so many kinds. */
+void scene_along_compute(scene_run *run, const scene_along_way *way, scene_along_path *path,
+                         size_t beside, scene_points *const *points);
 
 /* Whether a point is on a closed orbit. */
 int scene_along_closed(const pendres_hysteresis_point *point);

@@ -2,7 +2,8 @@
  * bifurcation_diagram.c -- strobe points of a pendulum against one parameter, which grows
  * slowly: its exponent, its bifurcations, and the doubling cascade of its first orbit.
  *
- * The path is one task; strobe points at each value, and the cascade, are tasks of a second stage.
+ * The path is one task; attractors at some values, and the cascade, do not depend on it and are
+ * tasks beside it. Strobe points at each value are tasks of a second stage.
  */
 #include <limits.h>
 #include <math.h>
@@ -17,29 +18,26 @@ typedef struct strobe {
   double x, x_error, v, v_error;
 } strobe;
 
-enum { NOT_KNOWN = -1 };
+enum {
+  NOT_KNOWN = -1,
+  TOGETHER = 16 /* values whose attractors are found together, so that they fill blocks */
+};
 
 typedef struct work {
   const deck *d;
-  deck_axis_id axis;
+  scene_along_way way;
   size_t strobes;
   scene_along_path path;
-  scene_points values;   /* of record, taken apart into: */
-  strobe *strobe;        /* [values][strobes] */
-  int *attractors;       /* [values]; 0: not asked for; or NOT_KNOWN */
+  scene_points counts;   /* of int: attractors at each value, if they are asked for */
   scene_points cascade;  /* one pendres_cascade, if it is asked for */
+  scene_points values;   /* of [2][strobes] numbers, positions and velocities, taken apart into: */
+  strobe *strobe;        /* [values][strobes] */
 } work;
-
-/* What is found at a value; `strobes` positions, then velocities follow. */
-typedef struct record {
-  int64_t attractors;
-  double x[];
-} record;
 
 static pendres_pendulum pendulum_at(const work *w, size_t i)
 {
   pendres_pendulum p = deck_pendulum(w->d);
-  pendres_parameter_set(deck_axis_parameter(w->axis), w->path.point[i].value, &p);
+  pendres_parameter_set(deck_axis_parameter(w->way.axis), w->way.value[i], &p);
   return p;
 }
 
@@ -60,17 +58,22 @@ static void no_cascade(const scene_points *p, size_t point, void *row)
     (pendres_cascade){.limit = NAN, .limit_error = NAN, .ratio = NAN, .ratio_error = NAN};
 }
 
-/* An orbit that has none is no failure. */
+/* The cascade of the orbit that the path begins on. One that has none is no failure. */
 static pendres_status find_cascade(const scene_some *some)
 {
   const work *w = some->of->arg;
-  const pendres_hysteresis_point *first = w->path.point;
-  const size_t values = w->values.n;
-  pendres_status status = PENDRES_NOT_FOUND;
-  if (scene_along_closed(first))
-    status = pendres_cascade_find(some->ctx, &first->attractor.orbit,
-                                  deck_axis_parameter(w->axis),
-                                  w->path.point[values - 1].value, some->rows);
+  const pendres_pendulum p = deck_pendulum(w->d);
+  const pendres_hysteresis_path first = {deck_axis_parameter(w->way.axis), 1, w->way.value};
+  pendres_state from;
+  pendres_hysteresis *h = NULL;
+  pendres_status status = scene_along_start(w->d, &w->way, some->ctx, some->message, &from);
+  if (status == PENDRES_OK) status = pendres_hysteresis_find(some->ctx, &p, &from, &first, &h);
+  if (status == PENDRES_OK && !scene_along_closed(pendres_hysteresis_get(h, 0)))
+    status = PENDRES_NOT_FOUND;
+  if (status == PENDRES_OK)
+    status = pendres_cascade_find(some->ctx, &pendres_hysteresis_get(h, 0)->attractor.orbit,
+                                  first.parameter, w->way.value[w->way.n - 1], some->rows);
+  pendres_hysteresis_free(h);
   if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
   no_cascade(some->of, 0, some->rows);
   return PENDRES_OK;
@@ -83,45 +86,75 @@ static int check_cascade(const scene_points *p, const void *row)
                           PENDRES_CASCADE_DOUBLINGS + 1);
 }
 
-/* ---- values -------------------------------------------------------------------------------- */
+/* ---- attractors ---------------------------------------------------------------------------- */
 
-/* Find the attractors at a value, if they are asked for, and strobe points of the one that the path
-   is on. */
+static pendres_status count_attractors(const scene_some *some)
+{
+  const work *w = some->of->arg;
+  pendres_pendulum p[TOGETHER];
+  int *count = some->rows;
+  pendres_attractors *found = NULL;
+  for (size_t i = 0; i < some->n; i++) p[i] = pendulum_at(w, some->first + i);
+  const pendres_status status =
+    pendres_settle(some->ctx, some->n, p, NULL, NULL, NULL, &found);
+  for (size_t i = 0; i < some->n && status == PENDRES_OK; i++)
+    count[i] = (int)pendres_attractors_count_of(found, i);
+  pendres_attractors_free(found);
+  return status;
+}
+
+static void no_attractors(const scene_points *p, size_t point, void *row)
+{
+  (void)p;
+  (void)point;
+  *(int *)row = NOT_KNOWN;
+}
+
+static int check_count(const scene_points *p, const void *row)
+{
+  (void)p;
+  return *(const int *)row >= NOT_KNOWN;
+}
+
+/* ---- strobe points ------------------------------------------------------------------------- */
+
+/* Strobe points of the attractor that the path is on: of an orbit those of one round, again and
+   again. */
 static pendres_status find_strobes(const scene_some *some)
 {
   const work *w = some->of->arg;
   const pendres_hysteresis_point *point = &w->path.point[some->first];
   const pendres_pendulum p = pendulum_at(w, some->first);
-  record *r = some->rows;
-  pendres_attractors *set = NULL;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < 2 * w->strobes; k++) r->x[k] = NAN;
-  if (w->d->diagram.attractors)
-    status = pendres_attractors_find(some->ctx, &p, 0, NULL, NULL, &set);
-  r->attractors = (int64_t)pendres_attractors_count(set);
-  pendres_attractors_free(set);
-  if (status != PENDRES_OK || point->attractor.label == PENDRES_LABEL_UNRESOLVED ||
-      point->attractor.label == PENDRES_LABEL_ESCAPE)
-    return status;
-  return pendres_strobe_record(some->ctx, &p, &(pendres_state){point->x, point->v},
-                               (long)w->strobes - 1, 1,
-                               &(pendres_record){.x = r->x, .v = r->x + w->strobes});
+  const pendres_label label = point->attractor.label;
+  double *x = some->rows, *v = x + w->strobes;
+  for (size_t k = 0; k < w->strobes; k++) x[k] = v[k] = NAN;
+  if (label == PENDRES_LABEL_UNRESOLVED || label == PENDRES_LABEL_ESCAPE) return PENDRES_OK;
+  const size_t period = (size_t)point->attractor.orbit.period;
+  const size_t n = scene_along_closed(point) && period < w->strobes ? period : w->strobes;
+  const pendres_status status =
+    pendres_strobe_record(some->ctx, &p, &(pendres_state){point->x, point->v}, (long)n - 1, 1,
+                          &(pendres_record){.x = x, .v = v});
+  for (size_t k = n; k < w->strobes && status == PENDRES_OK; k++) {
+    x[k] = x[k - n];
+    v[k] = v[k - n];
+  }
+  return status;
 }
 
 static void no_strobes(const scene_points *p, size_t point, void *row)
 {
   const work *w = p->arg;
-  record *r = row;
+  double *x = row;
   (void)point;
-  for (size_t k = 0; k < 2 * w->strobes; k++) r->x[k] = NAN;
-  r->attractors = NOT_KNOWN;
+  for (size_t k = 0; k < 2 * w->strobes; k++) x[k] = NAN;
 }
 
+/* Any numbers may be states. */
 static int check_strobes(const scene_points *p, const void *row)
 {
-  const int64_t attractors = ((const record *)row)->attractors;
   (void)p;
-  return attractors >= NOT_KNOWN && attractors <= INT_MAX;
+  (void)row;
+  return 1;
 }
 
 /* The well number 0. */
@@ -136,13 +169,11 @@ static pendres_status collect_strobes(const scene_points *p, size_t first, size_
                                       const void *rows)
 {
   work *w = p->arg;
-  const record *r = rows;
-  const double *x = r->x, *v = x + w->strobes;
+  const double *x = rows, *v = x + w->strobes;
   const pendres_hysteresis_point *point = &w->path.point[first];
   (void)n;
   /* Points of chaos are its own, but how far they are off the pendulum's is not known. */
   const int closed = scene_along_closed(point);
-  w->attractors[first] = (int)r->attractors;
   const double x_error = closed ? point->attractor.orbit.x_error + w->d->precision.tolerance : NAN;
   const double fast = w->d->precision.tolerance / deck_pendulum_units(w->d).time;
   const double v_error = closed ? point->attractor.orbit.v_error + fast : NAN;
@@ -197,38 +228,40 @@ static const scene_column of_cascade[] = {
   SCENE_COLUMN(pendres_cascade, ratio, "ratio of the last two distances of doublings", "1"),
 };
 
-/* Mark the points of which something is not known, beside those that the path marks. */
-static void mark_rest(scene_run *run, const work *w, scene_along_row *rows)
+/* Mark the values at which something is not known, beside those that the path marks. */
+static void mark_more(scene_run *run, const work *w, const scene_points *p, const char *what,
+                      scene_along_row *rows)
 {
-  for (size_t i = 0; rows != NULL && i < w->values.n; i++) {
-    const scene_failure reason = (scene_failure)w->values.failed.reason[i];
+  for (size_t i = 0; rows != NULL && i < p->n; i++) {
+    const scene_failure reason = (scene_failure)p->failed.reason[i];
     if (reason == SCENE_FAILURE_NONE) continue;
     /* What the path has not come to is counted there. */
     run->failed_points += rows[i].failed == SCENE_FAILURE_NONE;
     rows[i].failed = (int)reason;
-    scene_failure_tell(run, reason, w->values.failed.words[i], "attractors at %s %.10g",
-                       deck_axis_name(w->axis), w->path.point[i].value);
+    scene_failure_tell(run, reason, p->failed.words[i], "%s at %s %.10g", what,
+                       deck_axis_name(w->way.axis), w->way.value[i]);
   }
-  scene_points_tell(run, &w->cascade);
 }
 
 static void write_values(scene_run *run, const work *w)
 {
-  const char *axis = deck_axis_name(w->axis);
+  const char *axis = deck_axis_name(w->way.axis);
   const size_t n = w->values.n;
   scene_along_row *rows = scene_along_rows(run, &w->path);
   const scene_table strobes = {.dimensions = {axis, "strobe"}, .prefix = "strobe",
                                .n = n * w->strobes, .stride = sizeof *w->strobe,
                                .rows = w->strobe};
   const scene_table points = {.dimensions = {axis}, .n = n, .stride = sizeof *rows, .rows = rows};
-  const scene_table counts = {.dimensions = {axis}, .n = n, .stride = sizeof *w->attractors,
-                              .rows = w->attractors};
-  mark_rest(run, w, rows);
+  const scene_table counts = {.dimensions = {axis}, .n = w->counts.n, .stride = w->counts.size,
+                              .rows = w->counts.rows};
+  mark_more(run, w, &w->counts, "attractors", rows);
+  mark_more(run, w, &w->values, "strobe points", rows);
+  scene_points_tell(run, &w->cascade);
   SCENE_WRITE(run, &strobes, of_strobes);
   SCENE_WRITE(run, &points, of_points);
   if (w->d->diagram.attractors) scene_columns_write(run, &counts, 1, &of_attractors);
   scene_along_write_verdicts(run, &w->path, &points);
-  scene_along_tell(run, w->axis, &w->path, 1);
+  scene_along_tell(run, w->way.axis, &w->path, 1);
 }
 
 static void write_cascade(scene_run *run, const pendres_cascade *c)
@@ -245,7 +278,7 @@ static void write_cascade(scene_run *run, const pendres_cascade *c)
 
 static void write_all(scene_run *run, const work *w)
 {
-  scene_dimension(run, NULL, w->axis);
+  scene_dimension(run, NULL, w->way.axis);
   scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
   write_values(run, w);
   if (!w->d->diagram.bifurcations) return;
@@ -258,7 +291,8 @@ static void write_all(scene_run *run, const work *w)
 static void tabulate(FILE *out, const work *w)
 {
   if (!w->d->diagram.bifurcations) return;
-  fprintf(out, "%-10s %-28s %s\n", "ends by", deck_axis_name(w->axis), "period after");
+  fprintf(out, "%-10s %-28s %s\n", "ends by", deck_axis_name(w->way.axis),
+          "period after");
   for (size_t i = 0; i < w->path.jumps && i < TABLE_ROWS; i++) {
     const pendres_jump *j = &w->path.jump[i];
     fprintf(out, "%-10s %.14g +- %.0e  %d\n", pendres_name_get(PENDRES_NAMES_JUMP, j->kind),
@@ -280,20 +314,23 @@ static pendres_status run_scene(scene_run *run)
   deck_axis_id axis[DECK_AXES];
   (void)deck_axes(d, axis);
   const deck_axis *a = &d->axis[axis[0]];
-  work w = {.d = d, .axis = axis[0], .strobes = strobes,
-            .values = {.size = sizeof(record) + 2 * strobes * sizeof(double), .chunk = 1,
-                       .compute = find_strobes, .leave_out = no_strobes, .check = check_strobes,
-                       .collect = collect_strobes, .arg = &w},
+  work w = {.d = d, .way = {axis[0], a->count, a->value}, .strobes = strobes,
+            .counts = {.size = sizeof(int), .chunk = TOGETHER, .what = "attractors",
+                       .compute = count_attractors, .leave_out = no_attractors,
+                       .check = check_count, .arg = &w},
             .cascade = {.n = 1, .size = sizeof(pendres_cascade), .chunk = 1,
                         .compute = find_cascade, .leave_out = no_cascade, .check = check_cascade,
-                        .name = name_cascade, .arg = &w}};
-  scene_points_over(&w.values, d, 1, &w.axis);
+                        .name = name_cascade, .arg = &w},
+            .values = {.size = 2 * strobes * sizeof(double), .chunk = 1, .compute = find_strobes,
+                       .leave_out = no_strobes, .check = check_strobes,
+                       .collect = collect_strobes, .arg = &w}};
+  scene_points_over(&w.counts, d, 1, axis);
+  scene_points_over(&w.values, d, 1, axis);
+  if (!d->diagram.attractors) w.counts.n = 0;
   if (!d->diagram.bifurcations) w.cascade.n = 0;
   w.strobe = scene_array(run, a->count * strobes, sizeof *w.strobe);
-  w.attractors = scene_array(run, a->count, sizeof *w.attractors);
-  scene_along_compute(run, &(scene_along_way){w.axis, a->count, a->value}, &w.path);
-  scene_points_compute(run, &(farm_stage){.what = "values", .last = 1}, 2,
-                       (scene_points *[]){&w.values, &w.cascade});
+  scene_along_compute(run, &w.way, &w.path, 2, (scene_points *[]){&w.cascade, &w.counts});
+  SCENE_COMPUTE(run, &w.values, "values", .last = 1);
   write_all(run, &w);
   if (scene_prints(run)) tabulate(run->table, &w);
   return run->status;

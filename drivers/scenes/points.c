@@ -20,9 +20,10 @@ struct scene_marks {
   int full; /* there was no memory for one */
 };
 
-/* The points of a stage. */
+/* The points of a stage, behind tasks of its own. */
 typedef struct stage_points {
   scene_run *run;
+  const farm_stage *own;
   scene_points *const *points;
 } stage_points;
 
@@ -40,6 +41,7 @@ static size_t tasks_of(const scene_points *p)
 static part part_of(const stage_points *s, size_t task)
 {
   size_t k = 0;
+  task -= s->own->tasks;
   for (; task >= tasks_of(s->points[k]); k++) task -= tasks_of(s->points[k]);
   scene_points *p = s->points[k];
   const size_t first = task * p->chunk, left = p->n - first;
@@ -156,6 +158,7 @@ static pendres_status find(work *w, size_t first, size_t n, char *rows)
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const stage_points *s = arg;
+  if (task < s->own->tasks) return s->own->task(s->own->arg, task, ctx, out);
   const part t = part_of(s, task);
   const size_t bytes = t.n * t.of->size;
   work w = {.run = s->run, .p = t.of, .ctx = ctx, .out = out};
@@ -182,6 +185,8 @@ static int mark_at(const part *t, const farm_record *in, size_t k, mark *out)
 
 static int check(const void *arg, size_t task, const farm_record *in)
 {
+  const farm_stage *own = ((const stage_points *)arg)->own;
+  if (task < own->tasks) return own->check(own->arg, task, in);
   const part t = part_of(arg, task);
   const scene_points *p = t.of;
   const size_t bytes = t.n * p->size;
@@ -203,6 +208,7 @@ static int check(const void *arg, size_t task, const farm_record *in)
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   const stage_points *s = arg;
+  if (task < s->own->tasks) return s->own->collect(s->own->arg, task, in);
   const part t = part_of(s, task);
   scene_points *p = t.of;
   mark m;
@@ -217,7 +223,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
                           scene_points *const *points)
 {
-  stage_points s = {run, points};
+  stage_points s = {run, stage, points};
   farm_stage whole = *stage;
   for (size_t k = 0; k < count; k++) {
     scene_points *p = points[k];
@@ -228,7 +234,7 @@ void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
     if (!p->unmarked) scene_failures_create(run, p->n, &p->failed);
     whole.tasks += tasks_of(p);
   }
-  whole.record_size = points[0]->size;
+  if (stage->tasks == 0) whole.record_size = points[0]->size;
   whole.task = compute;
   whole.check = check;
   whole.collect = collect;

@@ -92,6 +92,8 @@ typedef struct pendres_attractors pendres_attractors;
 void pendres_attractors_free(pendres_attractors *set);
 /** How many attractors a set has; 0 for NULL. */
 size_t pendres_attractors_count(const pendres_attractors *set);
+/** How many of them parameter set number i has; 0 out of range. */
+size_t pendres_attractors_count_of(const pendres_attractors *set, size_t i);
 /** Attractor number i; owned by the set. NULL out of range. */
 const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, size_t i);
 
@@ -166,6 +168,9 @@ double pendres_attractors_weakest_multiplier(const pendres_attractors *set);
  * make one parameter set; attractors are found from the pendulums themselves. outcome[n] is
  * written. *found (may be NULL) receives all attractors, set after set in the order of
  * the pendulums; to be freed by pendres_attractors_free.
+ * With x, v and outcome NULL each pendulum starts from all states of the built-in set of
+ * pendres_attractors_find(), and what they settle on is found: for many parameter sets at once,
+ * which share blocks.
  * PENDRES_OK also when some are unresolved: their outcome says so.
  */
 pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,

@@ -51,6 +51,11 @@ const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, s
   return set != NULL && i < set->count ? set->attractors[i] : NULL;
 }
 
+size_t pendres_attractors_count_of(const pendres_attractors *set, size_t i)
+{
+  return set != NULL && i < set->sets ? set->attractor_sets[i].count : 0;
+}
+
 static pendres_attractors *create_sets(size_t sets)
 {
   pendres_attractors *set = calloc(1, sizeof *set);
@@ -322,12 +327,42 @@ static pendres_status settle_stretch(pendres_door *d, settling *s)
   return status;
 }
 
-/* Checks before anything is computed; the sets are made for all of the pendulums. */
-static pendres_status settle_begin(pendres_context *ctx, settling *s)
+/* The same from the built-in starts of each pendulum. */
+static pendres_status settle_from_all_sides(pendres_door *d, settling *s)
 {
-  if (s->n > 0 && (s->pendulums == NULL || s->x == NULL || s->v == NULL || s->outcome == NULL))
+  enum { EACH = PENDRES_ATTRACTOR_SET_STARTS };
+  settling all = *s;
+  const size_t most = s->n * EACH;
+  pendres_pendulum *p = pendres_door_memory(d, (most + 1) * sizeof *p);
+  double *x = pendres_door_memory(d, (2 * most + 1) * sizeof *x);
+  all.outcome = pendres_door_memory(d, (most + 1) * sizeof *all.outcome);
+  if (d->status != PENDRES_OK) return d->status;
+  double *v = x + most;
+  all.n = 0;
+  for (size_t i = 0; i < s->n; i++) {
+    const size_t n = pendres_attractor_set_starts(&s->pendulums[i], x + all.n, v + all.n);
+    for (size_t k = 0; k < n; k++) p[all.n++] = s->pendulums[i];
+  }
+  all.pendulums = p;
+  all.x = x;
+  all.v = v;
+  const pendres_status status = settle_stretch(d, &all);
+  s->sets = all.sets;
+  s->offset = all.offset;
+  return status;
+}
+
+/* Checks before anything is computed; the sets are made for all of the pendulums. */
+static pendres_status settle_begin(pendres_context *ctx, settling *s, int starts)
+{
+  const int given = s->x != NULL && s->v != NULL && s->outcome != NULL;
+  if (s->n > 0 && (s->pendulums == NULL || !(given || starts)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, x, v and outcome");
-  const pendres_status status = check_states(ctx, s->n, s->pendulums, 1, s->x, s->v);
+  const double rest = 0.0;
+  pendres_status status =
+    starts ? PENDRES_OK : check_states(ctx, s->n, s->pendulums, 1, s->x, s->v);
+  for (size_t i = 0; i < s->n && starts && status == PENDRES_OK; i++)
+    status = check_states(ctx, 1, &s->pendulums[i], 0, &rest, &rest);
   if (status != PENDRES_OK) return status;
   s->all = create_sets(count_sets(s->n, s->pendulums));
   if (s->all != NULL) return PENDRES_OK;
@@ -339,16 +374,17 @@ pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pend
                               pendres_attractors **found)
 {
   settling s = {.n = n, .pendulums = pendulums, .x = x, .v = v, .outcome = outcome};
+  const int starts = x == NULL && v == NULL && outcome == NULL && found != NULL;
   if (found != NULL) *found = NULL;
   pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
-  PENDRES_DOOR_CALL(&d, settle_begin(ctx, &s));
+  PENDRES_DOOR_CALL(&d, settle_begin(ctx, &s, starts));
   while (pendres_door_next(&d)) {
     s.n = d.count;
     s.pendulums = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
     s.x = pendres_door_in_run(&d, &pendres_dim_length, x);
     s.v = pendres_door_in_run(&d, &pendres_dim_speed, v);
     s.outcome = PENDRES_DOOR_AT(outcome, d.first);
-    PENDRES_DOOR_CALL(&d, settle_stretch(&d, &s));
+    PENDRES_DOOR_CALL(&d, starts ? settle_from_all_sides(&d, &s) : settle_stretch(&d, &s));
   }
   if (d.status == PENDRES_OK && index_sets(s.all) != 0)
     d.status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
