@@ -27,6 +27,7 @@ static void nothing(void **state)
   assert_non_null(pendres_build_info());
   pendres_attractors_free(NULL);
   assert_int_equal(pendres_attractors_count(NULL), 0);
+  assert_int_equal(pendres_attractors_count_of(NULL, 0), 0);
   assert_null(pendres_attractors_get(NULL, 0));
   assert_true(isnan(pendres_attractors_weakest_multiplier(NULL)));
   assert_true(isnan(pendres_response_weakest_multiplier(NULL)));

@@ -80,6 +80,36 @@ static void attractors(void **state)
   pendres_context_free(m.ctx);
 }
 
+/* From the built-in starts, many parameter sets together: those of each alone, but for the size of
+   their ellipses, which is found more exactly where many pendulums may follow. */
+static void attractors_from_all_sides(void **state)
+{
+  many m = make();
+  pendres_attractors *found = NULL, *one = NULL;
+  size_t first = 0, set = 0;
+  (void)state;
+  check_ok(pendres_settle(m.ctx, N, m.p, NULL, NULL, NULL, &found));
+  for (size_t i = 0; i < N; i++) {
+    if (i > 0 && memcmp(&m.p[i], &m.p[i - 1], sizeof *m.p) == 0) continue; /* one set */
+    check_ok(pendres_attractors_find(m.ctx, &m.p[i], 0, NULL, NULL, &one));
+    const size_t count = pendres_attractors_count_of(found, set++);
+    assert_true(count > 0);
+    assert_int_equal(count, pendres_attractors_count(one));
+    for (size_t k = 0; k < count; k++) {
+      const pendres_attractor *a = pendres_attractors_get(found, first + k);
+      const pendres_attractor *b = pendres_attractors_get(one, k);
+      assert_int_equal(a->label, b->label);
+      assert_memory_equal(&a->orbit, &b->orbit, sizeof a->orbit);
+    }
+    first += count;
+    pendres_attractors_free(one);
+  }
+  assert_int_equal(first, pendres_attractors_count(found));
+  assert_int_equal(pendres_attractors_count_of(found, set), 0);
+  pendres_attractors_free(found);
+  pendres_context_free(m.ctx);
+}
+
 /* What an observer was shown of each trajectory at the last strobe. */
 static pendres_langevin_answer watch(void *arg, const pendres_langevin_strobe *s)
 {
@@ -183,6 +213,7 @@ static void negligible(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(motions), cmocka_unit_test(attractors),
+                                     cmocka_unit_test(attractors_from_all_sides),
                                      cmocka_unit_test(noise), cmocka_unit_test(ensembles),
                                      cmocka_unit_test(tolerances),
                                      cmocka_unit_test(negligible)};

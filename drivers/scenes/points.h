@@ -89,8 +89,8 @@ pendres_status scene_mark_status(const scene_some *some, size_t i, pendres_statu
 #define SCENE_COLUMNS(array) .columns = array, .column_count = sizeof array / sizeof *array
 
 /* Compute the points of several kinds in one stage, one kind after another. stage: its name, and
-   whether it is cheap or the last; it may have tasks of its own, with a check and a collector, which
-   come first. The rest is set here. */
+   whether it is cheap or the last; it may have tasks of its own, with a check and a collector,
+   which come first. The rest is set here. */
 void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
                           scene_points *const *points);
 

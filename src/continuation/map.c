@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "engine/chain.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
@@ -196,20 +197,26 @@ static void read_image(const pendres_rows *rows, size_t lane, const pendres_map 
   out->determinant = exp(-u[PENDRES_U_GAMMA] * time);
 }
 
-/* A block of orbits whose first harmonics are wanted, and their images. */
-typedef struct in_phase {
+/* Points whose images are wanted, few enough for a block. */
+typedef struct points {
   const pendres_map *map;
   const double (*u)[PENDRES_U_COUNT];
-  int steps, columns;
+  int steps;
+  int columns; /* derivatives that the block gives, in the order of u */
   size_t n;
   pendres_image *out;
-} in_phase;
+} points;
+
+static void read_images(const pendres_rows *rows, const points *p)
+{
+  for (size_t i = 0; i < p->n; i++) read_image(rows, i, p->map, p->u[i], p->columns, &p->out[i]);
+}
 
 /* After a step: add to the sums of the first harmonic's cosine, and read the images when their map
    ends. */
 static void add_step(void *arg, int step, const pendres_rows *rows)
 {
-  const in_phase *p = arg;
+  const points *p = arg;
   const double weight = 2.0 / p->steps * cos(two_pi * step / p->steps);
   const int last = p->map->mirror == PENDRES_MIRROR_HALF ? p->steps / 2 : p->steps;
   for (size_t i = 0; i < p->n; i++) {
@@ -219,34 +226,52 @@ static void add_step(void *arg, int step, const pendres_rows *rows)
 }
 
 /* Run a block of orbits of period 1 through the whole of it, that of a half map too. */
-static pendres_status run_in_phase(pendres_block *b, const in_phase *p)
+static pendres_status run_in_phase(pendres_block *b, const points *p)
 {
   for (size_t i = 0; i < p->n; i++) p->out[i].in_phase = 0.0;
-  b->ctx->cost.newton_steps += (double)p->n;
   return pendres_block_period_sampled(b, add_step, (void *)p);
 }
 
-static pendres_status run_block(pendres_block *b, const pendres_system *s, size_t n,
-                                const double (*u)[PENDRES_U_COUNT], int columns, pendres_image *out)
+/* Points as the lanes of a block, over whole periods and a half one. */
+static pendres_status run_block(pendres_block *b, pendres_condition condition, const points *p)
 {
-  const pendres_map *map = &s->map;
+  const pendres_map *map = p->map;
   pendres_status status = PENDRES_OK;
-  pendres_block_resize(b, n);
-  for (size_t i = 0; i < n; i++) {
-    const pendres_pendulum p = pendres_map_pendulum(map->force, u[i]);
-    pendres_block_load(b, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
+  pendres_block_resize(b, p->n);
+  for (size_t i = 0; i < p->n; i++) {
+    const pendres_pendulum one = pendres_map_pendulum(map->force, p->u[i]);
+    pendres_block_load(b, i, &one, p->u[i][PENDRES_U_Y], p->u[i][PENDRES_U_W]);
   }
-  if (s->condition == PENDRES_CONDITION_LAG)
-    return run_in_phase(b, &(in_phase){map, u, s->steps, columns, n, out});
+  if (condition == PENDRES_CONDITION_LAG) return run_in_phase(b, p);
   const int whole = whole_periods(map);
   for (int k = 0; k < whole && status == PENDRES_OK; k++) status = pendres_block_period(b);
   if (map->mirror == PENDRES_MIRROR_HALF && status == PENDRES_OK)
     status = pendres_block_half_period(b);
-  if (status != PENDRES_OK) return status;
-  b->ctx->cost.newton_steps += (double)n;
   const pendres_rows rows = pendres_block_rows(b);
-  for (size_t i = 0; i < n; i++) read_image(&rows, i, map, u[i], columns, &out[i]);
-  return PENDRES_OK;
+  if (status == PENDRES_OK) read_images(&rows, p);
+  return status;
+}
+
+/* The same where their periods are the lanes. */
+static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, const points *p)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_chain_start *from = malloc(p->n * sizeof *from);
+  double *at = malloc(pendres_chain_rows(kind) * p->n * sizeof *at);
+  const pendres_rows rows = {.at = at, .stride = p->n};
+  for (size_t i = 0; i < p->n && from != NULL; i++)
+    from[i] = (pendres_chain_start){pendres_map_pendulum(p->map->force, p->u[i]),
+                                    p->u[i][PENDRES_U_Y], p->u[i][PENDRES_U_W]};
+  if (from == NULL || at == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu images", p->n);
+  else
+    status = pendres_chain_run(
+      ctx, &(pendres_chain){.kind = kind, .steps = p->steps, .periods = whole_periods(p->map),
+                            .n = p->n, .from = from, .rows = at});
+  if (status == PENDRES_OK) read_images(&rows, p);
+  free(from);
+  free(at);
+  return status;
 }
 
 /* How many derivatives, in the order of u, blocks of a kind give. */
@@ -274,13 +299,16 @@ static pendres_status images(pendres_context *ctx, const pendres_system *s, size
                              pendres_image *out)
 {
   pendres_block b;
-  const int columns = columns_of(kind);
+  const int chained =
+    s->map.mirror != PENDRES_MIRROR_HALF && pendres_chain_worth(whole_periods(&s->map));
   pendres_status status = pendres_block_open(ctx, kind, s->steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(&b);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
-    const size_t count = n - first < capacity ? n - first : capacity;
-    status = run_block(&b, s, count, u + first, columns, out + first);
+    const points p = {&s->map, u + first, s->steps, columns_of(kind),
+                      n - first < capacity ? n - first : capacity, out + first};
+    status = chained ? run_chain(ctx, kind, &p) : run_block(&b, s->condition, &p);
+    if (status == PENDRES_OK) ctx->cost.newton_steps += (double)p.n;
   }
   return status;
 }

@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "base/grow.h"
+#include "engine/chain.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
@@ -102,6 +103,31 @@ static void read_lane(const pendres_rows *rows, int sensitive, pendres_newton_ca
   if (sensitive) pendres_rows_pair(rows, PENDRES_ROW_BY_OMEGA, c->lane, c->by_omega);
 }
 
+/* The end of all their periods, where no samples of them are taken. */
+static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, size_t lanes,
+                                pendres_newton_candidate *c)
+{
+  pendres_chain_start *from = malloc(lanes * sizeof *from);
+  double *at = malloc(pendres_chain_rows(kind) * lanes * sizeof *at);
+  const pendres_chain chain = {.kind = kind, .steps = c[0].steps, .periods = c[0].guess->period,
+                               .n = lanes, .from = from, .rows = at};
+  pendres_status status = PENDRES_OK;
+  if (from == NULL || at == NULL)
+    status =
+      pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", lanes);
+  for (size_t i = 0; i < lanes && status == PENDRES_OK; i++) {
+    from[i] = (pendres_chain_start){c[i].guess->pendulum, c[i].y, c[i].w};
+    c[i].lane = i;
+  }
+  if (status == PENDRES_OK) status = pendres_chain_run(ctx, &chain);
+  const pendres_rows rows = {.at = at, .stride = lanes};
+  for (size_t i = 0; i < lanes && status == PENDRES_OK; i++)
+    read_lane(&rows, kind == PENDRES_FLOW_SENSITIVITY, &c[i]);
+  free(from);
+  free(at);
+  return status;
+}
+
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                    pendres_orbit_want want, pendres_newton_samples *taken,
                                    size_t *count)
@@ -109,8 +135,8 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   pendres_block b;
   const int sensitive = want == PENDRES_ORBIT_FREQUENCY_SLOPE;
   const int steps = c[0].steps, q = c[0].guess->period;
-  pendres_status status = pendres_block_open(
-    ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, steps, &b);
+  const pendres_flow_kind kind = sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL;
+  pendres_status status = pendres_block_open(ctx, kind, steps, &b);
   if (status != PENDRES_OK) return status;
 
   const pendres_model_terms model = pendres_model_kind(&c[0].guess->pendulum);
@@ -121,8 +147,13 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
          pendres_model_kind(&c[lanes].guess->pendulum) == model)
     lanes++;
   *count = lanes;
+  if (taken == NULL && pendres_chain_worth(q)) {
+    status = run_chain(ctx, kind, lanes, c);
+    if (status == PENDRES_OK) ctx->cost.newton_steps += (double)lanes;
+    return status;
+  }
 
-  const size_t kept = sensitive ? PENDRES_ROWS_SENSITIVITY : PENDRES_ROWS_VARIATIONAL;
+  const size_t kept = pendres_chain_rows(kind);
   if (taken != NULL && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
   load_lanes(&b, lanes, companions, c);
