@@ -33,13 +33,14 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
                                      pendres_lyapunov_care care)
 {
   static const struct { long periods; int rounds; } looks[] = {
-    [PENDRES_CARE_FULL] = {PERIODS, ROUNDS}, [PENDRES_CARE_ONCE] = {PERIODS, 1},
+    [PENDRES_CARE_FULL] = {PERIODS, ROUNDS}, [PENDRES_CARE_LABEL] = {PERIODS, ROUNDS},
+    [PENDRES_CARE_ONCE] = {PERIODS, 1},
     [PENDRES_CARE_CLOSE] = {FEW_PERIODS, ROUNDS + 1}};
   const size_t n = m->n;
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = m->pendulum, .x = m->x, .v = m->v, .out = m->out, .orbit = m->orbit,
     .accuracy = pendres_accuracy_to_average(ctx), .care = care, .periods = looks[care].periods,
-    .rounds = looks[care].rounds, .longer = care == PENDRES_CARE_FULL ? LONGER : 0,
+    .rounds = looks[care].rounds, .longer = care <= PENDRES_CARE_LABEL ? LONGER : 0,
     .runner = malloc((n + 1) * sizeof *j.runner)};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);

@@ -300,7 +300,7 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   *r = pendres_runner_at(&lane, close_by);
   r->rotates = pendres_lyapunov_may_rotate(p);
   r->beside = j->care == PENDRES_CARE_CLOSE               ? PENDRES_BESIDE_NOTHING
-              : j->care == PENDRES_CARE_FULL && r->rotates ? PENDRES_BESIDE_NEIGHBOUR
+              : j->care <= PENDRES_CARE_LABEL && r->rotates ? PENDRES_BESIDE_NEIGHBOUR
                                                            : PENDRES_BESIDE_TANGENTS;
   double accuracy = usual;
   pendres_status status = pendres_steps_choose(ctx, p, speed, usual, &r->steps);
@@ -387,7 +387,8 @@ static pendres_status watch(pendres_context *ctx, const job *j, long batch)
 
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
 {
-  const double wanted = pendres_means_wanted(ctx), least = pendres_means_least();
+  const double least = pendres_means_least();
+  const double wanted = j->care == PENDRES_CARE_LABEL ? least : pendres_means_wanted(ctx);
   long batch = (j->periods + BATCHES - 1) / BATCHES;
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) status = load(ctx, j, i);
@@ -405,7 +406,8 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
     /* Runners whose orbit was not stable have averages of this round, and no result yet. */
     if (status == PENDRES_OK) judge(j, batch, round + 1 < j->rounds ? wanted : least);
     if (status == PENDRES_OK) status = settle_caught(ctx, j);
-    if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE)
+    if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE &&
+        j->care != PENDRES_CARE_LABEL)
       status = pendres_means_refine(ctx, j->n, j->runner, batch, j->out);
     if (status == PENDRES_OK && round == 0 && j->longer > 0) status = watch(ctx, j, batch);
   }

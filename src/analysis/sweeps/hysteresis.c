@@ -118,7 +118,8 @@ static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known
   const pendres_settled old = w->state;
   pendres_status status = PENDRES_OK;
   if (known->attractor.label != PENDRES_LABEL_UNRESOLVED) w->state = *known;
-  else status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
+  else
+    status = pendres_settled_find(w->ctx, &p, old.x, old.v, PENDRES_CARE_FULL, &w->state);
   if (status == PENDRES_OK) status = begin_path(w, old.x, old.v);
   if (status == PENDRES_OK && w->settled &&
       pendres_chaos_ends(&old.attractor, &w->state.attractor)) {

@@ -116,7 +116,8 @@ static pendres_status try_beside(search *w, const place *at, pendres_jump *jump,
   double x[PENDRES_HYSTERESIS_TRIALS], v[PENDRES_HYSTERESIS_TRIALS];
   pendres_status status = PENDRES_OK;
   /* A rotation lasts up to a lock that is born on it. */
-  if (!rotates(w)) status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, &before);
+  if (!rotates(w))
+    status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, PENDRES_CARE_LABEL, &before);
   *born = 0;
   if (status != PENDRES_OK || pendres_settled_closed(&before.attractor) ||
       before.attractor.label == PENDRES_LABEL_ESCAPE)
@@ -239,7 +240,7 @@ static pendres_status halve(search *w, pendres_jump *jump)
     const double middle = 0.5 * (from + to);
     const pendres_pendulum p = pendulum_at(w, middle);
     pendres_settled there;
-    status = pendres_settled_find(w->ctx, &p, last.x, last.v, &there);
+    status = pendres_settled_find(w->ctx, &p, last.x, last.v, PENDRES_CARE_LABEL, &there);
     if (status != PENDRES_OK) break;
     if (pendres_chaos_ends(&w->old->attractor, &there.attractor)) {
       to = middle;

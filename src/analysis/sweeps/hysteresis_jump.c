@@ -11,7 +11,6 @@
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/attractor_set.h"
-#include "analysis/chaos/lyapunov_move.h"
 #include "analysis/sweeps/rotation_table.h"
 
 enum {
@@ -232,10 +231,10 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
 }
 
 pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,
-                                    double v, pendres_settled *out)
+                                    double v, pendres_lyapunov_care care, pendres_settled *out)
 {
   *out = pendres_settled_nothing_at(p, x, v);
-  const pendres_status status = settle_all(ctx, 1, PENDRES_CARE_FULL, out);
+  const pendres_status status = settle_all(ctx, 1, care, out);
   return status == PENDRES_OK ? arrive(ctx, out) : status;
 }
 
@@ -283,7 +282,7 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
     }
     if (n == 0) break;
     const int last = round + 1 == ROUNDS;
-    status = settle_all(ctx, n, last ? PENDRES_CARE_FULL : PENDRES_CARE_ONCE, some);
+    status = settle_all(ctx, n, last ? PENDRES_CARE_LABEL : PENDRES_CARE_ONCE, some);
     for (size_t k = 0; k < n; k++) went[which[k]] = some[k];
   }
   return status;
@@ -330,6 +329,6 @@ pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulu
   for (int i = 0; i < TRIALS; i++) went[i] = pendres_settled_nothing_at(p, x[i], v[i]);
   const int rotates = jump->from == PENDRES_LABEL_QUASI_PERIODIC;
   const pendres_status status =
-    settle_all(ctx, TRIALS, rotates ? PENDRES_CARE_CLOSE : PENDRES_CARE_FULL, went);
+    settle_all(ctx, TRIALS, rotates ? PENDRES_CARE_CLOSE : PENDRES_CARE_LABEL, went);
   return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
 }

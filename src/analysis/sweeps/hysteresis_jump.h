@@ -9,6 +9,8 @@
 #include <pendres/hysteresis.h>
 #include <pendres/rotation.h>
 
+#include "analysis/chaos/lyapunov_move.h"
+
 /* What a pendulum settled on, and its state then. */
 typedef struct pendres_settled {
   pendres_pendulum pendulum;
@@ -44,10 +46,10 @@ void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s);
 
 /* Settle one pendulum. One that may rotate without a lock to the drive, which no search for closed
-   orbits finds, is judged as in lyapunov.h. If it is on no closed orbit it is advanced further, so
-   that its state is on its attractor. */
+   orbits finds, is judged as in lyapunov.h, with this care. If it is on no closed orbit it is
+   advanced further, so that its state is on its attractor. */
 pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,
-                                    double v, pendres_settled *out);
+                                    double v, pendres_lyapunov_care care, pendres_settled *out);
 
 /* Find where most trials go from an orbit that ends at a bifurcation; where only the place of the
    end is known, *at has no orbit. Sets to, share and certain of the jump. */
