@@ -185,16 +185,68 @@ static int crosses(const pendres_system *system, const pendres_image *coarse,
                                  fabs(many[3] - few[3]));
 }
 
+/* Whether what the equations at a solution leave moves no parameter by more than its error, which
+   otherwise becomes that large. Newton's method ends where a short step is followed by one that is
+   hardly shorter: at weak damping that need not be rounding yet. */
+static pendres_status is_solved(pendres_context *ctx, const pendres_system *system,
+                                const double u[PENDRES_U_COUNT],
+                                double error[PENDRES_EQUATIONS_MOST], int *solved)
+{
+  pendres_equations there;
+  double moved[PENDRES_EQUATIONS_MOST];
+  const pendres_status status =
+    pendres_equations_at(ctx, system, 1, (const double (*)[PENDRES_U_COUNT])u, &there);
+  *solved = 1;
+  if (status != PENDRES_OK) return status;
+  if (!moved_at_once(&there, system->unknown, there.r, moved)) return status;
+  for (int i = 2; i < system->unknowns; i++) {
+    *solved &= moved[i] <= error[i];
+    error[i] = fmax(error[i], moved[i]);
+  }
+  return status;
+}
+
+/* Solve a system that has been solved with fewer steps, whose image there was `few`, with its own
+   steps; and the errors. */
+static pendres_status solve_finely(pendres_context *ctx, const pendres_system *system,
+                                   const pendres_image *few, pendres_located *out)
+{
+  pendres_equations at;
+  pendres_solution *pair = &out->pair;
+  const int *const unknown = system->unknown;
+  double off[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
+  distance away;
+  pendres_status status = pendres_equations_solve(ctx, system, 0.01, pair->fine, &at);
+  if (status != PENDRES_OK) return status;
+  out->parted =
+    system->condition == PENDRES_CONDITION_CROSSING && !crosses(system, few, &at.image);
+  if (out->parted) return PENDRES_NOT_CONVERGED;
+  rounding_of(&at, system->condition, pair->fine_steps, pair->map.period, off);
+  if (!moved_by_each(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
+  status = distance_of(ctx, system, pair, &at, &away);
+  if (status != PENDRES_OK) return status;
+  pair->rounding = hypot(rounding[0], rounding[1]);
+  pair->apart = 0.0;
+  for (int i = 0; i < system->unknowns; i++) {
+    /* That the parts cancel to less than a thirty-second may be chance. */
+    const double fine = pair->fine[unknown[i]], coarse = pair->coarse[unknown[i]];
+    const double apart = fmax(fabs(fine - coarse), away.late[i]) + away.parts[i] / 32.0;
+    out->error[i] = pendres_solution_error(
+      0.0, apart, rounding[i] + 0.5 * DBL_EPSILON * fabs(fine));
+    if (i < 2) pair->apart = hypot(pair->apart, apart);
+  }
+  return PENDRES_OK;
+}
+
 /* Solve a system with its own steps, and again with more. */
 static pendres_status solve_twice(pendres_context *ctx, pendres_system system,
                                   const double u[PENDRES_U_COUNT], double reach,
                                   pendres_located *out)
 {
+  enum { MOST_TIMES = 4 };
   pendres_equations at;
   pendres_solution *pair = &out->pair;
-  const int n = system.unknowns, steps = system.steps, *const unknown = system.unknown;
-  double off[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
-  distance away;
+  const int steps = system.steps;
 
   pair->map = system.map;
   pair->critical = 1;
@@ -208,28 +260,19 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system,
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);
-  system.steps = pair->fine_steps;
   const pendres_image few = at.image;
-  status = pendres_equations_solve(ctx, &system, 0.01, pair->fine, &at);
-  if (status != PENDRES_OK) return status;
-  out->parted =
-    system.condition == PENDRES_CONDITION_CROSSING && !crosses(&system, &few, &at.image);
-  if (out->parted) return PENDRES_NOT_CONVERGED;
-  rounding_of(&at, system.condition, pair->fine_steps, pair->map.period, off);
-  if (!moved_by_each(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
-  status = distance_of(ctx, &system, pair, &at, &away);
-  if (status != PENDRES_OK) return status;
-  pair->rounding = hypot(rounding[0], rounding[1]);
-  pair->apart = 0.0;
-  for (int i = 0; i < n; i++) {
-    /* That the parts cancel to less than a thirty-second may be chance. */
-    const double fine = pair->fine[unknown[i]], coarse = pair->coarse[unknown[i]];
-    const double apart = fmax(fabs(fine - coarse), away.late[i]) + away.parts[i] / 32.0;
-    out->error[i] = pendres_solution_error(
-      0.0, apart, rounding[i] + 0.5 * DBL_EPSILON * fabs(fine));
-    if (i < 2) pair->apart = hypot(pair->apart, apart);
+  system.steps = pair->fine_steps;
+  status = solve_finely(ctx, &system, &few, out);
+  for (int times = 0; status == PENDRES_OK && times < MOST_TIMES; times++) {
+    int solved = 0;
+    status = is_solved(ctx, &system, pair->fine, out->error, &solved);
+    if (status != PENDRES_OK || solved) break;
+    pendres_located again = *out;
+    status = solve_finely(ctx, &system, &few, &again);
+    if (status == PENDRES_OK) *out = again;
+    if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK; /* the one before is the best */
   }
-  return PENDRES_OK;
+  return status;
 }
 
 pendres_status pendres_locate(pendres_context *ctx, const pendres_system *of,
