@@ -283,9 +283,9 @@ static void what_cancels_by_right(void **state)
  * Outlines are the same branches: their bifurcations are those that whole branches have, and their
  * points, from Newton's method once more, are orbits of the same multipliers. Along a branch of
  * symmetric orbits, whose map goes half a period, through the loss of symmetry; and along one of
- * the pair, through a doubling. Points of an outline are as exact as its steps, some 1e-5.
+ * the pair, through a doubling. Points of such a branch are as exact as its steps, some 1e-5.
  */
-static void outlines(void **state)
+static void branches_that_lead_on(void **state)
 {
   static const double amplitude[] = {0.95, 1.05};
   static const size_t met[] = {1, 3}; /* the pair's branch has both of its orbits */
@@ -298,31 +298,31 @@ static void outlines(void **state)
     const pendres_branch_options options = {
       .parameter = PENDRES_DRIVE_AMPLITUDE, .low = 0.9, .high = 1.09};
     pendres_attractors *set = NULL;
-    pendres_branch *whole = NULL, *outline = NULL;
+    pendres_branch *whole = NULL, *coarse = NULL;
     check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
     const pendres_orbit *start = &pendres_attractors_get(set, 0)->orbit;
     assert_int_equal(start->symmetric, k == 0);
     check_ok(pendres_branch_follow(ctx, start, &options, &whole));
     const pendres_curve_bounds few = {{options.low}, {options.high}, 1e3, 4}, all = {
       {options.low}, {options.high}, 1e3, 2000};
-    check_ok(pendres_branch_begin(ctx, start, options.parameter, 0.05, &outline));
-    check_ok(pendres_branch_extend(ctx, outline, &few));
-    assert_int_equal(pendres_branch_end_get(outline, 0), PENDRES_END_POINTS);
-    check_ok(pendres_branch_extend(ctx, outline, &all));
+    check_ok(pendres_branch_begin(ctx, start, options.parameter, 0.05, &coarse));
+    check_ok(pendres_branch_extend(ctx, coarse, &few));
+    assert_int_equal(pendres_branch_end_get(coarse, 0), PENDRES_END_POINTS);
+    check_ok(pendres_branch_extend(ctx, coarse, &all));
     for (int which = 0; which < 2; which++)
-      assert_int_equal(pendres_branch_end_get(outline, which),
+      assert_int_equal(pendres_branch_end_get(coarse, which),
                        pendres_branch_end_get(whole, which));
     assert_int_equal(pendres_branch_bifurcation_count(whole), met[k]);
-    assert_int_equal(pendres_branch_bifurcation_count(outline), met[k]);
+    assert_int_equal(pendres_branch_bifurcation_count(coarse), met[k]);
     for (size_t i = 0; i < pendres_branch_bifurcation_count(whole); i++) {
       const pendres_bifurcation *a = pendres_branch_bifurcation_get(whole, i);
-      const pendres_bifurcation *b = pendres_branch_bifurcation_get(outline, i);
+      const pendres_bifurcation *b = pendres_branch_bifurcation_get(coarse, i);
       assert_int_equal(a->kind, b->kind);
       check_near(a->value, b->value, a->value_error + b->value_error);
     }
-    assert_true(pendres_branch_count(outline) > 5);
-    for (size_t i = 0; i < pendres_branch_count(outline); i++) {
-      const pendres_branch_point *at = pendres_branch_get(outline, i);
+    assert_true(pendres_branch_count(coarse) > 5);
+    for (size_t i = 0; i < pendres_branch_count(coarse); i++) {
+      const pendres_branch_point *at = pendres_branch_get(coarse, i);
       if (at->bifurcation >= 0) continue;
       const pendres_orbit *o = &at->orbit, is = refined(ctx, (pendres_orbit_guess){
         o->pendulum, o->x, o->v, o->period, o->winding});
@@ -332,7 +332,7 @@ static void outlines(void **state)
       assert_int_equal(o->stable, is.stable);
     }
     pendres_branch_free(whole);
-    pendres_branch_free(outline);
+    pendres_branch_free(coarse);
     pendres_attractors_free(set);
   }
   pendres_context_free(ctx);
@@ -347,7 +347,7 @@ int main(void)
     cmocka_unit_test(orbits_next_to_a_fold_know_their_errors),
     cmocka_unit_test(what_is_missing_is_doubted),
     cmocka_unit_test(what_cancels_by_right),
-    cmocka_unit_test(outlines),
+    cmocka_unit_test(branches_that_lead_on),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

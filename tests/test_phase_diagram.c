@@ -84,6 +84,32 @@ static void regimes_of_the_paper(void **state)
   pendres_context_free(ctx);
 }
 
+/* A fold of orbits that swing over the top, here by 5 rad, ends no small state: where one state
+   alone is known it has no name. */
+static void large_folds_name_nothing(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context_of(1e-8);
+  pendres_pendulum p[9];
+  const pendres_ensemble e = {.members = 24}; /* all from x = 0 */
+  pendres_phase_point point[9];
+  pendres_branches *branches = NULL;
+  double largest = 0.0;
+  for (int i = 0; i < 9; i++)
+    p[i] = (pendres_pendulum){.damping = 0.16689, .drive_amplitude = 0.78464,
+                              .drive_frequency = 0.4573 + 0.0355 * i};
+  check_ok(pendres_phase_line(ctx, 9, p, with(&e), point, &branches));
+  for (size_t i = 0; i < pendres_branches_count(branches); i++) {
+    const pendres_branch *b = pendres_branches_get(branches, i);
+    for (size_t k = 0; k < pendres_branch_bifurcation_count(b); k++)
+      largest = fmax(largest, pendres_branch_bifurcation_get(b, k)->orbit.amplitude);
+  }
+  assert_true(largest > PENDRES_PI);
+  assert_int_equal(point[0].exact, PENDRES_REGIME_SINGLE);
+  pendres_branches_free(branches);
+  pendres_context_free(ctx);
+}
+
 /* LA at damping 0.08 ceases to attract at frequency 0.537944036 by losing its symmetry, not in a
    fold; the pair that is born there goes on below. */
 static void branches_end_otherwise(void **state)
@@ -249,6 +275,7 @@ int main(void)
     cmocka_unit_test(basins_can_miss_the_members),
     cmocka_unit_test(others_are_told),
     cmocka_unit_test(mistakes_are_told),
+    cmocka_unit_test(large_folds_name_nothing),
     cmocka_unit_test(branches_end_otherwise),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

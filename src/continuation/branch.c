@@ -311,7 +311,7 @@ pendres_status pendres_branch_extend(pendres_context *ctx, pendres_branch *branc
   pendres_curve *c = &branch->curve;
   pendres_status status = pendres_curve_extend(ctx, c, bounds);
   if (status == PENDRES_OK) status = find_bifurcations(ctx, c);
-  if (status == PENDRES_OK) status = pendres_curve_outline(ctx, c);
+  if (status == PENDRES_OK) status = pendres_curve_leave_coarse(ctx, c);
   return status == PENDRES_OK ? fill(ctx, c) : status;
 }
 

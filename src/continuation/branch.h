@@ -17,8 +17,8 @@ const char *pendres_branch_refuses(const pendres_branch_options *options, size_t
 /*
  * A branch that is only to lead on, for as long as is needed: from an orbit at first, to be freed
  * by pendres_branch_free(), and on within bounds, where it has ended by the number of points alone.
- * Its regular points are those of pendres_curve_outline(), at a fifth of the cost of others, and
- * are not checked. Bifurcations are whole. Once it has more points, all have other numbers.
+ * Its regular points are those of pendres_curve_leave_coarse(), at a fifth of the cost of others,
+ * and are not checked. Bifurcations are whole. Once it has more points, all have other numbers.
  */
 pendres_status pendres_branch_begin(pendres_context *ctx, const pendres_orbit *orbit,
                                     pendres_parameter parameter, double spacing,

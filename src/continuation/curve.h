@@ -217,7 +217,7 @@ pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *curve)
  * state, period, winding, multipliers and stability, which agree with the signs of test functions;
  * measures and errors are NaN.
  */
-pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *curve);
+pendres_status pendres_curve_leave_coarse(pendres_context *ctx, pendres_curve *curve);
 
 /*
  * Follow the branch of an orbit, both ways, stable and unstable parts; with its folds, period

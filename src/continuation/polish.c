@@ -224,7 +224,7 @@ pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *c)
   return status;
 }
 
-/* ---- outlines ---- */
+/* ---- branches that only lead on ---- */
 
 /* The special points stand behind nodes: polish these and the next ones, so that nodes and special
    points are in the order of the parameter, too. */
@@ -251,7 +251,7 @@ static double trace_of(const pendres_map *map, const pendres_image *image)
   return trace * trace - 2.0 * image->determinant;
 }
 
-static pendres_orbit outline_of(const pendres_solution *pair, const pendres_image *image)
+static pendres_orbit coarse_orbit(const pendres_solution *pair, const pendres_image *image)
 {
   const double *u = pair->fine;
   const pendres_pendulum p = pendres_map_pendulum(pair->map.force, u);
@@ -265,7 +265,7 @@ static pendres_orbit outline_of(const pendres_solution *pair, const pendres_imag
   return o;
 }
 
-pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *c)
+pendres_status pendres_curve_leave_coarse(pendres_context *ctx, pendres_curve *c)
 {
   pendres_status status = make_room(ctx, c);
   for (size_t i = 0; i < c->nodes && status == PENDRES_OK; i++) {
@@ -276,7 +276,7 @@ pendres_status pendres_curve_outline(pendres_context *ctx, pendres_curve *c)
   if (status == PENDRES_OK) status = polish_neighbours(ctx, c);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < c->nodes; i++)
-    c->orbit[i] = outline_of(&c->pair[i], &c->node[i].image);
+    c->orbit[i] = coarse_orbit(&c->pair[i], &c->node[i].image);
   list_points(c);
   return PENDRES_OK;
 }

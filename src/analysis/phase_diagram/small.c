@@ -1,6 +1,7 @@
 /* small.c -- the fold that distinguishes SA from LA along a line; see line.h. */
 #include "analysis/phase_diagram/line.h"
 
+#include "continuation/sets.h"
 #include "model/model.h"
 
 /* Orbits on the sheets that fold over each other, whatever their stability. */
@@ -45,8 +46,9 @@ static pendres_small_end find_any_small_end(const pendres_branches *branches)
   return end;
 }
 
-/* For the plain pendulum, whose resonance bends to lower frequencies: find the fold of the smallest
-   amplitude among those below whose parameter two orbits exist. */
+/* For the plain pendulum along its damping or drive amplitude, where other folds have larger orbits
+   than those of the resonance: find the fold of the smallest amplitude among those below whose
+   parameter two orbits exist. */
 static pendres_small_end find_plain_small_end(const pendres_branches *branches)
 {
   pendres_small_end end = {.known = 0};
@@ -69,9 +71,10 @@ static pendres_small_end find_plain_small_end(const pendres_branches *branches)
 
 pendres_small_end pendres_phase_small_end(const pendres_branches *branches)
 {
-  const pendres_branch_point *p =
-    pendres_branch_get(pendres_branches_get(branches, 0), 0);
-  return p == NULL || pendres_model_kind(&p->orbit.pendulum) == PENDRES_MODEL_PLAIN
-           ? find_plain_small_end(branches)
-           : find_any_small_end(branches);
+  const pendres_branch *first = pendres_branches_get(branches, 0);
+  const pendres_branch_point *p = pendres_branch_get(first, 0);
+  if (p == NULL) return (pendres_small_end){.known = 0};
+  const int plain = pendres_model_kind(&p->orbit.pendulum) == PENDRES_MODEL_PLAIN;
+  const int across = pendres_curve_parameter(&first->curve, 0) != PENDRES_DRIVE_FREQUENCY;
+  return plain && across ? find_plain_small_end(branches) : find_any_small_end(branches);
 }
