@@ -50,9 +50,11 @@ static int find_moving(const deck *d, deck_axis_id *axis)
 }
 
 /*
- * The parameters in &sweep other than damping and the drive's clock, then damping, then the clock;
- * but if the clock does not move, the last of the others runs fastest. There are two axes at least,
- * damping and clock among them where nothing else is; of a resonance, which has no clock, one.
+ * The parameters in &sweep other than damping and the drive's frequency or period (the clock),
+ * then damping, then the clock. Where the clock has a single value, the last of the other
+ * parameters varies fastest in its place. There are at least two axes; where nothing else is
+ * given these are damping and the clock. A resonance is searched for over the clock, so that one
+ * axis is enough there.
  */
 static int find_plane(const deck *d, deck_axis_id *axis)
 {

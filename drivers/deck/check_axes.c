@@ -12,7 +12,7 @@
 
 /* ---- values -------------------------------------------------------------------------------- */
 
-/* Values of a range whose steps are divided. */
+/* How many values a range has when each of its steps is divided. */
 static size_t count_of(const deck *d, const deck_axis *axis)
 {
   const size_t n = axis->range_count;
@@ -60,7 +60,8 @@ static void complain_of_axes(deck_builder *b, const char *words, int n, const de
   else deck_complain_of_group(b, NULL, message);
 }
 
-/* The name of the parameter that is followed instead of another one, which has no derivatives. */
+/* The name of the parameter in which orbits are followed in place of this one, which has no
+   derivatives. */
 static const char *followed_instead(pendres_parameter parameter)
 {
   pendres_pendulum p = { .damping = 0.0 };

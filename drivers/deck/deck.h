@@ -21,8 +21,8 @@
 #include "deck/namelist.h"
 
 /*
- * Kinds of scenes, a row each: the name in decks, what is computed, in words for --list, and what
- * of a deck_kind_info is not 0: which parameters its results are over.
+ * Kinds of scenes, a row each: the name in decks, what is computed, in words for --list, and
+ * those fields of deck_kind_info that are not 0, which say what its results are over.
  */
 #define DECK_KIND_LIST(ITEM)                                                                      \
   ITEM(FREE_OSCILLATION, "free_oscillation",                                                      \

@@ -69,7 +69,8 @@ extern const size_t deck_table_size;
  */
 size_t deck_table_find(const char *group, const char *name, unsigned scenes, int *range);
 
-/* Is that a name of the key: its own or, then *range is set, NAME_range where it has one? */
+/* Is that a name of the key: its own, or NAME_range where it has one? *range is set for the latter.
+   */
 int deck_table_matches(const deck_key *key, const char *name, int *range);
 int deck_table_has_range(const deck_key *key);
 

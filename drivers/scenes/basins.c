@@ -73,7 +73,7 @@ static void name_point(const scene_points *p, size_t point, char *text, size_t s
   name_state(s->b, number_of(s, point), text, size);
 }
 
-/* What the budget has ended. */
+/* A state that the budget has ended. */
 static void leave_out(const scene_points *p, size_t point, void *row)
 {
   (void)p;
@@ -231,7 +231,7 @@ static pendres_basin_state *integrate(basins *b, size_t n, const size_t *index)
   return state;
 }
 
-/* Of what was asked of a plan: whether it goes on. */
+/* Record the failure, if it is one, of a function of a plan; whether the run goes on. */
 static int planned(basins *b, pendres_status status)
 {
   if (status != PENDRES_OK)

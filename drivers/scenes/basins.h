@@ -16,7 +16,7 @@
 enum {
   BASINS_VARIABLES = 6,      /* of every state */
   BASINS_GIVEN_UP = -3,      /* settling_periods of a state that its budget has ended */
-  BASINS_NAMED = 4           /* of these, that are told by name */
+  BASINS_NAMED = 4           /* how many of these are told by name */
 };
 
 typedef struct basins {
@@ -34,7 +34,7 @@ typedef struct basins {
   const char *curve; /* what was found of the boundary as a curve; NULL: it was not asked for */
   /* refinement alone: */
   size_t integrated, verified, missed;
-  size_t filled, clean; /* filled states in the end, and those of clean samples among them */
+  size_t filled, clean; /* states that stay filled in, and those that clean samples have verified */
   /* the line v = 0: */
   pendres_basin_state *cut;
 } basins;
@@ -42,7 +42,7 @@ typedef struct basins {
 /* Define the variables of all states, in the group of the grid. */
 void basins_define(basins *b);
 
-/* Write whole rows; type errors and the like are the store's. */
+/* Write whole rows of states, from row number `first` on. */
 void basins_write_rows(basins *b, size_t first, size_t rows, const pendres_basin_state *state);
 
 /* Everything that is not a state of the grid. */

@@ -24,7 +24,8 @@ typedef struct cloud_work {
   pendres_langevin_cloud *part; /* the same */
 } cloud_work;
 
-/* What to make a cloud of: as many strobes of each trajectory as make those that are written. */
+/* What a cloud is made of; each trajectory is recorded for as many strobes as the written ones
+   need. */
 static pendres_cloud_request cloud_request(const cloud_work *w, size_t number)
 {
   const size_t trajectories = (size_t)w->d->basins.trajectories;
@@ -132,8 +133,8 @@ static pendres_status collect_part(const scene_points *p, size_t task, size_t n,
   return PENDRES_OK;
 }
 
-/* Put all parts of a cloud together; one of which parts fail is marked with the first failure, and
-   of a cloud that failed nothing is kept but the reason. */
+/* Put the parts of a cloud together. If parts have failed, the cloud is marked with the first
+   failure, and nothing else is kept of it. */
 static pendres_status conclude(cloud_work *w, size_t number)
 {
   const pendres_cloud_request q = cloud_request(w, number);

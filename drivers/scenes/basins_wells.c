@@ -47,7 +47,7 @@ static const scene_column of_wells[] = {
    .type = SCENE_NUMBER, .value = offsetof(well, number)},
   {.name = "states", .long_name = "states of the grid that settle there", .type = SCENE_COUNT,
    .value = offsetof(well, states)},
-  /* Of boundaries between wells. */
+  /* Where boundaries are those between wells. */
   {.name = "fraction", .long_name = "share of the window that settles there",
    .when = ends_are_wells, .value = offsetof(well, fraction),
    .error = offsetof(well, fraction_error)},

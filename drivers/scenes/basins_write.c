@@ -188,7 +188,7 @@ static const scene_column of_statistics[] = {
             "exponent of the share of uncertain states over distance"),
 };
 
-/* Shares are arrays of the statistics, not one of structs: a step is that of their doubles. */
+/* The statistics hold shares as arrays of doubles: one row is one double away from the next. */
 static const scene_column of_distances =
   STATISTIC(uncertain_fraction, uncertain, "share of states with an unlike one so far off");
 

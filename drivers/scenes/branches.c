@@ -241,7 +241,7 @@ static int are_rotations(const scene_lines *l)
          (p->torque != 0.0 || scene_lines_changes(l, PENDRES_TORQUE));
 }
 
-/* Dampings below 1e-9 and above 100 have no rotation that is told. */
+/* No rotation is given for dampings below 1e-9 and above 100. */
 static rotation rotation_at(const pendres_pendulum *p)
 {
   pendres_rotation r;

@@ -19,7 +19,7 @@ int scene_check_text(const char *text, size_t room);
 int scene_check_attractor(const pendres_attractor *a); /* closed or not */
 int scene_check_response(const pendres_response *r);
 
-/* attractors: in the set that the state of a grid names one of. */
+/* attractors: how many the set has to which the state's number refers. */
 int scene_check_basin_state(const pendres_basin_state *state, size_t attractors);
 
 #endif

@@ -29,7 +29,7 @@ NAMES(scene_jump_names, pendres_name_get(PENDRES_NAMES_JUMP, value))
 NAMES(scene_cloud_names, pendres_name_get(PENDRES_NAMES_CLOUD_VERDICT, value))
 NAMES(scene_switching_names, pendres_name_get(PENDRES_NAMES_SWITCHING_VERDICT, value))
 
-/* The names without that of rotations which are not locked: only sweeps and maps tell those. */
+/* All names but that of rotations without a lock, which only sweeps and maps tell. */
 const char *scene_fate_names(int value)
 {
   return value < PENDRES_LABEL_QUASI_PERIODIC ? scene_motion_names(value) : NULL;
@@ -50,7 +50,7 @@ static int meanings_of(scene_names names, const char *meanings[MOST_NAMES])
   return n;
 }
 
-/* Is it one of the codes that a column names or, of sums of bits, made of these? */
+/* Is it one of the codes that a column names or, where codes are sums of bits, a sum of these? */
 static int is_code(const scene_column *c, int code)
 {
   const char *unused[MOST_NAMES];
@@ -109,7 +109,7 @@ static void gather_reals(const scene_table *t, const scene_column *c, buffers *b
   }
 }
 
-/* Into the one buffer that is stored: tables may have millions of rows. */
+/* Only the buffer that is stored is filled, since tables may have millions of rows. */
 static void gather_others(const scene_table *t, const scene_column *c, buffers *b)
 {
   for (size_t i = 0; i < t->n; i++) {
@@ -144,7 +144,7 @@ static const void *gather(const scene_table *t, const scene_column *c, buffers *
   }
 }
 
-/* A column as the store is told of it, with room for its words. */
+/* A column as it is described to the store, with room for its words. */
 typedef struct variable {
   char name[64], words[200];
   const char *meanings[MOST_NAMES];

@@ -31,7 +31,7 @@ typedef struct scene_column {
   scene_names names;           /* of a SCENE_FLAG; NULL: it is a plain 0 or 1 */
   const int8_t *codes;         /* of a SCENE_FLAG that is a sum of bits: these; names are those
                                   of 0, 1, 2 ... */
-  int (*when)(const deck *d);  /* not NULL: only decks of which this is so have the column */
+  int (*when)(const deck *d);  /* not NULL: whether a deck has the column */
   int pairs;                   /* nonzero: two elements a row, over `inner` */
   const char *comment;
 } scene_column;

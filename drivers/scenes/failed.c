@@ -43,11 +43,11 @@ int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, 
   const double half = 0.5 * damping;
   const double rate = half < 1.0 ? half : 1.0 / (half + sqrt(half * half - 1.0));
   /* No less than the fewest steps that a period is integrated with. */
-  const double a_unit_time =
+  const double steps_per_time =
     fmax(fmax(damping / 4.0, 1.0 / 1.5), 8.0 * frequency / (2.0 * PENDRES_PI));
-  const double settling = runs * a_unit_time * times / rate;
+  const double settling = runs * steps_per_time * times / rate;
   const double steps =
-    settling + runs * a_unit_time * periods * 2.0 * PENDRES_PI / frequency;
+    settling + runs * steps_per_time * periods * 2.0 * PENDRES_PI / frequency;
   if (settling <= most_settling && steps <= most) return 0;
   snprintf(words, size, "damping %g, drive_frequency %g ask for some %.1e steps of the integrator, "
            "more than %.0e", p->damping, p->drive_frequency, steps,

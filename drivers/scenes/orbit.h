@@ -27,7 +27,7 @@ typedef struct orbit_way {
                infinity */
 } orbit_way;
 
-/* Of each sample. */
+/* Variables of each sample. */
 enum { ORBIT_VARIABLES = 4 };
 
 /* What a whole record is measured for, while it goes by. */

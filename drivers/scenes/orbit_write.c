@@ -18,7 +18,7 @@ static double number_at(const pendres_orbit *o, size_t offset)
   return number;
 }
 
-/* What is exact is rounded nevertheless, in the three operations and the constant of a work. */
+/* Measures without an error of their own are works, which three operations and a constant round. */
 static double error_of(const pendres_orbit *o, const pendres_orbit_quantity *q)
 {
   return q->error == PENDRES_ORBIT_EXACT ? 2.0 * eps * fabs(number_at(o, q->value))
@@ -33,7 +33,7 @@ static void put_scalar(scene_run *run, const scene_column *column, double value,
   scene_columns_write(run, &table, 1, column);
 }
 
-/* Such a column: the error stands behind the value. */
+/* A column of such a pair: the error stands behind the value. */
 #define SCALAR(what, words, unit) \
   {.name = what, .long_name = words, .units = unit, .error = sizeof(double)}
 
@@ -90,7 +90,7 @@ static void put_scalars(scene_run *run, const orbit_work *w)
   }
 }
 
-/* What it is. */
+/* What the search has come to. */
 typedef struct verdict {
   int label, uncertain, failed;
 } verdict;
@@ -99,7 +99,7 @@ static const scene_column of_failures[] = {
   SCENE_CODE(verdict, failed, "why there is no orbit", scene_failure_names),
 };
 
-/* Only where it is: files of starts that are sure have none. */
+/* Written only where it is 1: files of starts that are certain have no such variable. */
 static const scene_column of_doubts[] = {
   {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(verdict, uncertain),
    .names = scene_doubt_names,

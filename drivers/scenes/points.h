@@ -61,15 +61,15 @@ struct scene_points {
   int axes;
   deck_axis_id axis[DECK_AXES + 1]; /* slowest first */
   void (*name)(const scene_points *p, size_t point, char *text, size_t size);
-  /* What is said of a reason, in the place of the library's words; NULL: those of the list. The
-     function may be NULL. */
+  /* The words for a reason in place of the library's message; NULL: those of the list of reasons.
+     The function itself may be NULL. */
   const char *(*words)(scene_failure reason);
 
-  /* Not 0: records say what became of their points: nothing is marked, and none is left out but by
-     the budget. What fails otherwise fails as a whole. */
+  /* Not 0: a record says itself what became of its point. Nothing is marked then, only the budget
+     leaves points out, and every other failure ends the run. */
   int unmarked;
 
-  /* What has come of it: the run's, but for rows that the scene has set before. */
+  /* The results, which belong to the run, but for rows that the scene has set before. */
   void *rows;               /* [n] */
   scene_failures failed;    /* [n] */
 };

@@ -80,7 +80,7 @@ static void no_response(const scene_points *p, size_t point, void *row)
   pendres_response_average(r);
 }
 
-/* Mark a point that was computed, but not wholly. */
+/* Mark a point at which not all members have settled on what means are taken of. */
 static void judge(const scene_some *some, size_t i)
 {
   const grid *g = some->of->arg;
@@ -187,7 +187,7 @@ static pendres_status collect_names(const scene_points *p, size_t first, size_t 
     const response_row row = row_of(&points[i]);
     scene_temporary_put(g->run, &g->rows, first + i, 1, &row);
   }
-  /* Noise begins from the whole of a point. */
+  /* Noise is added to all that is known of a point. */
   if (g->d->axis[DECK_AXIS_TEMPERATURE].count > 0)
     scene_temporary_put(g->run, &g->kept, first, n, points);
   return g->run->status;
@@ -442,7 +442,7 @@ static pendres_status run_scene(scene_run *run)
   return run->status;
 }
 
-/* Whole points are in memory as long as they are few (temporary.h). */
+/* The records of all points are in memory as long as these are few (temporary.h). */
 static double more_memory(const deck *d, const farm_trial *trial, double points)
 {
   (void)d;

@@ -208,7 +208,7 @@ void scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
 
 void scene_dimension_short(scene_run *run, deck_axis_id axis)
 {
-  /* Short ones would say too little of what a plain pendulum has not. */
+  /* A short name says too little of a parameter that a plain pendulum does not have. */
   const pendres_parameter parameter = deck_axis_parameter(axis);
   char text[DECK_NAME];
   write_dimension(run, "", axis, pendres_parameter_of(parameter)->plain

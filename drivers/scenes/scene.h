@@ -34,18 +34,18 @@ typedef struct scene_run {
 } scene_run;
 
 /*
- * What runs of a kind take, for --dry-run: bytes that a file has beside its points (headers and
- * provenance), bytes a point and bytes of memory a point; how many times the journal of a first
- * stage comes again in later ones; processor time of all of a run over that of its first stage, and
- * seconds a point where not even one task can be tried, on a processor of 3 GHz and at a usual
- * damping. Zero of the others is what most kinds have.
+ * What runs of a kind take, for --dry-run. head: bytes that a file has beside its points (headers
+ * and provenance); point and memory: bytes of the file and of memory for each point; stages: the
+ * length of all journals over that of the first stage's; after: processor time of all of a run over
+ * that of its first stage; seconds: for each point where not even one task can be tried, on a
+ * processor of 3 GHz and at a usual damping. Most kinds leave the other fields 0.
  */
 typedef struct scene_size {
   double head, point, memory, stages, after, seconds;
   double slowest;              /* how many times longer points take at most, at weak damping */
   double journal;              /* bytes a point where not even one task can be tried */
   double (*points)(const deck *d); /* where they are not those of the deck's axes */
-  /* Values beside the points', as strobe points: how many there are, and bytes of each. */
+  /* Values that are no points, such as strobe points: how many there are, and bytes of each. */
   double (*values)(const deck *d);
   double value;
   /* Bytes that output and memory have beside those, at this many points. trial: what a trial has
@@ -63,13 +63,13 @@ typedef struct scene_kind {
   deck_kind kind;
   const char *references; /* root attribute of the file: what the scene reproduces, and methods */
   scene_size size;
-  /* What is so of few kinds; 0 of the others. */
-  int budget;             /* its tasks tell their points, which --budget can end */
-  int timed;              /* it looks at the clock: there is no journal, and there are no parts */
+  /* Flags that few kinds have. */
+  int budget;             /* its tasks say which points they begin: --budget can end them */
+  int timed;              /* it measures times, so that there is no journal, and no shards */
   int any_method;         /* it takes the deck's method for all it does: it has no orbits */
   int counts_escapes;     /* it tells what escapes to infinity */
-  int one_temperature;    /* that of its noise is no dimension of results */
-  /* What the deck asks of the library beside what all do; may be NULL. */
+  int one_temperature;    /* its noise has a single temperature, which is no dimension of results */
+  /* The library's options that only this kind sets; may be NULL. */
   void (*options)(const deck *d, pendres_options *out);
   /* What would be computed, in a few lines (--dry-run). */
   void (*describe)(const deck *d, FILE *out);
@@ -106,8 +106,8 @@ pendres_status scene_stored(scene_run *run, pendres_status status);
 pendres_context *scene_context(scene_run *run);
 pendres_status scene_asked(scene_run *run, pendres_status status);
 
-/* Room for n elements, all zero, that lasts until scene_end(): not for tasks on threads. NULL
-   without memory, which is on record then, or if something has failed before. */
+/* Room for n elements, all zero, that lasts until scene_end(): not for tasks on threads. NULL if
+   there is no memory, which is then on record as the failure, or if something has failed before. */
 void *scene_array(scene_run *run, size_t n, size_t size);
 
 /* Let go of all arrays of a run. */

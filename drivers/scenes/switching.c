@@ -25,7 +25,7 @@ typedef struct work {
   pendres_switching_tally *sums;    /* [temperature] which are added up here */
   pendres_switching_rates *rates;   /* [temperature] */
   pendres_switching_activation activation[WAYS];
-  pendres_switching_way way[WAYS];  /* that there are: without wells none to another */
+  pendres_switching_way way[WAYS];  /* those that exist: to wells if there are any */
   int ways, told;                   /* how many, and how many the table tells */
   int escapes;                      /* to infinity; there are no other wells then */
   scene_points results;             /* [temperature]: which failed */
@@ -197,9 +197,10 @@ static int steps_of(const work *w)
 }
 
 /*
- * Rates at one temperature: none where a part of its work failed, of which temperatures have the
- * failure already, or the choice of steps, which is the failure of all. Where one state alone
- * exists there is nothing to switch to, and that is said.
+ * Rates at one temperature. There are none where a part of its trajectories failed, which has
+ * marked the temperature already, or where the choice of steps failed, which marks all
+ * temperatures. Where only one of both states exists there is nothing to switch to, and that is
+ * said.
  */
 static pendres_status conclude(work *w, size_t i)
 {

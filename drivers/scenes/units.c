@@ -13,7 +13,7 @@
 
 enum { MOST_PRINTED = 24 };
 
-/* How a result becomes a laboratory's. */
+/* How a result is converted into a laboratory's units. */
 typedef struct conversion {
   const char *suffix, *units;
   double factor;
@@ -137,7 +137,7 @@ static pendres_status extend_coordinates(scene_run *run)
   return pendres_store_attribute(run->store, "", NULL, "coordinates", list);
 }
 
-/* The copies join the members while these are gone through. */
+/* Copies are added to the list of members while the loop goes through it. */
 void scene_write_units(scene_run *run)
 {
   pendres_status status = PENDRES_OK;
