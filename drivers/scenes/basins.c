@@ -16,13 +16,13 @@
 
 enum {
   STATES_A_TASK = 65536, /* whole rows of about this number of states */
-  SLICE = 4096,           /* states of a task in a refinement: several blocks */
-  SMALL = 2048,           /* so few states are not worth a task */
+  SLICE = 4096,           /* states of a task in a refinement: several blocks; no more than
+                             these are not worth a stage */
   BAND_STATES = 1 << 24,  /* states that a plan holds at a time */
   LEAST_SAMPLE = 10000,   /* filled states that are verified, or one of SAMPLED states if more */
   SAMPLED = 256,
   LOST_A_TASK = 64,       /* unresolved states that a task remembers */
-  MOST_EXTENSIONS = 4
+  MOST_EXTENSIONS = 4     /* passes again with attractors that unresolved states have shown */
 };
 
 /* ---- what is computed ---- */
@@ -221,7 +221,7 @@ static pendres_basin_state *integrate(basins *b, size_t n, const size_t *index)
                          .name = name_point, .unmarked = 1, .arg = &s}};
   pendres_basin_state *state = s.points.rows = calloc(n + 1, sizeof *state);
   if (state == NULL) scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
-  if (n > SMALL) {
+  if (n > SLICE) {
     SCENE_COMPUTE(b->run, &s.points, "slices", .last = 0);
     return state;
   }

@@ -89,7 +89,7 @@ static int check_prepared(const scene_points *p, const void *row)
   (void)p;
   return scene_check_code((int)c->way, PENDRES_CLOUD_WAY_COUNT) &&
          scene_check_code((int)c->verdict, PENDRES_CLOUD_VERDICTS) &&
-         scene_check_code(c->bias.steps_per_period, 1000001);
+         scene_check_code(c->bias.steps_per_period, DECK_MAX_COUNT + 1);
 }
 
 /* Strobe points of those that are followed come with the parts. */

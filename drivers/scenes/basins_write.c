@@ -77,7 +77,7 @@ void basins_define(basins *b)
 
 void basins_write_rows(basins *b, size_t first, size_t rows, const pendres_basin_state *state)
 {
-  enum { ROWS = 256 };
+  enum { ROWS = 256 /* copied at a time, to bound memory */ };
   const size_t nv = b->grid.nv;
   const scene_variables of = variables_of(b);
   state_row *some = calloc((rows < ROWS ? rows : ROWS) * nv + 1, sizeof *some);

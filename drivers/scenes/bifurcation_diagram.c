@@ -11,8 +11,6 @@
 #include "scenes/along.h"
 #include "scenes/points.h"
 
-enum { TABLE_ROWS = 40 };
-
 /* A strobe point. */
 typedef struct strobe {
   double x, x_error, v, v_error;
@@ -293,7 +291,7 @@ static void tabulate(FILE *out, const work *w)
   if (!w->d->diagram.bifurcations) return;
   fprintf(out, "%-10s %-28s %s\n", "ends by", deck_axis_name(w->way.axis),
           "period after");
-  for (size_t i = 0; i < w->path.jumps && i < TABLE_ROWS; i++) {
+  for (size_t i = 0; i < w->path.jumps && i < SCENE_TABLE_LINES; i++) {
     const pendres_jump *j = &w->path.jump[i];
     fprintf(out, "%-10s %.14g +- %.0e  %d\n", pendres_name_get(PENDRES_NAMES_JUMP, j->kind),
             j->value,

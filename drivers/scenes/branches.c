@@ -13,7 +13,11 @@
 
 #include "scenes/lines.h"
 
-enum { BACKBONE = 101, FREE = 156, MOST_PARTS = 64 };
+enum {
+  BACKBONE = 101, /* points of the backbone, */
+  FREE = 156,     /* and of the free pendulum's, 0.02 apart up to pi */
+  MOST_PARTS = 64 /* parts of a branch that the table tells */
+};
 
 static void describe(const deck *d, FILE *out)
 {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { LONGEST_PERIOD = 1000000, MOST_STEPS = 100000000 };
+enum { MOST_STEPS = 100 * DECK_MAX_COUNT }; /* a drive period */
 
 int scene_check_code(int code, int count)
 {
@@ -20,7 +20,7 @@ int scene_check_attractor(const pendres_attractor *a)
   const pendres_orbit *o = &a->orbit;
   return scene_check_code((int)a->label, PENDRES_LABEL_COUNT) &&
          scene_check_code((int)o->pendulum.force, PENDRES_FORCE_COUNT) &&
-         scene_check_code(o->period, LONGEST_PERIOD + 1) && scene_check_code(o->symmetric, 2) &&
+         scene_check_code(o->period, DECK_MAX_COUNT + 1) && scene_check_code(o->symmetric, 2) &&
          scene_check_code(o->stable, 2) && scene_check_code(o->steps, MOST_STEPS);
 }
 

@@ -129,6 +129,9 @@ typedef struct scene_cell {
 #define SCENE_CELL(row, field, words, form) \
   {.heading = words, .format = form, .value = offsetof(row, field)}
 
+/* Rows of a short table, of which there may be any number: what a terminal shows at once. */
+enum { SCENE_TABLE_LINES = 40 };
+
 /* A line of headings and at most `lines` rows of the table, evenly chosen, with the last one; all
    if there are not many more. Where instead (may be NULL) gives words for a row, they stand behind
    its first cell instead of the others.

@@ -9,8 +9,7 @@
 
 #include <pendres/free.h>
 
-/* Amplitudes a task takes: a block of the library. */
-enum { CHUNK = 192, TABLE_ROWS = 13 };
+enum { TABLE_ROWS = 13 };
 
 /* A row of results. */
 typedef struct row {
@@ -32,7 +31,7 @@ static row row_of(double amplitude, double integrated, double error)
 static pendres_status compute(const scene_some *some)
 {
   const double *amplitude = (const double *)some->of->arg + some->first;
-  double frequency[CHUNK], error[CHUNK];
+  double frequency[SCENE_PENDULUMS], error[SCENE_PENDULUMS];
   row *rows = some->rows;
   const pendres_status status =
     pendres_free_find(some->ctx, some->n, amplitude, frequency, error);
@@ -76,7 +75,7 @@ static void tabulate(FILE *out, const scene_table *table)
 static pendres_status run_scene(scene_run *run)
 {
   static const deck_axis_id axis[] = {DECK_AXIS_AMPLITUDE};
-  scene_points p = {.size = sizeof(row), .chunk = CHUNK, .compute = compute,
+  scene_points p = {.size = sizeof(row), .chunk = SCENE_PENDULUMS, .compute = compute,
                     .leave_out = leave_out, SCENE_COLUMNS(columns), .what = "frequency",
                     .arg = run->deck->axis[DECK_AXIS_AMPLITUDE].value};
   scene_points_over(&p, run->deck, 1, axis);

@@ -5,7 +5,7 @@
 #include "scenes/along.h"
 #include "scenes/ramp.h"
 
-enum { DIRECTIONS = 2, TABLE_JUMPS = 40 };
+enum { DIRECTIONS = 2 };
 
 /* Up and down again; points of the way back are put in the order of the axis, too. */
 static void compute(scene_run *run, deck_axis_id axis, scene_along_path *path)
@@ -85,7 +85,7 @@ static void tabulate(FILE *out, deck_axis_id axis, const scene_along_path *path)
 {
   fprintf(out, "%-5s %-9s %-28s %-11s %-11s %s\n", "way", "ends by", deck_axis_name(axis),
           "from", "to", "period");
-  for (size_t i = 0; i < path->jumps && i < TABLE_JUMPS; i++) {
+  for (size_t i = 0; i < path->jumps && i < SCENE_TABLE_LINES; i++) {
     const pendres_jump *j = &path->jump[i];
     fprintf(out, "%-5s %-9s %.14g +- %.0e  %-11s %-11s %d%s%s\n", j->direction > 0 ? "up" : "down",
             pendres_name_get(PENDRES_NAMES_JUMP, j->kind), j->value, j->value_error,
@@ -96,7 +96,8 @@ static void tabulate(FILE *out, deck_axis_id axis, const scene_along_path *path)
   if (scene_along_uncertain(path))
     fprintf(out, "uncertain: errors as small as rounding choose the state that it begins on\n");
   if (path->jumps == 0) fprintf(out, "the state does not end within the range\n");
-  if (path->jumps > TABLE_JUMPS) fprintf(out, "and %zu more\n", path->jumps - TABLE_JUMPS);
+  if (path->jumps > SCENE_TABLE_LINES)
+    fprintf(out, "and %zu more\n", path->jumps - SCENE_TABLE_LINES);
 }
 
 static pendres_status run_scene(scene_run *run)

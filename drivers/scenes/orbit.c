@@ -17,10 +17,7 @@
 #include "scenes/along.h"
 #include "scenes/orbit.h"
 
-enum {
-  WANDERING = 100, /* periods before a chaotic orbit is recorded */
-  CHUNK = 65536    /* samples of a task, or one period */
-};
+enum { CHUNK = 65536 /* samples of a task, or one period */ };
 
 /* A part of the record, with its samples. */
 typedef struct part {
@@ -146,7 +143,7 @@ static pendres_status begin_trajectory(const orbit_work *w, pendres_context *ctx
   double error = 0.0;
   pendres_status status = PENDRES_OK;
   if (!w->transient)
-    status = pendres_strobe_advance(ctx, 1, &w->pendulum, &x, &v, WANDERING, &error);
+    status = pendres_strobe_advance(ctx, 1, &w->pendulum, &x, &v, ORBIT_SETTLING, &error);
   if (status == PENDRES_OK)
     status = pendres_recording_begin(ctx, &w->pendulum, &(pendres_state){x, v},
                                      (long)w->d->orbit.periods, (int)w->d->orbit.samples,

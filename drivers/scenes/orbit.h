@@ -28,7 +28,10 @@ typedef struct orbit_way {
 } orbit_way;
 
 /* Variables of each sample. */
-enum { ORBIT_VARIABLES = 4 };
+enum {
+  ORBIT_VARIABLES = 4,
+  ORBIT_SETTLING = 100 /* drive periods until a trajectory counts as one of the chaotic attractor */
+};
 
 /* What a whole record is measured for, while it goes by. */
 typedef struct orbit_measures {

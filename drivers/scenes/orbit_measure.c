@@ -9,7 +9,6 @@
 
 enum {
   POINTS = 32768, /* strobe points that a dimension is measured from, at most */
-  SETTLED = 100,  /* drive periods of a transient that do not count for it */
   SEGMENTS = 16,  /* of a spectrum, without overlap, if the deck does not say */
   RESOLUTION = 100 /* tolerances: distances below are not looked at */
 };
@@ -57,7 +56,7 @@ void scene_orbit_measure_add(orbit_work *w, long first, long periods, const doub
   const double *x = samples, *v = samples + w->room;
   for (long k = 0; k < periods && m->x != NULL; k++) {
     const long period = first + k;
-    if (period % m->stride != 0 || (w->transient && period < SETTLED)) continue;
+    if (period % m->stride != 0 || (w->transient && period < ORBIT_SETTLING)) continue;
     m->x[m->points] = x[(size_t)k * each];
     m->v[m->points++] = v[(size_t)k * each];
   }

@@ -1,4 +1,5 @@
 /* orbit_write.c -- what the scene `orbit` writes; see orbit.h. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +8,7 @@
 #include "scenes/failed.h"
 #include "scenes/orbit.h"
 
-static const double eps = 2.220446049250313e-16;
+static const double eps = DBL_EPSILON;
 
 enum { MULTIPLIERS = 2 };
 

@@ -13,7 +13,11 @@
 #include "scenes/failed.h"
 #include "scenes/temporary.h"
 
-enum { SCENE_MESSAGE = sizeof((farm_record *)0)->message };
+enum {
+  SCENE_MESSAGE = sizeof((farm_record *)0)->message,
+  SCENE_PENDULUMS = 192 /* of a task whose pendulums are advanced side by side: full blocks, and
+                           tasks enough for many threads */
+};
 
 typedef struct scene_points scene_points;
 

@@ -7,8 +7,7 @@
 
 #include "scenes/points.h"
 
-/* The trajectories of a task: some blocks. */
-enum { DIRECTIONS = 2, PART = 192 };
+enum { DIRECTIONS = 2 };
 
 /* A strobe of the ramp without noise. */
 typedef struct row {
@@ -254,11 +253,10 @@ static void put_scatter(scene_run *run, const work *w)
 
 static void tabulate(FILE *out, const work *w)
 {
-  enum { LINES = 40 };
   if (w->ramp.jumps == 0) return;
   fprintf(out, "\nin real time:\n%-5s %-30s %s\n", "way", "delay",
           w->trajectories > 0 ? "with noise: mean, standard deviation, trajectories" : "");
-  for (size_t k = 0; k < w->ramp.jumps && k < LINES; k++) {
+  for (size_t k = 0; k < w->ramp.jumps && k < SCENE_TABLE_LINES; k++) {
     const pendres_ramp_jump *j = &w->jump[k];
     const pendres_ramp_summary *s = &w->summary[k];
     char delay[60] = "not seen";
@@ -275,8 +273,9 @@ static void tabulate(FILE *out, const work *w)
 
 static void compute(scene_run *run, work *w)
 {
-  scene_points noise = {.n = w->trajectories, .chunk = PART, .size = w->ramp.jumps * sizeof(double),
-                        .compute = scatter, .collect = collect_scatter, .unmarked = 1, .arg = w};
+  scene_points noise = {.n = w->trajectories, .chunk = SCENE_PENDULUMS,
+                        .size = w->ramp.jumps * sizeof(double), .compute = scatter,
+                        .collect = collect_scatter, .unmarked = 1, .arg = w};
   SCENE_COMPUTE(run, &w->way, "ramps", .last = 0);
   if (!scene_going(run)) return;
   for (size_t k = 0; k < w->ramp.jumps * w->trajectories; k++) w->noisy[k] = NAN;

@@ -384,7 +384,6 @@ static void write_results(const grid *g)
 
 static void print_table(FILE *out, const grid *g)
 {
-  enum { MOST_LINES = 40 };
   const int frequencies = by_frequency(g->d), both = g->axes == 3;
   const scene_heading beside = scene_heading_of(g->axis[0]);
   const scene_heading at = scene_heading_of(g->axis[g->axes - 2]);
@@ -400,7 +399,7 @@ static void print_table(FILE *out, const grid *g)
   };
   const scene_table table = scene_points_table(&g->peaks, g->d);
   if (table.n > 0)
-    scene_columns_print(out, &table, both ? MOST_LINES : table.n,
+    scene_columns_print(out, &table, both ? SCENE_TABLE_LINES : table.n,
                         sizeof cells / sizeof *cells - (both ? 0 : 1), both ? cells : cells + 1,
                         scene_peak_instead);
 }

@@ -11,7 +11,7 @@
 #include "scenes/check.h"
 #include "scenes/points.h"
 
-static const double level = 0.95;
+static const double level = 0.95; /* of confidence intervals */
 
 enum { SA, LA, STATES, WAYS = PENDRES_SWITCHING_WAYS };
 
@@ -107,7 +107,7 @@ static pendres_status choose(const scene_some *some)
 static int check_choice(const scene_points *p, const void *row)
 {
   (void)p;
-  return scene_check_code(*(const int *)row, 1000001);
+  return scene_check_code(*(const int *)row, DECK_MAX_COUNT + 1);
 }
 
 static double temperature_of(const work *w, size_t part)
