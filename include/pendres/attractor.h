@@ -170,7 +170,8 @@ double pendres_attractors_weakest_multiplier(const pendres_attractors *set);
  * the pendulums; to be freed by pendres_attractors_free.
  * With x, v and outcome NULL each pendulum starts from all states of the built-in set of
  * pendres_attractors_find(), and what they settle on is found: for many parameter sets at once,
- * which share blocks.
+ * which share blocks. Averages of chaos then end as soon as it is known to last, whatever
+ * exponent_error asks for.
  * PENDRES_OK also when some are unresolved: their outcome says so.
  */
 pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,

@@ -327,10 +327,12 @@ static pendres_status settle_stretch(pendres_door *d, settling *s)
   return status;
 }
 
-/* The same from the built-in starts of each pendulum. */
+/* The same from the built-in starts of each pendulum. Chaos need not be known better than that it
+   lasts. */
 static pendres_status settle_from_all_sides(pendres_door *d, settling *s)
 {
   enum { EACH = PENDRES_ATTRACTOR_SET_STARTS };
+  const double exponent_error = d->ctx->options.exponent_error;
   settling all = *s;
   const size_t most = s->n * EACH;
   pendres_pendulum *p = pendres_door_memory(d, (most + 1) * sizeof *p);
@@ -346,7 +348,9 @@ static pendres_status settle_from_all_sides(pendres_door *d, settling *s)
   all.pendulums = p;
   all.x = x;
   all.v = v;
+  d->ctx->options.exponent_error = 1.0;
   const pendres_status status = settle_stretch(d, &all);
+  d->ctx->options.exponent_error = exponent_error;
   s->sets = all.sets;
   s->offset = all.offset;
   return status;

@@ -2,6 +2,8 @@
 #include "orbits/chaos_replicas.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/angles.h"
 #include "orbits/attractor_set.h"
@@ -37,12 +39,18 @@ static int in_ellipse(const pendres_attractor_set *c, const pendres_replica *a)
 
 /* ---- samples within a period ---- */
 
+/* What is watched of all replicas of a block, side by side; between periods each has its own. */
 typedef struct watched_block {
   const pendres_pendulum *pendulum;
   size_t n;
   int steps;
   pendres_replica *a;
+  double *work, *other, *loss; /* sums, as in the replicas */
+  double *low, *high;          /* of the present half of the period */
+  double *last_y, *last_w;     /* the latest sample */
 } watched_block;
+
+enum { WATCHED = 7 /* such arrays */ };
 
 /*
  * The angle where it turns back between two samples, `spacing` apart, of opposite velocities: that
@@ -60,23 +68,18 @@ static double turning_angle(double spacing, double y0, double w0, double y1, dou
   return y0 + spacing * t * (w0 + t * (0.5 * b + t * a / 3.0));
 }
 
-static void reach(pendres_replica *a, double y)
-{
-  if (y < a->low[1]) a->low[1] = y;
-  if (y > a->high[1]) a->high[1] = y;
-}
-
 /*
  * At the end of each half period the latest two halves form a whole one, whose amplitude is added
  * with the weight 1/2. The mirror image of a motion, half a period later, thus has the same sum.
  */
-static void end_half(pendres_replica *a, double y)
+static void end_half(watched_block *b, size_t i, double y)
 {
+  pendres_replica *a = &b->a[i];
   a->sum[PENDRES_REPLICA_AMPLITUDE] +=
-    0.25 * (fmax(a->high[0], a->high[1]) - fmin(a->low[0], a->low[1]));
-  a->low[0] = a->low[1];
-  a->high[0] = a->high[1];
-  a->low[1] = a->high[1] = y;
+    0.25 * (fmax(a->high[0], b->high[i]) - fmin(a->low[0], b->low[i]));
+  a->low[0] = b->low[i];
+  a->high[0] = b->high[i];
+  b->low[i] = b->high[i] = y;
 }
 
 /* The force of the torque and the parametric drive, at a drive of that cosine. */
@@ -88,28 +91,51 @@ static double other_force(const pendres_pendulum *p, double y, double cosine)
   return p->torque - p->parametric_amplitude * cosine * force;
 }
 
+static void add_other(const watched_block *b, double spacing, double cosine, const double *y,
+                      const double *w)
+{
+  if (b->pendulum->torque == 0.0 && b->pendulum->parametric_amplitude == 0.0) return;
+  for (size_t i = 0; i < b->n; i++)
+    b->other[i] += spacing * w[i] * other_force(b->pendulum, y[i], cosine);
+}
+
 /*
  * Sums of samples, one after the other over many periods, are integrals by the trapezoidal rule:
  * their ends count once, whatever happens in between is integrated as a closed orbit is.
  */
+static void add_sample(const watched_block *b, double spacing, double cosine,
+                       const double *restrict y, const double *restrict w)
+{
+  const double by_drive = b->pendulum->drive_amplitude * spacing * cosine;
+  const double by_drag = b->pendulum->damping * b->pendulum->drive_frequency * spacing;
+  double *restrict work = b->work, *restrict loss = b->loss;
+  double *restrict low = b->low, *restrict high = b->high;
+  for (size_t i = 0; i < b->n; i++) {
+    work[i] += by_drive * w[i];
+    loss[i] += by_drag * w[i] * w[i];
+    low[i] = y[i] < low[i] ? y[i] : low[i];
+    high[i] = y[i] > high[i] ? y[i] : high[i];
+  }
+}
+
 static void watch(void *arg, int step, const pendres_rows *rows)
 {
-  const watched_block *b = arg;
+  watched_block *b = arg;
   const double spacing = two_pi / b->steps, cosine = cos(two_pi * step / b->steps);
+  const double *y = rows->at + PENDRES_ROW_Y * rows->stride;
+  const double *w = rows->at + PENDRES_ROW_W * rows->stride;
+  add_sample(b, spacing, cosine, y, w);
+  add_other(b, spacing, cosine, y, w);
   for (size_t i = 0; i < b->n; i++) {
-    pendres_replica *a = &b->a[i];
-    const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
-    const double w = pendres_rows_get(rows, PENDRES_ROW_W, i);
-    a->sum[PENDRES_REPLICA_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
-    a->sum[PENDRES_REPLICA_OTHER] += spacing * w * other_force(b->pendulum, y, cosine);
-    a->sum[PENDRES_REPLICA_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
-                                  w * w;
-    reach(a, y);
-    if (a->last_w * w < 0.0) reach(a, turning_angle(spacing, a->last_y, a->last_w, y, w));
-    if (step == b->steps / 2 || step == b->steps) end_half(a, y);
-    a->last_y = y;
-    a->last_w = w;
+    if (!(b->last_w[i] * w[i] < 0.0)) continue;
+    const double turned = turning_angle(spacing, b->last_y[i], b->last_w[i], y[i], w[i]);
+    if (turned < b->low[i]) b->low[i] = turned;
+    if (turned > b->high[i]) b->high[i] = turned;
   }
+  for (size_t i = 0; i < b->n && (step == b->steps / 2 || step == b->steps); i++)
+    end_half(b, i, y[i]);
+  memcpy(b->last_y, y, b->n * sizeof *y);
+  memcpy(b->last_w, w, b->n * sizeof *w);
 }
 
 /* ---- periods ---- */
@@ -174,16 +200,41 @@ static void load(pendres_block *block, const watched_block *b)
   }
 }
 
+/* Put what is watched side by side before a period, and give it back after. */
+static void spread(const watched_block *b)
+{
+  for (size_t i = 0; i < b->n; i++) {
+    const pendres_replica *a = &b->a[i];
+    b->work[i] = a->sum[PENDRES_REPLICA_WORK];
+    b->other[i] = a->sum[PENDRES_REPLICA_OTHER];
+    b->loss[i] = a->sum[PENDRES_REPLICA_LOSS];
+    b->low[i] = a->low[1];
+    b->high[i] = a->high[1];
+    b->last_y[i] = a->y;
+    b->last_w[i] = a->w;
+  }
+}
+
+static void gather(const watched_block *b)
+{
+  for (size_t i = 0; i < b->n; i++) {
+    pendres_replica *a = &b->a[i];
+    a->sum[PENDRES_REPLICA_WORK] = b->work[i];
+    a->sum[PENDRES_REPLICA_OTHER] = b->other[i];
+    a->sum[PENDRES_REPLICA_LOSS] = b->loss[i];
+    a->low[1] = b->low[i];
+    a->high[1] = b->high[i];
+  }
+}
+
 static pendres_status advance_block(pendres_block *block, watched_block *b,
                                     const pendres_attractor_set *c, int watched, int last)
 {
-  for (size_t i = 0; i < b->n; i++) {
-    b->a[i].last_y = b->a[i].y;
-    b->a[i].last_w = b->a[i].w;
-  }
+  if (watched) spread(b);
   const pendres_status status =
     watched ? pendres_block_period_sampled(block, watch, b) : pendres_block_period(block);
   if (status != PENDRES_OK) return status;
+  if (watched) gather(b);
   const pendres_rows rows = pendres_block_rows(block);
   for (size_t i = 0; i < b->n; i++) {
     arrive(c, i, &rows, watched, &b->a[i]);
@@ -216,11 +267,17 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
   if (status == PENDRES_OK) status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
   if (status != PENDRES_OK) return status;
 
-  const size_t capacity = pendres_block_capacity(&block);
+  const size_t capacity = pendres_block_capacity(&block), most = n < capacity ? n : capacity;
+  double *rows = malloc((WATCHED * most + 1) * sizeof *rows);
+  if (rows == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu replicas", n);
   status = pendres_block_carry_tangents(&block, 1);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     watched_block b = {.pendulum = &c->pendulum, .steps = steps, .a = a + first,
-                       .n = n - first < capacity ? n - first : capacity};
+                       .n = n - first < capacity ? n - first : capacity,
+                       .work = rows, .other = rows + most, .loss = rows + 2 * most,
+                       .low = rows + 3 * most, .high = rows + 4 * most,
+                       .last_y = rows + 5 * most, .last_w = rows + 6 * most};
     load(&block, &b);
     for (long k = 0; k < periods && status == PENDRES_OK; k++) {
       status = advance_block(&block, &b, c, trace != NULL, k == periods - 1);
@@ -229,6 +286,7 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
     }
   }
   (void)pendres_block_carry_tangents(&block, 0);
+  free(rows);
   if (trace != NULL) trace->filled += periods;
   return status;
 }

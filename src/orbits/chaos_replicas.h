@@ -33,7 +33,6 @@ typedef struct pendres_replica {
                         0: never */
   double sum[PENDRES_REPLICA_MEASURES];
   double low[2], high[2]; /* angles in the latest two halves of periods, the later one last */
-  double last_y, last_w;  /* the latest sample of the current period */
 } pendres_replica;
 
 /* The latest strobe points of replicas, angles with whole turns: a ring buffer for each of them. */
