@@ -31,7 +31,7 @@ typedef struct pendres_lyapunov_options {
   long transient; /**< drive periods, at most, until an orbit is reached, and before averages are
                        taken; default 200, and more where damping is weak */
   long periods;   /**< drive periods of an average, rounded up to a multiple of 16; default 512,
-                       after which chaos is followed for longer */
+                       before which chaos is followed for longer */
 } pendres_lyapunov_options;
 
 /** What a pendulum does in the long run. Plain data. */

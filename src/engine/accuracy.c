@@ -39,6 +39,11 @@ double pendres_accuracy_to_average(const pendres_context *ctx)
   return fmax(1e-7, ctx->options.tolerance);
 }
 
+double pendres_accuracy_to_follow(const pendres_context *ctx)
+{
+  return fmax(1e-4, ctx->options.tolerance);
+}
+
 double pendres_accuracy_of_means(const pendres_context *ctx)
 {
   return fmax(1e-11, ctx->options.tolerance);

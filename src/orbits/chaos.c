@@ -10,6 +10,7 @@
 #include "orbits/chaos_replicas.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
+#include "orbits/growth.h"
 #include "orbits/recurrence.h"
 #include "orbits/settle_lanes.h"
 
@@ -29,11 +30,6 @@ enum {
   MOST_GUESSES = 8       /* orbits that are searched for at a time */
 };
 
-/* The exponent of chaos must be above zero by this many standard errors. */
-static const double significance = 5.0;
-/* The logarithm must grow by this much a period: less cannot be distinguished from slow settling.
-   */
-static const double least_growth = 0.01;
 /* The logarithm of a suspect's tangent vector must have grown by this. Without chaos the vector
    grows by a small factor at most. */
 static const double suspicious = 2.0;
@@ -250,17 +246,18 @@ static pendres_chaos_mean confident(pendres_chaos_mean m)
   return m;
 }
 
-/* How many replicas have an exponent, over the latter half of their batches, not above zero. */
-static size_t calm_replicas(const ensemble *v)
+/* Whether each replica by itself is chaotic. */
+static int all_chaotic(const ensemble *v)
 {
-  size_t calm = 0;
   for (size_t i = 0; i < REPLICAS; i++) {
-    double growth = 0.0;
-    for (int b = v->batches / 2; b < v->batches; b++)
+    double growth = 0.0, latter = 0.0;
+    for (int b = 0; b < v->batches; b++) {
       growth += v->batch[i][b][PENDRES_REPLICA_GROWTH];
-    calm += !(growth > 0.0);
+      if (b >= v->batches / 2) latter += v->batch[i][b][PENDRES_REPLICA_GROWTH];
+    }
+    if (pendres_growth_tell(growth, latter) != PENDRES_GROWTH_CHAOS) return 0;
   }
-  return calm;
+  return 1;
 }
 
 /* Whether replicas differ by no more than chance, so that they are on one attractor. */
@@ -313,11 +310,9 @@ static int seen_enough(const pendres_context *ctx, const pendres_attractor_set *
   if (v->batches < BATCHES) {
     if (v->batches != FEW_BATCHES && v->batches != BATCHES / 2) return 0;
     const pendres_chaos_mean growth = measures_of(c, v).growth;
-    if (!(growth.error <= ctx->options.exponent_error * growth.value &&
-          growth.value > significance * growth.error && growth.value > least_growth))
-      return 0;
+    if (!(growth.error <= ctx->options.exponent_error * growth.value)) return 0;
   }
-  return alike(v) && calm_replicas(v) == 0;
+  return alike(v) && all_chaotic(v);
 }
 
 /* The known chaotic attractor that more than half of the replicas' points lie on; NULL if none. */
@@ -331,8 +326,8 @@ static pendres_cover *known_cover(const pendres_attractor_set *c, const ensemble
 
 /*
  * Watch replicas until one of them has left, or they turn out to be on an attractor that is known,
- * or they agree, or have been watched for as long as they may be. Then *verdict is NEW if their
- * exponent is above zero for certain. Replicas that have gone to different attractors, such as
+ * or they agree, or have been watched for as long as they may be. Then *verdict is NEW if each of
+ * them is chaotic. Replicas that have gone to different attractors, such as
  * mirror images of each other, are sent out once more from where one of them is.
  */
 static pendres_status watch(pendres_context *ctx, pendres_attractor_set *c, ensemble *v,
@@ -374,10 +369,7 @@ static pendres_status watch(pendres_context *ctx, pendres_attractor_set *c, ense
     if (v->length == LONGEST_BATCH) break;
     merge_batches(v);
   }
-  const pendres_chaos_measures m = measures_of(c, v);
-  if (calm_replicas(v) == 0 && m.growth.value > significance * m.growth.error &&
-      m.growth.value > least_growth)
-    *verdict = PENDRES_CHAOS_NEW;
+  if (all_chaotic(v)) *verdict = PENDRES_CHAOS_NEW;
   return status;
 }
 

@@ -1,14 +1,10 @@
 /*
  * chaos.h -- distinguishing chaos from slow settling.
  *
- * Owns: the largest Lyapunov exponent from the variational equation, the test whether a chaotic
- * motion ends, and means over time on a chaotic attractor. The cells of the Poincaré plane that it
- * visits, its cover, are in chaos_cover.h.
+ * Owns: the largest Lyapunov exponent of a chaotic attractor, the test whether its motion ends, and
+ * its means over time. How tangent vectors grow, and what that says, is in growth.h. The cells of
+ * the Poincaré plane that it visits, its cover, are in chaos_cover.h.
  *
- * Method: Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9: a tangent vector is
- * advanced by the variational equation and rescaled to length one; the mean growth of its logarithm
- * is the exponent. It is advanced by a method of its own, of fourth order, which is cheaper
- * than derivatives of the map; its error is estimated from a second one, with steps twice as long.
  * Replicas are pendulums that started close together and have separated; they are followed side by
  * side. Chaos that ends is not an attractor: a replica has left it if it falls into a trapping
  * ellipse, or if its tangent vector shrinks while it returns to its own past. Each replica's

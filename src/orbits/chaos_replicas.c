@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "orbits/attractor_set.h"
+#include "orbits/growth.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
@@ -17,17 +18,11 @@
    errors. For this tangent vectors, which are of fourth order only, need more steps than the
    states. */
 static const double accuracy = 1e-8;
-/* With steps twice as long the growth has 16 times the error: the difference is 15 times the error
-   that is to be subtracted. */
-static const double extrapolated = 15.0;
-/* Tangent vectors are rescaled to length one if they are longer than this, or shorter than its
-   inverse. */
-static const double longest = 1e100;
 
 pendres_replica pendres_replica_at(double y, double w)
 {
   return (pendres_replica){
-    .y = y, .w = w, .u = {{0.6, 0.8}, {0.6, 0.8}}, .low = {y, y}, .high = {y, y}};
+    .y = y, .w = w, .u = PENDRES_TANGENTS_BEGIN, .low = {y, y}, .high = {y, y}};
 }
 
 static int in_ellipse(const pendres_attractor_set *c, const pendres_replica *a)
@@ -140,33 +135,13 @@ static void watch(void *arg, int step, const pendres_rows *rows)
 
 /* ---- periods ---- */
 
-/* Put tangent vectors back to length one, and take their growth over. */
-static void shorten(pendres_replica *a)
-{
-  double growth[2];
-  for (int i = 0; i < 2; i++) {
-    const double length = hypot(a->u[i][0], a->u[i][1]);
-    growth[i] = log(length);
-    a->u[i][0] /= length;
-    a->u[i][1] /= length;
-  }
-  const double coarse = (growth[1] - growth[0]) / extrapolated;
-  a->sum[PENDRES_REPLICA_GROWTH] += growth[0] - coarse;
-  a->sum[PENDRES_REPLICA_COARSE] += coarse;
-}
-
-/* Tangent vectors after a period, which are put back to length one in the last one, and where they
-   must be. */
 static void turn(pendres_block *block, size_t lane, int last, pendres_replica *a)
 {
-  double size[2];
-  for (int i = 0; i < 2; i++) {
-    pendres_block_get_tangent(block, lane, i, a->u[i]);
-    size[i] = fabs(a->u[i][0]) + fabs(a->u[i][1]);
-  }
-  if (!last && fmax(size[0], size[1]) < longest && fmin(size[0], size[1]) > 1.0 / longest) return;
-  shorten(a);
-  for (int i = 0; i < 2; i++) pendres_block_put_tangent(block, lane, i, a->u[i]);
+  double growth[2];
+  pendres_tangents_take(block, lane, last, a->u, growth);
+  const double coarse = pendres_growth_correction(growth);
+  a->sum[PENDRES_REPLICA_GROWTH] += growth[0] - coarse;
+  a->sum[PENDRES_REPLICA_COARSE] += coarse;
 }
 
 /* Take over what the flow has made of a replica in one period. */
@@ -196,7 +171,7 @@ static void load(pendres_block *block, const watched_block *b)
   pendres_block_resize(block, b->n);
   for (size_t i = 0; i < b->n; i++) {
     pendres_block_load(block, i, b->pendulum, b->a[i].y, b->a[i].w);
-    for (int k = 0; k < 2; k++) pendres_block_put_tangent(block, i, k, b->a[i].u[k]);
+    pendres_tangents_put(block, i, b->a[i].u);
   }
 }
 

@@ -15,7 +15,7 @@
 
 enum {
   PERIODS = 512,     /* of a first average, unless the caller says so */
-  LONGER = 3,        /* times as long chaos is followed afterwards */
+  LONGER = 1536,     /* by which what may be chaos is followed before */
   ROUNDS = 6,        /* of averages, each twice as long as the one before: next to the end of a lock
                         a rotation slips once in thousands of periods */
   FEW_PERIODS = 256  /* of the first average of what is known to be close to a rotation */
@@ -81,8 +81,8 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
   pendres_status status = pendres_lyapunov_judge(ctx, &j);
-  free(j.runner);
   if (status == PENDRES_OK) status = pendres_lyapunov_make_certain(ctx, &j);
+  free(j.runner);
   return status;
 }
 

@@ -15,6 +15,8 @@ enum {
   AT_A_TIME = 1024 /* pendulums with copies: they need memory */
 };
 
+/* An error this many times as large as one that may decide has parted motions for good. */
+static const double parted = 100.0;
 /* Verdicts of copies agree within this many times their errors. */
 static const double agreement = 5.0;
 
@@ -23,6 +25,13 @@ typedef pendres_lyapunov verdict;
 static int in_doubt(const verdict *l)
 {
   return l->label != PENDRES_LABEL_UNRESOLVED && !l->certain;
+}
+
+/* Whether errors have grown so large on the way to an orbit, even in a run as exact as can be, that
+   copies part whatever distance they start at. In chaos errors grow in any case. */
+static int hopeless(const pendres_lyapunov_job *job, size_t i)
+{
+  return job->out[i].label != PENDRES_LABEL_CHAOTIC && !(job->runner[i].doubt <= parted);
 }
 
 static int near(double a, double a_error, double b, double b_error)
@@ -55,7 +64,8 @@ typedef struct family {
   size_t first, copies;
 } family;
 
-/* Judge all of a family: out[n * copies]. */
+/* Judge all of a family: out[n * copies]. The doubts of the pendulums themselves are theirs from
+   then on. */
 static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
 {
   const size_t all = f->n * f->copies;
@@ -85,6 +95,8 @@ static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
   j.orbit = NULL;
   j.out = out;
   status = pendres_lyapunov_judge(ctx, &j);
+  for (size_t i = 0; i < f->n && f->first == 0 && status == PENDRES_OK; i++)
+    f->job->runner[f->which[i]].doubt = j.runner[i * f->copies].doubt;
 done:
   free(j.runner);
   free(p);
@@ -92,7 +104,8 @@ done:
   return status;
 }
 
-/* Compare pendulums with copies of them; those whose copies all do the same are certain. */
+/* Compare pendulums with copies of them; those whose copies all do the same are certain. What the
+   copies do is in the errors of those that are not compared again. */
 static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *job, size_t n,
                               const size_t *those, int last)
 {
@@ -114,7 +127,7 @@ static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *
       for (size_t k = 0; k < copies; k++) {
         if (alike(&before, &copy[i * copies + k])) continue;
         same = 0;
-        if (last) widen(l, &copy[i * copies + k]);
+        if (last || hopeless(job, which[i])) widen(l, &copy[i * copies + k]);
       }
       l->certain = same && part == 1;
       if (same) which[left++] = which[i];
@@ -139,12 +152,17 @@ static pendres_status repeat(pendres_context *ctx, const pendres_lyapunov_job *j
   return status;
 }
 
-/* Those of n pendulums that are in doubt come first; returns how many. */
-static size_t keep_doubtful(const pendres_lyapunov_job *job, size_t n, size_t *which)
+/* Put those of n pendulums first that are in doubt, of them only those with hope if it is asked
+   for, and the others behind them; returns how many come first. */
+static size_t put_first(const pendres_lyapunov_job *job, size_t n, size_t *which, int with_hope)
 {
   size_t left = 0;
-  for (size_t i = 0; i < n; i++)
-    if (in_doubt(&job->out[which[i]])) which[left++] = which[i];
+  for (size_t i = 0; i < n; i++) {
+    const size_t at = which[i];
+    if (!in_doubt(&job->out[at]) || (with_hope && hopeless(job, at))) continue;
+    which[i] = which[left];
+    which[left++] = at;
+  }
   return left;
 }
 
@@ -155,10 +173,12 @@ static pendres_status make_certain(pendres_context *ctx, const pendres_lyapunov_
   pendres_lyapunov_job exact = *job;
   exact.accuracy = PENDRES_ACCURACY_TIGHTEST;
   pendres_status status = repeat(ctx, &exact, n, which);
-  if (status == PENDRES_OK) n = keep_doubtful(job, n, which);
-  if (status == PENDRES_OK) status = compare(ctx, job, n, which, 0);
-  if (status == PENDRES_OK) n = keep_doubtful(job, n, which);
-  return status == PENDRES_OK ? compare(ctx, &exact, n, which, 1) : status;
+  if (status != PENDRES_OK) return status;
+  n = put_first(job, n, which, 0);
+  status = compare(ctx, job, n, which, 0);
+  if (status != PENDRES_OK) return status;
+  n = put_first(job, n, which, 1);
+  return compare(ctx, &exact, n, which, 1);
 }
 
 pendres_status pendres_lyapunov_make_certain(pendres_context *ctx, const pendres_lyapunov_job *job)

@@ -12,8 +12,8 @@
 
 #include "analysis/chaos/lyapunov_verdict.h"
 
-/* Go through verdicts that are not certain. The job's runners and
-   orbits are not looked at. */
+/* Go through verdicts that are not certain. The job's runners are where its judgement has left
+   them; its orbits are not looked at. */
 pendres_status pendres_lyapunov_make_certain(pendres_context *ctx, const pendres_lyapunov_job *job);
 
 #endif

@@ -1,7 +1,6 @@
 /* lyapunov_runner.c -- pendulums until they come back or are averaged; see lyapunov_runner.h. */
 #include "analysis/chaos/lyapunov_runner.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -12,17 +11,14 @@
 #include "orbits/escape.h"
 
 enum {
-  BATCHES = PENDRES_RUNNER_BATCHES,
+  BATCHES = PENDRES_GROWTH_BATCHES,
   WARM_UP = 16,        /* periods in which the tangent vector turns into the growing direction */
-  LONGEST_ORBIT = 128, /* drive periods of an orbit that is looked for */
-  EXTRAPOLATED = 15    /* steps twice as long differ by this times the error of the steps */
+  LONGEST_ORBIT = 128  /* drive periods of an orbit that is looked for */
 };
 
 /* The distance of a neighbour. Both its rounding errors and its departure from the linear equation
    are some 1e-8 of that distance. */
 static const double apart = 1e-8;
-/* Tangent vectors are put back to length one where they are longer, or shorter than its inverse. */
-static const double longest = 1e100;
 
 typedef pendres_runner runner;
 
@@ -53,9 +49,9 @@ static double apart_by(const pendres_strobe_lane *l, double y, double w, double 
 
 void pendres_runner_trust(runner *r, const pendres_strobe_lane *l, double doubt)
 {
-  if (!(r->doubt <= 1.0)) return;
+  const int sure = r->doubt <= 1.0;
   r->doubt = doubt;
-  if (!(doubt <= 1.0)) return;
+  if (!sure || !(doubt <= 1.0)) return;
   r->sure_y = l->y;
   r->sure_w = l->w;
 }
@@ -101,7 +97,7 @@ int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l)
 
 pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 {
-  runner r = {.lane = *lane, .u = {{0.6, 0.8}, {0.6, 0.8}}, .near = near, .next = 8,
+  runner r = {.lane = *lane, .u = PENDRES_TANGENTS_BEGIN, .near = near, .next = 8,
               .open = pendres_escape_possible(lane->pendulum),
               .before_y = lane->y, .before_w = lane->w,
               .sure_y = lane->y, .sure_w = lane->w, .back = INFINITY};
@@ -124,53 +120,31 @@ static void put(const average_job *a, size_t lane, const runner *r)
 static void load(const average_job *a, size_t lane, runner *r)
 {
   for (int b = 0; b < BATCHES; b++)
-    r->growth[0][b] = r->growth[1][b] = r->turned[b] = r->square[b] = 0.0;
+    r->growth[0][b] = r->growth[1][b] = r->turned[b] = 0.0;
   r->turns = r->squares = (pendres_mean){.sum = {0.0}};
   pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
   if (a->beside == PENDRES_BESIDE_NEIGHBOUR)
     pendres_block_load(a->block, lane + 1, r->lane.pendulum, r->lane.y, r->lane.w);
   else if (a->beside == PENDRES_BESIDE_TANGENTS)
-    for (int i = 0; i < 2; i++) pendres_block_put_tangent(a->block, lane, i, r->u[i]);
+    pendres_tangents_put(a->block, lane, r->u);
   put(a, lane, r);
 }
 
-/* Add the growth of the tangent vectors to a batch, if there is one, and put them back to length
-   one. */
-static void shorten(runner *r, long in)
-{
-  for (int i = 0; i < 2; i++) {
-    double *u = r->u[i];
-    const double length = fmax(hypot(u[0], u[1]), DBL_MIN);
-    if (in >= 0) r->growth[i][in] += log(length);
-    u[0] /= length;
-    u[1] /= length;
-  }
-}
-
-/* Tangent vectors after a period, put back to length one at the end of a batch and where they must
-   be; the distance of a neighbour always. */
+/* Add to a batch what tangent vectors, or the distance of a neighbour, have grown by. */
 static void turn(const average_job *a, size_t lane, long step, runner *r)
 {
-  const long in = step >= 0 ? step / a->batch : -1;
+  double grown[2];
   if (a->beside == PENDRES_BESIDE_NOTHING) return;
   if (a->beside == PENDRES_BESIDE_NEIGHBOUR) {
     const pendres_rows rows = pendres_block_rows(a->block);
     for (int k = 0; k < 2; k++)
       r->u[0][k] = r->u[1][k] = (pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane + 1) -
                                  pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane)) / apart;
-    shorten(r, in);
-    return;
+    pendres_tangents_shorten(r->u, grown);
+  } else {
+    pendres_tangents_take(a->block, lane, (step + 1) % a->batch == 0, r->u, grown);
   }
-  double size[2];
-  for (int i = 0; i < 2; i++) {
-    pendres_block_get_tangent(a->block, lane, i, r->u[i]);
-    size[i] = fabs(r->u[i][0]) + fabs(r->u[i][1]);
-  }
-  if ((step + 1) % a->batch != 0 && fmax(size[0], size[1]) < longest &&
-      fmin(size[0], size[1]) > 1.0 / longest)
-    return;
-  shorten(r, in);
-  for (int i = 0; i < 2; i++) pendres_block_put_tangent(a->block, lane, i, r->u[i]);
+  for (int i = 0; i < 2 && step >= 0; i++) r->growth[i][step / a->batch] += grown[i];
 }
 
 /* Take over the end of a period. step is its number in the batches; negative ones are the
@@ -186,7 +160,6 @@ static void arrive(const average_job *a, size_t lane, long step,
   l->w = pendres_rows_get(&rows, PENDRES_ROW_W, lane);
   const double turned = (l->y - before) / pendres_model_turn(l->pendulum);
   if (step >= 0) r->turned[step / a->batch] += turned;
-  if (step >= 0) r->square[step / a->batch] += l->w * l->w;
   if (step >= 0 && r->rotates) {
     pendres_mean_add(&r->turns, weights, turned);
     pendres_mean_add(&r->squares, weights, l->w * l->w);
@@ -273,7 +246,8 @@ double pendres_runner_extrapolate(pendres_runner *r, long batch)
 {
   double taken = 0.0;
   for (int b = 0; b < BATCHES; b++) {
-    const double off = (r->growth[1][b] - r->growth[0][b]) / EXTRAPOLATED;
+    const double off =
+      pendres_growth_correction((double[2]){r->growth[0][b], r->growth[1][b]});
     r->growth[0][b] -= off;
     taken += off / (double)(batch * BATCHES);
   }

@@ -10,12 +10,12 @@
 #include <pendres/context.h>
 
 #include "engine/strobe_run.h"
+#include "orbits/growth.h"
 #include "orbits/mean.h"
-
-enum { PENDRES_RUNNER_BATCHES = 16 };
 
 typedef enum pendres_runner_state {
   PENDRES_RUNNER_MOVING,
+  PENDRES_RUNNER_WAITING,
   PENDRES_RUNNER_CAUGHT, /* has come back next to where it was */
   PENDRES_RUNNER_AWAY,   /* escapes to infinity for certain, ... */
   PENDRES_RUNNER_LOST,   /* ... or is beyond all numbers: its last period tells then */
@@ -41,6 +41,7 @@ typedef struct pendres_runner {
                           change where it goes; NaN: not known */
   double sure_y, sure_w; /* the last state before that was above 1, ... */
   double back;           /* ... and the smallest distance to that in averages */
+  long further;        /* periods that it is followed after its transient */
   int open;            /* it may escape, */
   double before_y, before_w; /* and was here a period ago */
   int rotates;         /* it may be on a rotation that is not locked to the drive */
@@ -49,8 +50,7 @@ typedef struct pendres_runner {
   double u[2][2];      /* tangent vectors by steps, and by steps twice as long; with a neighbour
                           both are the direction to it */
   /* Sums over the periods of each batch. */
-  double growth[2][PENDRES_RUNNER_BATCHES], turned[PENDRES_RUNNER_BATCHES];
-  double square[PENDRES_RUNNER_BATCHES]; /* of w */
+  double growth[2][PENDRES_GROWTH_BATCHES], turned[PENDRES_GROWTH_BATCHES];
   pendres_mean turns, squares; /* of rotations: turns a period, and w at its end, squared */
 } pendres_runner;
 
@@ -75,11 +75,8 @@ int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l);
 pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_runner *runners,
                                        long batch);
 
-/*
- * Growth found with steps twice as long has 16 times the error: a fifteenth of the difference is
- * subtracted from r->growth[0]. Returns this correction for one period, which exceeds the error
- * that is left; 0 for runners without tangent vectors.
- */
+/* Correct r->growth[0] by that with steps twice as long. Returns the correction for one period,
+   which exceeds the error that is left; 0 for runners without tangent vectors. */
 double pendres_runner_extrapolate(pendres_runner *r, long batch);
 
 #endif

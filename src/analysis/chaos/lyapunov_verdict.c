@@ -17,10 +17,9 @@
 #include "orbits/orbit_prime.h"
 #include "orbits/settle_lanes.h"
 #include "analysis/chaos/lyapunov_means.h"
-#include "analysis/chaos/lyapunov_watch.h"
 
 enum {
-  BATCHES = PENDRES_RUNNER_BATCHES,
+  BATCHES = PENDRES_GROWTH_BATCHES,
   TRANSIENT = 200 /* drive periods, where damping is not weak */
 };
 
@@ -30,18 +29,6 @@ enum {
 static const double close_by = 1e-4, closer = 0.1;
 /* An orbit found further from the point that came back is another one. */
 static const double same_orbit = 0.02;
-/* An exponent of chaos is above zero by this many standard errors, and by so much growth a period.
-   Up to a growth of least_carried tangent vectors are not trusted without a neighbour: next to
-   orbits that are all but superstable they were seen to be off by 5e-3. */
-static const double significance = 5.0, least_growth = 1e-3, least_carried = 0.02;
-/* Chaos must stretch tangent vectors with steps twice as long, too. Their growth differs by this
-   times what extrapolation takes off. */
-static const double carried_in_doubt = 15.0;
-/* Next to where a lock has ended a rotation is slow in one place, and stretches a tangent vector as
-   much there as it will shrink it again. The logarithm stays below this; in chaos it goes
-   beyond. */
-static const double passing = 30.0;
-
 /* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more:
    half a minute's where it is alone. */
 static const double most_steps = 5e7;
@@ -89,15 +76,15 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const job *j = arg;
   pendres_runner *r = &j->runner[index];
-  pendres_runner_trust(r, lane,
-                       pendres_settle_error_ratio(lane->worst));
+  pendres_runner_trust(r, lane, pendres_settle_error_ratio(lane->worst));
+  const long further = lane->period - transient_of(j, lane);
+  if (further > 0 && !(r->doubt <= 1.0)) pendres_runner_pass(r, lane);
   if (pendres_runner_leaves(r, lane)) return 1;
   if (pendres_runner_comes_back(r, lane)) {
     r->state = PENDRES_RUNNER_CAUGHT;
     return 1;
   }
-  return lane->period >= transient_of(j, lane) ||
-         !(isfinite(lane->y) && isfinite(lane->w));
+  return further >= r->further || !(isfinite(lane->y) && isfinite(lane->w));
 }
 
 /* ---- orbits -------------------------------------------------------------------------------- */
@@ -121,6 +108,13 @@ static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
   const double dx = pendres_less_turns(o->x - (l->y + pendres_model_origin(l->pendulum)),
                                        pendres_model_turn(l->pendulum));
   return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
+}
+
+/* Among the bands of chaos points come back next to orbits of many periods whose multipliers are
+   not known well enough to say that they attract. */
+static int is_surely_stable(const pendres_orbit *o)
+{
+  return hypot(o->multiplier_re[0], o->multiplier_im[0]) + o->multiplier_error < 1.0;
 }
 
 /* Refine the orbits that caught runners are near, with their shortest periods. outcome[k] is
@@ -147,7 +141,8 @@ static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_
     const pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_CAUGHT) continue;
     const pendres_orbit *o = &orbit[k];
-    const int is = outcome[k] != PENDRES_NOT_CONVERGED && o->stable && is_near(o, &r->lane);
+    const int is =
+      outcome[k] != PENDRES_NOT_CONVERGED && is_surely_stable(o) && is_near(o, &r->lane);
     outcome[k++] = is ? PENDRES_OK : PENDRES_NOT_CONVERGED;
     if (is) orbit[good++] = *o;
   }
@@ -241,7 +236,24 @@ static pendres_status tell_linear(pendres_context *ctx, const job *j)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/* Judge runners by their averages; those on chaos or on rotations that are not locked are done. */
+/* What the growth of both vectors says; those with steps twice as long must agree. */
+static pendres_growth_verdict tell_growth(const pendres_runner *r)
+{
+  pendres_growth_verdict told[2];
+  for (int i = 0; i < 2; i++) {
+    double all = 0.0, latter = 0.0;
+    for (int b = 0; b < BATCHES; b++) {
+      all += r->growth[i][b];
+      if (b >= BATCHES / 2) latter += r->growth[i][b];
+    }
+    told[i] = pendres_growth_tell(all, latter);
+  }
+  return told[0] == told[1] ? told[0] : PENDRES_GROWTH_DOUBT;
+}
+
+/* Judge runners by their averages; those on chaos or on rotations that are not locked are done. So
+   are those that shrink, and still do not come back: their orbits have more periods than are
+   looked for. */
 static void judge(const job *j, long batch, double enough)
 {
   for (size_t i = 0; i < j->n; i++) {
@@ -250,12 +262,10 @@ static void judge(const job *j, long batch, double enough)
     if (r->state != PENDRES_RUNNER_MOVING) continue;
     const double rate = r->lane.pendulum->drive_frequency / two_pi;
     const double off = pendres_runner_extrapolate(r, batch);
+    const pendres_growth_verdict told = tell_growth(r);
     const double growth = pendres_batches_mean(r->growth[0], batch, &error);
     const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
-    double least = r->beside == PENDRES_BESIDE_NEIGHBOUR ? least_growth : least_carried;
-    if (r->rotates) least = fmax(least, passing / (double)(batch * BATCHES));
-    const int chaotic = growth > significance * error + carried_in_doubt * off &&
-                        growth > least && !pendres_batches_change(r->growth[0]) &&
+    const int chaotic = told == PENDRES_GROWTH_CHAOS && !pendres_batches_change(r->growth[0]) &&
                         forgets_start(j, &r->lane);
     j->out[i] = (pendres_lyapunov){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
@@ -264,7 +274,7 @@ static void judge(const job *j, long batch, double enough)
     if (r->beside == PENDRES_BESIDE_NOTHING) j->out[i].exponent = j->out[i].exponent_error = NAN;
     const long periods = batch * BATCHES;
     if (!chaotic && r->rotates) r->rough = pendres_means_tell(r, periods, enough, &j->out[i]);
-    if (chaotic || r->rough ||
+    if (chaotic || r->rough || told == PENDRES_GROWTH_ORDER ||
         (j->care == PENDRES_CARE_CLOSE && pendres_means_scatter(r, periods)))
       r->state = PENDRES_RUNNER_DONE;
     /* Those that are left run beside a neighbour from here on. */
@@ -299,9 +309,7 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
     fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
   *r = pendres_runner_at(&lane, close_by);
   r->rotates = pendres_lyapunov_may_rotate(p);
-  r->beside = j->care == PENDRES_CARE_CLOSE               ? PENDRES_BESIDE_NOTHING
-              : j->care <= PENDRES_CARE_LABEL && r->rotates ? PENDRES_BESIDE_NEIGHBOUR
-                                                           : PENDRES_BESIDE_TANGENTS;
+  r->beside = j->care == PENDRES_CARE_CLOSE ? PENDRES_BESIDE_NOTHING : PENDRES_BESIDE_TANGENTS;
   double accuracy = usual;
   pendres_status status = pendres_steps_choose(ctx, p, speed, usual, &r->steps);
   r->lane.steps = r->steps;
@@ -317,8 +325,8 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   return status;
 }
 
-/* Run all lanes until they come back or their transient is over. */
-static pendres_status run_transient(pendres_context *ctx, const job *j)
+/* Run all lanes that are moving until they come back or their time is over. */
+static pendres_status run_lanes(pendres_context *ctx, const job *j)
 {
   size_t moving = 0;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
@@ -366,23 +374,64 @@ static int is_certain(const pendres_runner *r, pendres_label label)
   return label == PENDRES_LABEL_CHAOTIC ? r->back < returned : r->doubt <= 1.0;
 }
 
-/* See whether chaos lasts; where it does not, what was said of it does not hold. */
-static pendres_status watch(pendres_context *ctx, const job *j, long batch)
+/* The speed that steps are chosen for. */
+static double speed_of(const pendres_strobe_lane *lane)
 {
-  size_t n = 0;
-  size_t *which = malloc((j->n + 1) * sizeof *which);
-  if (which == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", j->n);
-  for (size_t i = 0; i < j->n; i++)
-    if (j->runner[i].state == PENDRES_RUNNER_DONE && j->out[i].label == PENDRES_LABEL_CHAOTIC)
-      which[n++] = i;
-  pendres_status status = pendres_runners_watch(ctx, n, which, j->runner, batch, j->longer);
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++)
-    if (j->runner[which[k]].state != PENDRES_RUNNER_DONE)
-      j->out[which[k]].label = PENDRES_LABEL_UNRESOLVED;
-  free(which);
+  double x, v;
+  pendres_strobe_lane_out(lane, &x, &v);
+  return fmax(pendres_steps_speed(lane->pendulum, x, v),
+              pendres_steps_turning_speed(lane->pendulum));
+}
+
+/* Follow what may be chaos by its states alone, before it is averaged: chaos that ends comes to an
+   orbit, or leaves. Where errors are large already, they may be larger. */
+static pendres_status follow(pendres_context *ctx, const job *j)
+{
+  const double usual = pendres_accuracy_to_average(ctx);
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_MOVING) continue;
+    r->further = j->longer;
+    r->lane.added = pendres_settle_added(ctx, usual, r->steps);
+    if (r->doubt > 1.0)
+      status = pendres_steps_choose(ctx, r->lane.pendulum, speed_of(&r->lane),
+                                    pendres_accuracy_to_follow(ctx), &r->lane.steps);
+  }
+  if (status == PENDRES_OK) status = run_lanes(ctx, j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   return status == PENDRES_OK ? settle_caught(ctx, j) : status;
+}
+
+/* Average all that move over `batch` periods a batch, and judge them. */
+static pendres_status look(pendres_context *ctx, const job *j, long batch, double enough)
+{
+  pendres_status status = pendres_runners_average(ctx, j->n, j->runner, batch);
+  grow_errors(j);
+  if (status == PENDRES_OK) status = tell_away(ctx, j);
+  if (status == PENDRES_OK) status = settle_caught(ctx, j);
+  /* Runners whose orbit was not stable have averages of this round, and no result yet. */
+  if (status == PENDRES_OK) judge(j, batch, enough);
+  if (status == PENDRES_OK) status = settle_caught(ctx, j);
+  if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE && j->care != PENDRES_CARE_LABEL)
+    status = pendres_means_refine(ctx, j->n, j->runner, batch, j->out);
+  return status;
+}
+
+/* Look at what may be rotations by their states alone; the others wait. Those that are none run
+   beside a neighbour from here on. */
+static pendres_status look_at_rotations(pendres_context *ctx, const job *j, long batch,
+                                        double enough)
+{
+  for (size_t i = 0; i < j->n; i++) {
+    pendres_runner *r = &j->runner[i];
+    if (r->rotates) r->beside = PENDRES_BESIDE_NOTHING;
+    else if (r->state == PENDRES_RUNNER_MOVING) r->state = PENDRES_RUNNER_WAITING;
+  }
+  const pendres_status status = look(ctx, j, batch, enough);
+  for (size_t i = 0; i < j->n; i++)
+    if (j->runner[i].state == PENDRES_RUNNER_WAITING) j->runner[i].state = PENDRES_RUNNER_MOVING;
+  return status;
 }
 
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
@@ -393,23 +442,16 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) status = load(ctx, j, i);
   if (status == PENDRES_OK) status = tell_linear(ctx, j);
-  if (status == PENDRES_OK) status = run_transient(ctx, j);
+  if (status == PENDRES_OK) status = run_lanes(ctx, j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   if (status == PENDRES_OK) status = settle_caught(ctx, j);
-  /* Chaos leaves no doubt in most cases, and tangent vectors show it at half the cost. */
+  give_up(j, batch, 1);
+  if (status == PENDRES_OK && j->care <= PENDRES_CARE_LABEL)
+    status = look_at_rotations(ctx, j, batch, wanted);
+  if (status == PENDRES_OK && j->longer > 0) status = follow(ctx, j);
   for (int round = 0; round < j->rounds && status == PENDRES_OK; round++, batch *= 2) {
-    give_up(j, batch, round == 0);
-    status = pendres_runners_average(ctx, j->n, j->runner, batch);
-    grow_errors(j);
-    if (status == PENDRES_OK) status = tell_away(ctx, j);
-    if (status == PENDRES_OK) status = settle_caught(ctx, j);
-    /* Runners whose orbit was not stable have averages of this round, and no result yet. */
-    if (status == PENDRES_OK) judge(j, batch, round + 1 < j->rounds ? wanted : least);
-    if (status == PENDRES_OK) status = settle_caught(ctx, j);
-    if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE &&
-        j->care != PENDRES_CARE_LABEL)
-      status = pendres_means_refine(ctx, j->n, j->runner, batch, j->out);
-    if (status == PENDRES_OK && round == 0 && j->longer > 0) status = watch(ctx, j, batch);
+    if (round > 0) give_up(j, batch, 0);
+    status = look(ctx, j, batch, round + 1 < j->rounds ? wanted : least);
   }
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++)
     j->out[i].certain = is_certain(&j->runner[i], j->out[i].label);

@@ -17,8 +17,8 @@ typedef struct pendres_lyapunov_job {
   const double *x, *v;              /* starts */
   double accuracy;                  /* error a period on the way from the start */
   long transient, periods;          /* 0: as is best; of the first average */
-  long longer;                      /* chaos is followed without tangent vectors after its first
-                                       average, for this many times its periods */
+  long longer;                      /* periods by which what may be chaos is followed further, by
+                                       its states alone, before it is averaged */
   int asked;                        /* number of periods, by the caller */
   int rounds;
   pendres_lyapunov_care care;
