@@ -110,16 +110,33 @@ static pendres_status begin_path(path *w, double x, double v)
   return status;
 }
 
+/* Settle the pendulum at value number i, from its present state. The mean of a rotation is found
+   with those at the values that follow. */
+static pendres_status settle_alone(path *w, size_t i)
+{
+  const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
+  const pendres_settled from = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  const pendres_lyapunov_care care = w->settled ? PENDRES_CARE_LABEL : PENDRES_CARE_FULL;
+  int found = 0;
+  pendres_status status = pendres_settled_find(w->ctx, &p, from.x, from.v, care, &w->state);
+  if (status != PENDRES_OK || !w->settled ||
+      w->state.attractor.label != PENDRES_LABEL_QUASI_PERIODIC)
+    return status;
+  const int certain = w->state.certain;
+  status = pendres_path_unlocked_at(w, i, &found);
+  if (found) w->state.certain = certain;
+  if (found || status != PENDRES_OK) return status;
+  return pendres_settled_find(w->ctx, &p, from.x, from.v, PENDRES_CARE_FULL, &w->state);
+}
+
 /* Find what the pendulum settles on at value number *i, from its present state, unless it is known,
    or the orbit that it goes to on the way there, which is to be followed first. */
 static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known)
 {
-  const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
   const pendres_settled old = w->state;
   pendres_status status = PENDRES_OK;
   if (known->attractor.label != PENDRES_LABEL_UNRESOLVED) w->state = *known;
-  else
-    status = pendres_settled_find(w->ctx, &p, old.x, old.v, PENDRES_CARE_FULL, &w->state);
+  else status = settle_alone(w, *i);
   if (status == PENDRES_OK) status = begin_path(w, old.x, old.v);
   if (status == PENDRES_OK && w->settled &&
       pendres_chaos_ends(&old.attractor, &w->state.attractor)) {

@@ -7,7 +7,9 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 
-enum { ABREAST = 1024 };
+/* So many at once that the few lanes left at last, which slip past the end of a lock seldom, are
+   those of all values of most paths. */
+enum { ABREAST = 4096 };
 
 /* In the parameter's scale: values this close are averaged side by side; what is found so close is
    what the pendulum comes to, whatever it is. */
@@ -90,7 +92,8 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
   return status;
 }
 
-static void take(pendres_path *w, size_t i, const pendres_unlocked *u)
+/* The pendulum is on a rotation that is known. */
+static void stand_on(pendres_path *w, const pendres_unlocked *u)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, u->value);
   w->state = pendres_settled_nothing_at(&p, u->x, u->v);
@@ -98,6 +101,11 @@ static void take(pendres_path *w, size_t i, const pendres_unlocked *u)
   w->state.attractor.lyapunov = w->state.attractor.lyapunov_error = 0.0;
   w->state.attractor.drift = u->turns;
   w->state.attractor.drift_error = u->turns_error;
+}
+
+static void take(pendres_path *w, size_t i, const pendres_unlocked *u)
+{
+  stand_on(w, u);
   w->at = u->value;
   pendres_path_put(w, i, &w->state.attractor);
 }
@@ -124,5 +132,16 @@ pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled
   }
   if (*i < w->n && fabs(w->value[*i] - w->at) > close)
     next->attractor.label = PENDRES_LABEL_UNRESOLVED;
+  return status;
+}
+
+pendres_status pendres_path_unlocked_at(pendres_path *w, size_t i, int *found)
+{
+  pendres_settled ignored;
+  pendres_status status = make_table(w);
+  const pendres_unlocked *u = status == PENDRES_OK ? at(w, w->value[i]) : NULL;
+  if (status == PENDRES_OK && !u->tried) status = average(w, i, &ignored);
+  *found = status == PENDRES_OK && u->found;
+  if (*found) stand_on(w, u);
   return status;
 }

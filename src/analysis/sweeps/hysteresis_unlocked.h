@@ -17,6 +17,10 @@
  */
 pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled *next);
 
+/* Find the mean of the rotation on which a pendulum has settled at value number i, together with
+   those at the values that follow: *found says whether w->state is on it. */
+pendres_status pendres_path_unlocked_at(pendres_path *w, size_t i, int *found);
+
 void pendres_path_unlocked_free(pendres_path *w);
 
 #endif
