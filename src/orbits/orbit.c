@@ -27,7 +27,7 @@ typedef struct result {
   double dy, dw; /* derivatives of y and w by omega */
   double slope;  /* dA/domega */
   double slope_apart; /* how far it is from the same integral by parts */
-  double derivative; /* root mean square of dw/domega along the orbit */
+  double derivative; /* root mean square of dw/domega along the orbit, for its rounding */
   pendres_newton_noise noise; /* of the finer run */
   double rounded[2]; /* what rounding makes of angles along the finer run, and of the slope */
   pendres_orbit_measures measures;
@@ -39,13 +39,17 @@ typedef struct reading {
   result *results;
 } reading;
 
+/* Along an unstable orbit the derivative by the frequency from a fixed start and that by the start
+   grow, and cancel. Their rounding counts where less than this share of them is left. */
+static const double cancels = 0.1;
+
 /* Take the loop area's slope, and the same from an integral by parts. Returns 0 at a fold, where
    there is none. */
 static int take_slope(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                       result *out)
 {
   const size_t n = taken->count;
-  double sum = 0.0, parts = 0.0, squares = 0.0, by_omega[2];
+  double sum = 0.0, parts = 0.0, squares = 0.0, cancelled = 0.0, by_omega[2];
   if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return 0;
   for (size_t k = 0; k < n; k++) {
     const double *row = pendres_newton_sample(taken, k, c->lane);
@@ -54,11 +58,13 @@ static int take_slope(const pendres_newton_candidate *c, const pendres_newton_sa
     sum += cos(theta) * derivative;
     parts += sin(theta) * (row[6] + row[2] * by_omega[0] + row[4] * by_omega[1]);
     squares += derivative * derivative;
+    const double start = hypot(row[3] * by_omega[0], row[5] * by_omega[1]);
+    cancelled += row[7] * row[7] + start * start;
   }
   const double cycle = c->guess->pendulum.drive_amplitude * two_pi;
   out->dy = by_omega[0];
   out->dw = by_omega[1];
-  out->derivative = sqrt(squares / (double)n);
+  out->derivative = sqrt(fmax(squares, cancels * cancels * cancelled) / (double)n);
   out->slope = cycle * sum / (double)n;
   /* Harmonics next to the number of samples are taken for the first one. They add to the integral
      of the slopes by their number, to that of the angles only once: the difference tells. */

@@ -1,6 +1,7 @@
 /* strobe.c -- the stroboscopic map of any list of pendulums; see strobe.h. */
 #include <pendres/strobe.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,7 @@
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
+#include "model/model.h"
 
 static int after_all_periods(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
@@ -89,13 +91,32 @@ static double distance(const pendres_strobe_lane *a, const pendres_coordinates *
 }
 
 /*
+ * The coefficients of the equation, of the method, and the step are rounded once for the whole run:
+ * free oscillations are as wrong as if time went by faster by some units in its last place. That
+ * grows with time, the steps' own rounding with its root; it is more where a weakly damped pendulum
+ * oscillates hundreds of times in a slow drive. Two units: halves of one each come from the square
+ * of the frequency, the division by it, the step and the sum of the method's weights.
+ */
+static double drift_of(const pendres_strobe_lane *l)
+{
+  const pendres_pendulum *p = l->pendulum;
+  const double period = two_pi / p->drive_frequency;
+  const double late = 2.0 * DBL_EPSILON * period * periods_that_count(p, l->period);
+  double force, slope;
+  pendres_model_force(p, l->y, &force, &slope);
+  const double v = l->w * p->drive_frequency;
+  const double pull = p->torque + p->drive_amplitude - (1.0 + p->parametric_amplitude) * force;
+  return late * fmax(fabs(v), fabs(pull - p->damping * v));
+}
+
+/*
  * The error, from the distance of two runs, the standard error of rounding, and what is lost where
  * whole turns and the velocity are put together.
  */
 static double error_of(double apart, double noise, const pendres_strobe_lane *l)
 {
   const double v = fabs(l->w) * l->pendulum->drive_frequency;
-  return pendres_strobe_error(apart) + 2.0 * noise +
+  return pendres_strobe_error(apart) + fmax(2.0 * noise, noise + drift_of(l)) +
          2.2e-16 * fmax(8.0 + two_pi * fabs((double)l->turns), v);
 }
 
