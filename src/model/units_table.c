@@ -134,6 +134,10 @@ TABLE(cascade, pendres_cascade, cascade);
 static const pendres_dimension ensemble[] = {E(x_first, 1, 0), E(x_last, 1, 0), E(v, 1, -1),
                                              E(v_last, 1, -1)};
 TABLE(ensemble, pendres_ensemble, ensemble);
+typedef pendres_ensemble ensemble_type;
+
+static const pendres_dimension phase_options[] = {PART(pendres_phase_options, ensemble, ensemble)};
+TABLE(phase_options, pendres_phase_options, phase_options);
 
 #define R(field, l, t) ROW(pendres_response, field, l, t)
 static const pendres_dimension response[] = {

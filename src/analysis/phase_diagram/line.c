@@ -6,7 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "continuation/units.h"
-#include "analysis/phase_diagram/door.h"
+#include "engine/door.h"
 #include "model/model.h"
 #include "analysis/resonance/response_members.h"
 #include "base/sized.h"
@@ -308,16 +308,28 @@ static pendres_status phase_line(pendres_context *ctx, size_t n, const pendres_p
   return status;
 }
 
+/* Open the door to a line of n records that begin with their pendulums, `stride` bytes apart. */
+static pendres_door open_line(pendres_context *ctx, const pendres_phase_options *o, size_t n,
+                              const void *records, size_t stride)
+{
+  if (n == 0 || o == NULL || records == NULL ||
+      (unsigned)o->parameter >= PENDRES_PARAMETER_FOLLOWED)
+    return pendres_door_open(ctx, NULL);
+  const pendres_pendulum *first = records;
+  const pendres_pendulum *last = (const void *)((const char *)records + (n - 1) * stride);
+  const double ends[2] = {pendres_parameter_get(o->parameter, first),
+                          pendres_parameter_get(o->parameter, last)};
+  return pendres_door_open_along(ctx, first, o->parameter, 2, ends);
+}
+
 pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
                                   const pendres_phase_options *options, pendres_phase_point *out,
                                   pendres_branches **branches)
 {
   if (branches != NULL) *branches = NULL;
-  pendres_door d = pendres_phase_open(ctx, options, n, n > 0 ? pendulums : NULL,
-                                      n > 0 && pendulums != NULL ? &pendulums[n - 1] : NULL);
+  pendres_door d = open_line(ctx, options, n, pendulums, sizeof *pendulums);
   PENDRES_DOOR_IN(&d, pendulum, n, pendulums);
-  pendres_phase_options inside;
-  options = pendres_phase_options_inside(&d, options, &inside);
+  PENDRES_DOOR_IN(&d, phase_options, 1, options);
   PENDRES_DOOR_OUT(&d, phase_point, n, out);
   PENDRES_DOOR_CALL(&d, phase_line(ctx, n, pendulums, options, out, branches));
   if (branches != NULL) pendres_curves_leave(&d, pendres_branches_set(*branches));
@@ -471,12 +483,9 @@ pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
                                            pendres_phase_point *points,
                                            pendres_branches *branches)
 {
-  pendres_door d = pendres_phase_open(ctx, options, n,
-                                      n > 0 && points != NULL ? &points[0].pendulum : NULL,
-    n > 0 && points != NULL ? &points[n - 1].pendulum : NULL);
-  pendres_phase_options inside;
+  pendres_door d = open_line(ctx, options, n, points, sizeof *points);
   curves = pendres_curves_inside(&d, curves);
-  options = pendres_phase_options_inside(&d, options, &inside);
+  PENDRES_DOOR_IN(&d, phase_options, 1, options);
   PENDRES_DOOR_OUT(&d, phase_point, n, points);
   if (d.status == PENDRES_OK) {
     pendres_curves_enter(&d, pendres_branches_set(branches));
