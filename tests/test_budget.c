@@ -153,6 +153,35 @@ static void a_bar_names_what_is_long(void **state)
   assert_int_equal(fclose(p.stream), 0);
 }
 
+/* Before the first tasks, and between stages, it is told for how long nothing has been counted. */
+static void waiting_is_shown(void **state)
+{
+  char text[4000];
+  progress p;
+  (void)state;
+  progress_init(&p, tmpfile(), 0);
+  assert_non_null(p.stream);
+  p.terminal = 1;
+  progress_wait(&p);
+  assert_int_equal(p.width, 0); /* not at once */
+  p.start -= 7.2;
+  progress_wait(&p);
+  (void)read_told(p.stream, text, sizeof text);
+  check_says(text, "before the next tasks, for 7 s");
+  const int width = p.width;
+  progress_start(&p, "dampings", 10, 0);
+  progress_wait(&p); /* tasks are counted now */
+  assert_int_equal(p.width, width);
+  progress_end(&p);
+  assert_int_equal(p.width, 0);
+  p.terminal = 0;
+  p.every = 0.0;
+  progress_wait(&p);
+  (void)read_told(p.stream, text, sizeof text);
+  check_says(text, "resonance: before the next tasks, for 0 s\n");
+  assert_int_equal(fclose(p.stream), 0);
+}
+
 /* ---- the program ---- */
 
 static const struct {
@@ -251,7 +280,8 @@ static void parts_tell(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(ends_at_its_budget), TEST(costly_points_are_told),
-                                      TEST(a_bar_names_what_is_long), TEST(the_run_goes_on),
+                                      TEST(a_bar_names_what_is_long), TEST(waiting_is_shown),
+                                      TEST(the_run_goes_on),
                                       TEST(scenes_without_lines),
                                       TEST(parts_tell) };
   if (!find_program()) return 77;

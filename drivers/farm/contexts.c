@@ -124,11 +124,22 @@ const char *farm_message(const farm *f)
   return f->message;
 }
 
+/* Asked between stages, when no tasks run; maybe by several threads of the library. */
+static int stopped_between(void *arg)
+{
+  farm *f = arg;
+  if (pthread_mutex_trylock(&f->lock) == 0) {
+    progress_wait(f->options.progress);
+    pthread_mutex_unlock(&f->lock);
+  }
+  return farm_stop(f);
+}
+
 pendres_context *farm_context(farm *f)
 {
   pendres_context *ctx = NULL;
   if (farm_context_of(f, 0, &ctx) == PENDRES_OK)
-    pendres_context_set_interrupt(ctx, farm_stopped, f);
+    pendres_context_set_interrupt(ctx, stopped_between, f);
   return ctx;
 }
 

@@ -12,7 +12,7 @@ struct farm {
   int threads;
   int short_of;              /* how many threads could be started, if fewer than requested;
                                 otherwise 0 */
-  pthread_mutex_t lock;      /* of `spent` */
+  pthread_mutex_t lock;      /* of `spent`, and of the progress between stages */
   pendres_cost spent;        /* without what the contexts still count themselves */
   pendres_context **context; /* one for each thread, made at its first task */
   journal *journal;          /* NULL: none */

@@ -19,6 +19,8 @@ enum { BAR = 30, LINE_STEP = 10, MOST_COLUMNS = 240 };
 static const double redraw_after = 0.1;
 /* What is done sooner needs no lines. */
 static const double first_line_after = 1.0;
+/* How often it is said that nothing is counted yet, seconds. */
+static const double wait_redraw = 1.0;
 /* A bar names what has been at work for longer. */
 static const double named_after = 3.0;
 
@@ -37,6 +39,7 @@ void progress_init(progress *p, FILE *stream, int quiet)
 {
   const char *terminal = getenv("TERM");
   *p = (progress){ .stream = stream, .quiet = quiet, .every = 300.0 };
+  p->start = p->spoken = clock_wall();
   p->terminal = isatty(fileno(stream)) && (terminal == NULL || strcmp(terminal, "dumb") != 0);
 }
 
@@ -134,6 +137,25 @@ void progress_end(progress *p)
   clear(p);
   fflush(p->stream);
   p->total = 0;
+  p->start = clock_wall();
+  p->drawn = 0.0;
+}
+
+void progress_wait(progress *p)
+{
+  char text[80];
+  if (p == NULL || p->total > 0) return;
+  const double t = clock_wall(), elapsed = t - p->start;
+  const int draws = p->terminal && !p->quiet && elapsed - p->drawn >= wait_redraw;
+  if (!draws && t - p->spoken < p->every) return;
+  snprintf(text, sizeof text, "before the next tasks, for %.0f s", elapsed);
+  if (draws) {
+    clear(p);
+    p->width = fprintf(p->stream, "%s", text);
+    p->drawn = elapsed;
+    fflush(p->stream);
+  }
+  if (t - p->spoken >= p->every) tell(p, text);
 }
 
 static void say(progress *p, int silent, const char *kind, const char *format, va_list args)

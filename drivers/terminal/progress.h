@@ -25,7 +25,8 @@ typedef struct progress {
   char name[120];    /* of what has been running for the longest time; "": not known */
   double since;      /* that time, seconds */
   int width;         /* of the bar's present line; 0: none */
-  double start, drawn, spoken; /* times in seconds: of the start, of the bar, of the last line */
+  double start, drawn, spoken; /* times in seconds: of the start, or of the end before it; of the
+                                  bar, counted from there; of the last line */
   double every;      /* seconds after which a line is written in any case */
 } progress;
 
@@ -42,6 +43,10 @@ void progress_end(progress *p);
    is written, with the name of what has been running for the longest time and its seconds; a bar
    always shows these. */
 void progress_tick(progress *p, size_t done, const char *name, double seconds);
+
+/* To be called now and then while nothing is counted, as before a run's first tasks: a terminal
+   shows for how long, once a second; otherwise there is a line after five minutes. */
+void progress_wait(progress *p);
 
 /* A message about the run; an error message. A line break is added. */
 void progress_note(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
