@@ -87,7 +87,7 @@ static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
     x[at] = f->job->x[i] + off * cos(angle);
     x[all + at] = f->job->v[i] + off * sin(angle);
   }
-  if (f->first > 0) j.longer = 0; /* for as long as their pendulum they need not be followed */
+  if (f->first > 0 && j.longer > j.periods) j.longer = j.periods; /* they need less than it */
   j.n = all;
   j.pendulum = p;
   j.x = x;

@@ -110,8 +110,8 @@ static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
   return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
 }
 
-/* Among the bands of chaos points come back next to orbits of many periods whose multipliers are
-   not known well enough to say that they attract. */
+/* Among the bands of chaos points come back next to orbits of many periods whose multipliers may
+   not be known well enough to say that they attract. */
 static int is_surely_stable(const pendres_orbit *o)
 {
   return hypot(o->multiplier_re[0], o->multiplier_im[0]) + o->multiplier_error < 1.0;
@@ -141,8 +141,7 @@ static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_
     const pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_CAUGHT) continue;
     const pendres_orbit *o = &orbit[k];
-    const int is =
-      outcome[k] != PENDRES_NOT_CONVERGED && is_surely_stable(o) && is_near(o, &r->lane);
+    const int is = outcome[k] != PENDRES_NOT_CONVERGED && o->stable && is_near(o, &r->lane);
     outcome[k++] = is ? PENDRES_OK : PENDRES_NOT_CONVERGED;
     if (is) orbit[good++] = *o;
   }
@@ -171,6 +170,7 @@ static pendres_status settle_caught(pendres_context *ctx, const job *j)
     r->state = is ? PENDRES_RUNNER_DONE : PENDRES_RUNNER_MOVING;
     if (!is) r->near *= closer;
     if (!is) continue;
+    if (!is_surely_stable(&orbit[good])) r->doubt = INFINITY;
     take_orbit(&orbit[good], &j->out[i]);
     if (j->orbit != NULL) j->orbit[i] = orbit[good];
     good++;
