@@ -33,7 +33,7 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/limit
   orbits/orbit_reading.h orbits/orbit_series.h
   orbits/settle.h orbits/settle_lanes.h orbits/mean.h
   noise/langevin_moving.h noise/noise_common.h continuation/equations.h continuation/parameter.h
-  continuation/part.h continuation/follow.h
+  continuation/part.h continuation/follow.h continuation/numbers.h
   continuation/sets.h continuation/units.h
   analysis/resonance/response_members.h analysis/chaos/lyapunov_move.h'
 drivers_doors='system/bytes.h system/clock.h system/grow.h system/own_file.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h

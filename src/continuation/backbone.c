@@ -14,6 +14,7 @@
 
 #include "base/angles.h"
 #include "continuation/curve.h"
+#include "continuation/numbers.h"
 #include "continuation/units.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -21,10 +22,17 @@
 #include "model/model.h"
 #include "orbits/attractor_set.h"
 
-enum { MOST_ADVANCES = 300, MOST_ROLLS = 1000, MOST_HALVINGS = 60, MOST_STARTS = 6 };
+/* Steps downhill, of a tenth at most, after which no well is expected any more; amplitudes that are
+   tried, each half of the one before. */
+enum { MOST_ROLLS = 1000, MOST_STARTS = 6 };
 /* The curve is begun at this amplitude or below, where a single harmonic is an orbit to some per
    cent; or above, where the force stiffens: such oscillations stay close to a harmonic. */
 static const double first_amplitude = 0.1;
+/* So close to a place the force is linear to a few millionths. */
+static const double near = 1e-3;
+/* The damping at the start is larger by this factor than what is asked for: the start is moved when
+   it is corrected. */
+static const double beyond = 1.1;
 
 /* ---- small oscillations ---- */
 
@@ -32,7 +40,7 @@ static const double first_amplitude = 0.1;
    top of a barrier, right above it; 0: nowhere. */
 static int find_well(const pendres_pendulum *p, double *y)
 {
-  static const double longest = 0.1, beside = 1e-3, last = 1e-12;
+  static const double longest = 0.1, last = 1e-12;
   double force, slope, low, high;
   *y = 0.0;
   for (int i = 0; i < MOST_ROLLS; i++) {
@@ -41,10 +49,10 @@ static int find_well(const pendres_pendulum *p, double *y)
     const double step = push != 0.0 ? copysign(fmin(longest, fabs(push / slope)), push) : 0.0;
     *y += step;
     if (!(fabs(step) > last)) {
-      pendres_model_force(p, *y - beside, &low, &slope);
-      pendres_model_force(p, *y + beside, &high, &slope);
+      pendres_model_force(p, *y - near, &low, &slope);
+      pendres_model_force(p, *y + near, &high, &slope);
       if (low < p->torque && p->torque < high) return 1;
-      *y += beside;
+      *y += near;
     }
   }
   return 0;
@@ -54,8 +62,7 @@ static int find_well(const pendres_pendulum *p, double *y)
 static double stiffness(const pendres_pendulum *p, double well, double amplitude)
 {
   enum { PHASES = 16 };
-  static const double least = 1e-6; /* of the amplitude: below it the force is linear */
-  const double a = fmax(amplitude, least);
+  const double a = fmax(amplitude, near);
   double sum = 0.0, force, slope;
   for (int i = 0; i < PHASES; i++) {
     const double sine = sin(two_pi * i / PHASES);
@@ -92,7 +99,7 @@ static pendres_orbit oscillation(const pendres_pendulum *p, double well, double 
   o.winding = 0;
   o.mean_angle = well;
   o.symmetric = pendres_pendulum_symmetric(p) &&
-                fabs(pendres_model_centre(p, well) - well) < 1e-3 * first_amplitude;
+                fabs(pendres_model_centre(p, well) - well) < near;
   return o;
 }
 
@@ -102,13 +109,12 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, do
                             pendres_follower *w)
 {
   static const pendres_parameter along[] = {PENDRES_DRIVE_FREQUENCY, PENDRES_DAMPING};
-  static const double spacing = 0.1, beyond = 1.1;
   pendres_pendulum p = *of;
   double well;
   int starts = 0;
   if (!find_well(&p, &well)) return PENDRES_NOT_FOUND;
-  double a = largest_start(&p, well, beyond * strongest);
-  for (int i = 0; i < MOST_HALVINGS && starts < MOST_STARTS; i++, a *= 0.5) {
+  for (double a = largest_start(&p, well, beyond * strongest); a > 0.0 && starts < MOST_STARTS;
+       a *= 0.5) {
     double u[PENDRES_U_COUNT];
     p.damping = damping_at(&p, well, a);
     if (!(p.damping >= beyond * strongest)) continue;
@@ -116,7 +122,7 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, do
     starts++;
     const pendres_orbit o = oscillation(&p, well, a);
     const pendres_followed kind =
-      pendres_followed_of(&o, PENDRES_CONDITION_LAG, along, spacing, u);
+      pendres_followed_of(&o, PENDRES_CONDITION_LAG, along, pendres_search_spacing, u);
     const pendres_status status = pendres_follow_begin(ctx, &kind, u, -1.0, w);
     if (status != PENDRES_OK && status != PENDRES_NOT_CONVERGED) return status;
     const double off = hypot(w->here.u[PENDRES_U_Y] - well, w->here.u[PENDRES_U_W] - a);
@@ -142,7 +148,6 @@ typedef struct line {
 static int between(const pendres_system *s, const pendres_curve_node *a,
                    const pendres_curve_node *b, double damping, pendres_curve_node *out)
 {
-  static const double rounding = 1e-9;
   const int last = s->unknowns - 1;
   const double h = b->arclength - a->arclength, away = damping - a->u[PENDRES_U_GAMMA];
   double slope[PENDRES_UNKNOWNS], bend[PENDRES_UNKNOWNS];
@@ -152,8 +157,9 @@ static int between(const pendres_system *s, const pendres_curve_node *a,
     bend[k] = (b->u[i] - a->u[i] - slope[k] * h) / (h * h);
   }
   const double square = slope[last] * slope[last] + 4.0 * bend[last] * away;
-  const double way = 2.0 * away / (slope[last] - sqrt(square));
-  if (!(square >= 0.0 && way >= 0.0 && way <= (1.0 + rounding) * h)) return 0;
+  double way = 2.0 * away / (slope[last] - sqrt(square));
+  if (damping >= b->u[PENDRES_U_GAMMA]) way = fmin(way, h); /* beyond by rounding alone */
+  if (!(square >= 0.0 && way >= 0.0 && way <= h)) return 0;
   *out = *a;
   for (int k = 0; k < s->unknowns; k++)
     out->u[s->unknown[k]] += way * (slope[k] + way * bend[k]);
@@ -167,9 +173,9 @@ static int between(const pendres_system *s, const pendres_curve_node *a,
 /* Follow the curve to the weakest damping of a line, or as far as it goes. */
 static pendres_status follow(pendres_context *ctx, pendres_follower *w, line *l)
 {
-  static const double wildest = 1e3; /* growth of errors in a map, as for branches */
   pendres_curve_node last = w->here;
-  for (int i = 0; i < MOST_ADVANCES && !w->stuck && w->here.growth < wildest; i++) {
+  for (int i = 0; i < PENDRES_SEARCH_ADVANCES && !w->stuck &&
+                  w->here.growth < pendres_curve_wildest; i++) {
     const pendres_status status = pendres_follow_advance(ctx, 1, &w);
     if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
     for (int k = 0; k < w->found; k++, last = w->ahead[k - 1]) {

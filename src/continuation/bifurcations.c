@@ -7,11 +7,14 @@
 
 #include "base/grow.h"
 #include "base/sized.h"
+#include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
 
-static const double wildest = 300.0; /* default */
+/* Curves of bifurcations are given up earlier than branches: their equations have derivatives of
+   the map, whose errors grow as the square. */
+static const double wildest = 300.0;
 
 pendres_special pendres_curve_kind_get(const pendres_curve *c)
 {
@@ -163,9 +166,11 @@ static pendres_status curve_follow(pendres_context *ctx, const pendres_bifurcati
   const pendres_curve_bounds bounds = {.low = {o->low[0], o->low[1]},
                                        .high = {o->high[0], o->high[1]},
                                        .wildest = o->wildest > 0.0 ? o->wildest : wildest,
-                                       .most_points = o->most_points > 0 ? o->most_points : 2000};
+                                       .most_points = o->most_points > 0 ? o->most_points
+                                                                         : PENDRES_CURVE_POINTS};
   pendres_curve_start start;
-  start.kind = pendres_followed_at(b, o->second, o->spacing > 0.0 ? o->spacing : 0.05, start.u);
+  start.kind = pendres_followed_at(
+    b, o->second, o->spacing > 0.0 ? o->spacing : pendres_curve_spacing, start.u);
   return pendres_curve_make(ctx, &start, &bounds, finish, out);
 }
 

@@ -9,6 +9,7 @@
 #include "base/sized.h"
 #include "continuation/crossing.h"
 #include "continuation/curve.h"
+#include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/accuracy.h"
@@ -74,6 +75,10 @@ static pendres_status half_at(pendres_context *ctx, const pendres_curve *t, int 
   return status;
 }
 
+/* An orbit that misses closing by a half map by less than this is next to where the branch was born
+   from such orbits: it may be so far away by the length of a step. */
+static const double nearly = 1e-3;
+
 /* Find the number of the half map by which an orbit at a place nearly closes; -1: by none. */
 static pendres_status closing_half(pendres_context *ctx, const pendres_curve *t,
                                    const double u[PENDRES_U_COUNT], int *which)
@@ -83,7 +88,7 @@ static pendres_status closing_half(pendres_context *ctx, const pendres_curve *t,
     double off = NAN;
     const pendres_status status = half_at(ctx, t, *which, u, &half, &off);
     if (status == PENDRES_NOT_CONVERGED) break;
-    if (status != PENDRES_OK || off < 1e-3) return status;
+    if (status != PENDRES_OK || off < nearly) return status;
   }
   *which = -1;
   return PENDRES_OK;
@@ -274,14 +279,15 @@ static pendres_status branch_follow(pendres_context *ctx, const pendres_orbit *o
   *out = NULL;
   const char *why = pendres_branch_refuses(o, 1, orbit);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
-  const pendres_curve_bounds bounds = {.low = {o->low},
-                                       .high = {o->high},
-                                       .wildest = o->wildest > 0.0 ? o->wildest : 1e3,
-                                       .most_points = o->most_points > 0 ? o->most_points : 2000};
+  const pendres_curve_bounds bounds = {
+    .low = {o->low},
+    .high = {o->high},
+    .wildest = o->wildest > 0.0 ? o->wildest : pendres_curve_wildest,
+    .most_points = o->most_points > 0 ? o->most_points : PENDRES_CURVE_POINTS};
   pendres_curve_start start;
   pendres_curve *curve = NULL;
   start.kind = pendres_followed_of(orbit, PENDRES_CONDITION_NONE, &o->parameter,
-                                   o->spacing > 0.0 ? o->spacing : 0.05, start.u);
+                                   o->spacing > 0.0 ? o->spacing : pendres_curve_spacing, start.u);
   const pendres_status status = pendres_curve_make(ctx, &start, &bounds, finish, &curve);
   *out = pendres_branch_of(curve);
   return status;

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "continuation/numbers.h"
+
 /* The place in a point of column k of B. */
 static int place_of(int parameter, int k)
 {
@@ -53,6 +55,9 @@ int pendres_crossing_closes(const pendres_image *image, int parameter, int steps
 }
 
 /* ---- directions ---- */
+
+/* Of two directions at a branch point the second is another if it goes across by more than this. */
+static const double another_way = 1e-6;
 
 static double dot(const double a[3], const double b[3])
 {
@@ -114,7 +119,7 @@ static pendres_status bend_of(pendres_context *ctx, const pendres_system *system
                               const double u[PENDRES_U_COUNT], const double l[2],
                               double plane[2][3], double bend[2][2])
 {
-  static const double h = 1e-4; /* truncation h^2 and rounding 1e-15/h only steer a direction */
+  const double h = pendres_central_step; /* its errors only steer a direction */
   const int parameter = system->unknown[2];
   pendres_image image[4];
   double points[4][PENDRES_U_COUNT], scale[3], way[2][3];
@@ -167,6 +172,6 @@ pendres_status pendres_crossing_direction(pendres_context *ctx, const pendres_sy
   const double root = sqrt(mixed * mixed - bend[0][0] * bend[1][1]);
   const double across = mixed + copysign(root, mixed);
   for (int k = 0; k < 3; k++) crossing[k] = across * plane[1][k] - bend[1][1] * plane[0][k];
-  return normalise(crossing) && fabs(across) > 1e-6 * fabs(bend[1][1]) ? PENDRES_OK
+  return normalise(crossing) && fabs(across) > another_way * fabs(bend[1][1]) ? PENDRES_OK
                                                                     : PENDRES_NOT_CONVERGED;
 }

@@ -9,6 +9,14 @@
 #include "engine/context_internal.h"
 #include "model/model.h"
 
+/* A node on a bound has its parameter to this: the plane that it is corrected in is that value. */
+static const double on_bound = 1e-12;
+/* A curve is back at its start where it passes that in its own direction, to this cosine, and after
+   more than this many of its steps. */
+static const double back_along = 0.9, another_pass = 4.0;
+/* Special points of one kind whose unknowns are closer than this are one: their errors are less. */
+static const double one_place = 1e-8;
+
 static pendres_status no_memory(pendres_context *ctx)
 {
   return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
@@ -105,7 +113,7 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
   if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, &c);
   const double chord = pendres_arc_distance(inside->u, outside->u);
   if (status != PENDRES_OK || isnan(pendres_correction_rounding(&c)) ||
-      pendres_arc_distance(inside->u, c.u) > chord || fabs(c.u[place] - bound) > 1e-12)
+      pendres_arc_distance(inside->u, c.u) > chord || fabs(c.u[place] - bound) > on_bound)
     return status;
   memcpy(node->u, c.u, sizeof node->u);
   node->u[place] = bound;
@@ -148,7 +156,7 @@ static int passes(const pendres_system *s, const pendres_curve_node *start,
     along += t * b->tangent[k];
   }
   const double chord = pendres_arc_distance(a->u, b->u);
-  return before < 0.0 && behind >= 0.0 && along > 0.9 &&
+  return before < 0.0 && behind >= 0.0 && along > back_along &&
          pendres_arc_distance(a->u, here) <= chord && pendres_arc_distance(b->u, here) <= chord;
 }
 
@@ -173,7 +181,7 @@ static pendres_status take(pendres_context *ctx, const pendres_curve_bounds *b,
       const pendres_status status = land(ctx, &f->kind, last, p, &at);
       if (status != PENDRES_OK) return status;
       if (at.landed && add(w, &at.node) != 0) return no_memory(ctx);
-    } else if (p->arclength > 4.0 * pendres_arc_distance(last->u, p->u) &&
+    } else if (p->arclength > another_pass * pendres_arc_distance(last->u, p->u) &&
                passes(&f->kind.system, &w->start, last, p)) {
       end_way(w, PENDRES_END_CLOSED);
     } else {
@@ -286,9 +294,6 @@ pendres_status pendres_curve_make(pendres_context *ctx, const pendres_curve_star
 
 /* ---- special points ---- */
 
-/* A curve is back at a place only after more than this many of its longest steps. */
-static const double another_pass = 4.0;
-
 /* Whether two special points of a curve are one. A curve that passes a place twice, as the two ways
    of a start on a closed one may, has a special point there each time. */
 static int same_place(const pendres_curve *c, const pendres_curve_special *a,
@@ -301,7 +306,7 @@ static int same_place(const pendres_curve *c, const pendres_curve_special *a,
   if (a->condition != b->condition || between > another_pass * c->kind.spacing) return 0;
   for (int k = 0; k < s->unknowns; k++)
     sum = hypot(sum, a->located.pair.fine[s->unknown[k]] - b->located.pair.fine[s->unknown[k]]);
-  return sum < 1e-8;
+  return sum < one_place;
 }
 
 static int in_order(const void *a, const void *b)

@@ -20,6 +20,12 @@ static const double nudge = 2e-9;
 static const double stencil_step = 8e-3;
 enum { STENCIL = 6 };
 
+/* Newton's method gives up where a step is longer than this, far outside of all scales, */
+static const double longest_ever = 1e3;
+/* and ends where steps are rounding, or are short and no longer fall: determinants' derivatives are
+   differences, so the next step is a hundredth of the last or less, unless it is rounding. */
+static const double always_rounding = 1e-13, may_be_rounding = 1e-5;
+
 /* Derivative of the fold's determinant along the null vector, from its stencil's images. */
 static double stencil_value(const pendres_image stencil[STENCIL])
 {
@@ -255,14 +261,13 @@ pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_syste
     }
     if (!pendres_equations_linear(n, a, d)) return PENDRES_NOT_CONVERGED;
     for (int k = 0; k < n; k++) length = hypot(length, d[k]);
-    if (!(length < 1e3)) return PENDRES_NOT_CONVERGED;
+    if (!(length < longest_ever)) return PENDRES_NOT_CONVERGED;
     const double part = length > longest ? longest / length : 1.0;
     for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];
     const pendres_pendulum p = pendres_map_pendulum(s->map.force, u);
     if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
-    /* Determinants' derivatives are differences, so the next step is a hundredth of this one or
-       less; or it is rounding. */
-    if (length < 1e-13 || (length < 1e-5 && length > 0.5 * last)) return PENDRES_OK;
+    if (length < always_rounding || (length < may_be_rounding && length > 0.5 * last))
+      return PENDRES_OK;
     last = length;
   }
   return PENDRES_NOT_CONVERGED;

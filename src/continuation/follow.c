@@ -7,6 +7,7 @@
 
 #include "continuation/crossing.h"
 #include "continuation/locate.h"
+#include "continuation/numbers.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
@@ -39,9 +40,15 @@ static const double farthest_miss = 0.25;
    points were stepped over. */
 static const double farthest_off = 0.08;
 static const double shortest_step = 1e-6;
-/* With steps shorter than this no crossing is looked into: branches that come closer are told by
-   the doubts of their points. */
-static const double shortest_crossing = 32.0 * 1e-6;
+/* With steps shorter than this many of the shortest no crossing is looked into: branches that come
+   closer are told by the doubts of their points. */
+static const double steps_to_crossing = 32.0;
+/* A follower begins with this share of the largest spacing, and from eight points ahead that all
+   converged goes on with steps longer by this factor. */
+static const double first_share = 0.1, faster = 1.6;
+/* A tangent with less than this along the last unknown stands at a fold of it, which gives no
+   direction. */
+static const double stands_still = 1e-6;
 static const int widest_gap = 3; /* how many steps lie between one point and the next */
 /* An orbit closes by half if it misses that by less than this. Next to where a branch was born, one
    of its orbits that does not close by half comes as near only within half of this distance. */
@@ -131,8 +138,9 @@ static void correct(pendres_correction *c)
 double pendres_correction_rounding(const pendres_correction *c)
 {
   const int n = c->kind->system.unknowns;
-  const double unit = 4e-16 * fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1])) *
-                      sqrt(c->steps * c->kind->system.map.period);
+  const double grown = fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1]));
+  const double unit =
+    pendres_step_rounding * grown * sqrt(c->steps * c->kind->system.map.period);
   double sum = 0.0;
   if (c->state != PENDRES_CORRECTION_CONVERGED) return NAN;
   for (int column = 0; column + 1 < n; column++) {
@@ -269,7 +277,7 @@ static int first_tangent(const pendres_system *s, const pendres_equations *e,
     best = k;
   }
   if (best < 0) return 0;
-  const double ahead = fabs(tangent[last]) > 1e-6 ? tangent[last] : tangent[best];
+  const double ahead = fabs(tangent[last]) > stands_still ? tangent[last] : tangent[best];
   if (ahead * direction < 0.0)
     for (int k = 0; k < n; k++) tangent[k] = -tangent[k];
   return 1;
@@ -305,7 +313,7 @@ pendres_status pendres_follow_begin(pendres_context *ctx, const pendres_followed
 {
   const pendres_system *s = &kind->system;
   pendres_equations e;
-  *w = (pendres_follower){.kind = *kind, .step = 0.1 * kind->spacing};
+  *w = (pendres_follower){.kind = *kind, .step = first_share * kind->spacing};
   w->kind.apart = 0;
   pendres_correction place = {.kind = &w->kind};
   memcpy(place.u, u, sizeof place.u);
@@ -408,7 +416,7 @@ static pendres_status stays(pendres_context *ctx, const pendres_follower *w,
   double u[PENDRES_U_COUNT];
   pendres_located at;
   *same = 1;
-  if (!(w->step >= shortest_crossing && a * b < 0.0)) return PENDRES_OK;
+  if (!(w->step >= steps_to_crossing * shortest_step && a * b < 0.0)) return PENDRES_OK;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
     u[i] = last->u[i] + a / (a - b) * (node->u[i] - last->u[i]);
   const pendres_system crossings =
@@ -452,7 +460,7 @@ static pendres_status accept(pendres_context *ctx, pendres_follower *w, const pe
     w->bend[k] = (last->tangent[k] - before->tangent[k]) / (last->arclength - before->arclength);
   w->here = *last;
   if (w->found == PENDRES_AHEAD)
-    w->step = fmin(1.6 * w->step, w->kind.spacing);
+    w->step = fmin(faster * w->step, w->kind.spacing);
   else if (w->found < PENDRES_AHEAD / 2)
     w->step *= 0.5;
   return status;

@@ -8,11 +8,15 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/crossing.h"
+#include "continuation/numbers.h"
 #include "engine/steps.h"
 
-/* The rounding of a step, taken three times as large as it usually is, since errors claim to be
-   bounds. */
-static const double epsilon = 4e-16;
+/* Newton's steps are cut at this length, and earlier where they begin at the solution by fewer steps
+   of the integration. */
+static const double longest_first = 0.1, longest_again = 0.01;
+/* Parts of an error that cancel to less than this share may do so by chance. A determinant is off by
+   at least this share of what the entries of its matrix are. */
+static const double by_chance = 1.0 / 32.0, own_share = 0.125;
 
 /* By how much the unknowns move when the equations are off by so much, all at once. 0 if
    singular. */
@@ -53,7 +57,7 @@ static int moved_by_each(const pendres_equations *e, const int *unknown,
 static void rounding_of(const pendres_equations *e, pendres_condition condition, int steps,
                         int period, double off[PENDRES_EQUATIONS_MOST])
 {
-  const double along = epsilon * sqrt(steps * period);
+  const double along = pendres_step_rounding * sqrt(steps * period);
   const double unit = along * fmax(1.0, pendres_map_growth(&e->image));
   off[0] = off[1] = unit;
   off[2] = hypot(4.0 * unit, along * hypot(e->j[2][PENDRES_U_Y], e->j[2][PENDRES_U_W]));
@@ -130,7 +134,7 @@ static pendres_status distance_of(pendres_context *ctx, const pendres_system *sy
   if (!moved_at_once(at, system->unknown, late, out->late)) return PENDRES_NOT_CONVERGED;
   const double entries = fabs(image[2].n[0][0] - image[0].n[0][0]) +
                          fabs(image[2].n[1][1] - image[0].n[1][1]);
-  for (int k = crosses ? 1 : 2; k < 3; k++) early[k] = fmax(early[k], 0.125 * entries);
+  for (int k = crosses ? 1 : 2; k < 3; k++) early[k] = fmax(early[k], own_share * entries);
   return moved_by_each(at, system->unknown, early, out->parts) ? PENDRES_OK
                                                                 : PENDRES_NOT_CONVERGED;
 }
@@ -216,7 +220,7 @@ static pendres_status solve_finely(pendres_context *ctx, const pendres_system *s
   const int *const unknown = system->unknown;
   double off[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
   distance away;
-  pendres_status status = pendres_equations_solve(ctx, system, 0.01, pair->fine, &at);
+  pendres_status status = pendres_equations_solve(ctx, system, longest_again, pair->fine, &at);
   if (status != PENDRES_OK) return status;
   out->parted =
     system->condition == PENDRES_CONDITION_CROSSING && !crosses(system, few, &at.image);
@@ -228,9 +232,8 @@ static pendres_status solve_finely(pendres_context *ctx, const pendres_system *s
   pair->rounding = hypot(rounding[0], rounding[1]);
   pair->apart = 0.0;
   for (int i = 0; i < system->unknowns; i++) {
-    /* That the parts cancel to less than a thirty-second may be chance. */
     const double fine = pair->fine[unknown[i]], coarse = pair->coarse[unknown[i]];
-    const double apart = fmax(fabs(fine - coarse), away.late[i]) + away.parts[i] / 32.0;
+    const double apart = fmax(fabs(fine - coarse), away.late[i]) + by_chance * away.parts[i];
     out->error[i] = pendres_solution_error(
       0.0, apart, rounding[i] + 0.5 * DBL_EPSILON * fabs(fine));
     if (i < 2) pair->apart = hypot(pair->apart, apart);
@@ -251,11 +254,11 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system,
   pair->map = system.map;
   pair->critical = 1;
   pair->coarse_steps = steps;
-  pair->fine_steps = pendres_steps_rung((int)ceil(1.4 * steps));
+  pair->fine_steps = pendres_steps_finer(steps);
   pair->fine_steps += pair->fine_steps % 2;
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status =
-    pendres_equations_solve(ctx, &system, fmin(reach, 0.1), pair->coarse, &at);
+    pendres_equations_solve(ctx, &system, fmin(reach, longest_first), pair->coarse, &at);
   if (status == PENDRES_OK && !(pendres_arc_distance(u, pair->coarse) <= reach))
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
@@ -327,8 +330,8 @@ pendres_status pendres_locate_bifurcation(pendres_context *ctx, pendres_conditio
   pendres_status status = pendres_solution_measure(ctx, 1, p, &out->orbit);
   pendres_orbit_set_critical(out->kind, 1, &parameter, &out->value_error, &out->orbit);
   if (status != PENDRES_OK || condition != PENDRES_CONDITION_FOLD) return status;
-  /* Truncation h^2 and rounding 1e-15/h meet here; twice the width tells how large they are. */
-  const double h = 1e-4;
+  /* Twice the width tells how large truncation and rounding are. */
+  const double h = pendres_central_step;
   double wide = 0.0, coarse = 0.0;
   pendres_system at = {
     .map = p->map, .steps = p->fine_steps, .unknowns = 1, .unknown = {place}};

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "continuation/numbers.h"
 #include "engine/chain.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
@@ -64,7 +65,7 @@ static int reflected_after(int period)
    the centre; of a pendulum at one of them. */
 static int is_own_reflection(const pendres_orbit *o, double centre)
 {
-  const double nothing = 1e-7 + 10.0 * o->first_harmonic_amplitude_error;
+  const double nothing = 1e-7 + pendres_several_errors * o->first_harmonic_amplitude_error;
   if (pendres_model_of(o->pendulum.force)->period == 0.0 &&
       !(fabs(o->mean_angle - centre) <= nothing + o->x_error))
     return 0;

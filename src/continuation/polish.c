@@ -20,6 +20,13 @@
    without it one in fifty. */
 static const double agree = 0.005, agree_in_lag = 0.25;
 
+/* Next to a fold a branch goes along its parameter by at least this share of its length: nearer by,
+   the orbit moves as the root of what the parameter is off by, and rounding hides the rest. */
+static const double flattest = 1e-3;
+/* The coarser point of a pair is moved along the branch if that is less than this share of the way
+   to the next fold, as far as the tangent tells. */
+static const double before_fold = 0.05;
+
 /*
  * The two computations of a point of a branch differ in the parameter as well. What an orbit at one
  * value of it is known to is their distance there: the coarser is moved along the branch. Next to a
@@ -33,7 +40,7 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
   const double along = at->tangent[2];
   const double scale = pendres_arc_scale(place, pair->fine[place]);
   const double off = (pair->fine[place] - pair->coarse[place]) / scale;
-  if (!(fabs(off) < 0.05 * along * along)) {
+  if (!(fabs(off) < before_fold * along * along)) {
     pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
     return;
   }
@@ -41,7 +48,7 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
     pair->coarse[s->unknown[k]] +=
       pendres_arc_scale(s->unknown[k], pair->fine[s->unknown[k]]) * at->tangent[k] * off / along;
   pair->coarse[place] = pair->fine[place];
-  pair->rounding /= fmax(fabs(along), 1e-3);
+  pair->rounding /= fmax(fabs(along), flattest);
 }
 
 /* Nodes that are still to be made more exact: their numbers, and what their correction needs. */
@@ -95,7 +102,7 @@ static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish
       c->tangent[at->held - 1] = 1.0;
     }
     if (fine) {
-      p->fine_steps = pendres_steps_rung((int)ceil(1.4 * p->coarse_steps));
+      p->fine_steps = pendres_steps_finer(p->coarse_steps);
       p->fine_steps += p->fine_steps % 2;
     }
     c->steps = fine ? p->fine_steps : p->coarse_steps;
@@ -130,7 +137,7 @@ static double errors_at(const pendres_curve *c, size_t i, double error[2])
   const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
                              p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
   /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
-  const double turning = across(c, i) ? fmax(fabs(c->node[i].tangent[2]), 1e-3) : 1.0;
+  const double turning = across(c, i) ? fmax(fabs(c->node[i].tangent[2]), flattest) : 1.0;
   const double chance = s->condition == PENDRES_CONDITION_LAG ? agree_in_lag : agree;
   double worst = 0.0;
   for (int k = 0; k < s->unknowns; k++) {

@@ -4,13 +4,12 @@
 #include <math.h>
 
 #include "continuation/crossing.h"
+#include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
 
-enum { MOST_ADVANCES = 300 };
 static const double widest_range = 3.0; /* of a branch's parameter, as a ratio */
-static const double wildest = 1e3; /* growth of errors in a map: such curves do not come back */
 
 /* Whether the parameter of a branch has left the range that is searched. */
 static int is_far(const pendres_system *s, const pendres_curve_node *start,
@@ -31,7 +30,7 @@ static pendres_status search_one_way(pendres_context *ctx, pendres_follower *w,
 {
   const pendres_curve_node start = w->here;
   pendres_curve_node nodes[2] = {start};
-  for (int i = 0; i < MOST_ADVANCES; i++) {
+  for (int i = 0; i < PENDRES_SEARCH_ADVANCES; i++) {
     pendres_status status = pendres_follow_advance(ctx, 1, &w);
     if (status != PENDRES_OK) return status;
     if (w->stuck) return PENDRES_NOT_FOUND;
@@ -46,7 +45,7 @@ static pendres_status search_one_way(pendres_context *ctx, pendres_follower *w,
       status = search->locate(ctx, &w->kind, nodes, u, out);
       if (status != PENDRES_NOT_CONVERGED) return status;
     }
-    if (is_far(&w->kind.system, &start, &w->here) || w->here.growth > wildest) break;
+    if (is_far(&w->kind.system, &start, &w->here) || w->here.growth > pendres_curve_wildest) break;
   }
   return PENDRES_NOT_FOUND;
 }
@@ -117,7 +116,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   double u[PENDRES_U_COUNT];
   pendres_located located;
   const pendres_followed kind =
-    pendres_followed_of(near, PENDRES_CONDITION_NONE, &parameter, 0.1, u);
+    pendres_followed_of(near, PENDRES_CONDITION_NONE, &parameter, pendres_search_spacing, u);
   const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, 0.0, &located);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status, "the branch through %s %g has no fold near",
@@ -174,7 +173,7 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", why);
   double u[PENDRES_U_COUNT];
   pendres_located located;
-  const pendres_followed kind = pendres_followed_at(near, second, 0.05, u);
+  const pendres_followed kind = pendres_followed_at(near, second, pendres_curve_spacing, u);
   const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, 0.0, &located);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status, "the curve of folds through %g leads to no cusp",

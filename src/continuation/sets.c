@@ -7,6 +7,7 @@
 
 #include "base/grow.h"
 #include "continuation/branch.h"
+#include "continuation/numbers.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
 
@@ -134,7 +135,7 @@ static pendres_status really_lies_on(pendres_context *ctx, pendres_curve *b,
   const pendres_status status =
     pendres_branch_cross(ctx, pendres_branch_of(b), value, MOST, there, &found);
   for (size_t i = 0; i < found && i < MOST && status == PENDRES_OK; i++) {
-    const double e = 1e-5 + 10.0 * (o->x_error + there[i].x_error);
+    const double e = pendres_same_orbit + pendres_several_errors * (o->x_error + there[i].x_error);
     if (there[i].period == o->period && same_winding(&there[i], o) &&
         fabs(there[i].amplitude - o->amplitude) < e &&
         fabs(there[i].loop_area - o->loop_area) < e)
@@ -200,12 +201,16 @@ pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendr
   return pendres_door_close(&d);
 }
 
+/* Of bifurcations, errors aside. */
+static const double same_value = 1e-6;
+
 /* Two locations of one bifurcation, mirror images included. Two that lie as close and differ are of
    opposite curvature: where two branches part or where they meet in a cusp. */
 static int same_bifurcation(const pendres_bifurcation *a, const pendres_bifurcation *b)
 {
-  const double e = 1e-6 + 10.0 * (a->value_error + b->value_error);
-  const double apart = 1e-5 + 10.0 * (a->orbit.amplitude_error + b->orbit.amplitude_error);
+  const double e = same_value + pendres_several_errors * (a->value_error + b->value_error);
+  const double apart = pendres_same_orbit + pendres_several_errors * (a->orbit.amplitude_error +
+                                                                      b->orbit.amplitude_error);
   return a->kind == b->kind && a->orbit.period == b->orbit.period &&
          same_winding(&a->orbit, &b->orbit) && !(a->curvature * b->curvature < 0.0) &&
          fabs(a->value - b->value) < e && fabs(a->orbit.amplitude - b->orbit.amplitude) < apart;
@@ -253,6 +258,9 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
 
 /* ---- curves ---- */
 
+/* A curve's points reach within this of its cusps and turning points. */
+static const double just_beyond = 1e-4;
+
 static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendres_parameter second)
 {
   const double value = pendres_parameter_get(second, &b->orbit.pendulum);
@@ -266,7 +274,7 @@ static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendre
     const double from = p->value[1] - value, to = q->value[1] - value;
     const double part = from * to <= 0.0 && from != to ? from / (from - to) : 0.0;
     /* At a cusp or a turning point the value may lie just beyond the points. */
-    if (from * to > 0.0 && fmin(fabs(from), fabs(to)) > 1e-4) continue;
+    if (from * to > 0.0 && fmin(fabs(from), fabs(to)) > just_beyond) continue;
     if (fabs(mixed(p->value[0], q->value[0], part) - b->value) < alike &&
         fabs(mixed(p->orbit.amplitude, q->orbit.amplitude, part) - b->orbit.amplitude) <
           alike + fabs(p->orbit.amplitude - q->orbit.amplitude))

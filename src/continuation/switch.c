@@ -4,10 +4,20 @@
 #include <math.h>
 #include <string.h>
 
+#include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+
+/* How far from the bifurcation the other branch is looked for at first: further than rounding and
+   the errors of the bifurcation reach, and nearer than most branches bend. */
+static const double away_at_first = 0.02;
+/* A branch that crosses departs from its direction by no more than this share of the way. */
+static const double straight = 0.05;
+enum { HALVINGS = 6 /* of the distance, until it does */ };
+/* A point whose parameter is known no better than this is not taken: it has not converged. */
+static const double most_error = 1e-6;
 
 /* Correct a node of a kind of orbits to where they meet the plane across its tangent; *error
    becomes that of the parameter. */
@@ -26,11 +36,10 @@ static pendres_status meet_plane(pendres_context *ctx, const pendres_followed *k
 static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurcation *at,
                                       pendres_orbit *out)
 {
-  static const double longest = 0.02, straight = 0.05;
-  enum { HALVINGS = 6 };
   double u[PENDRES_U_COUNT], way[PENDRES_UNKNOWNS] = {0.0}, scale[3], length = 0.0;
   const pendres_followed orbits =
-    pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
+    pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter,
+                        pendres_curve_spacing, u);
   const int *unknown = orbits.system.unknown;
   memcpy(way, at->crossing, sizeof at->crossing);
   if (unknown[2] == PENDRES_U_OMEGA) way[1] -= u[PENDRES_U_W] * way[2];
@@ -40,7 +49,7 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
   for (int k = 0; k < 3; k++) length = hypot(length, way[k]);
   for (int k = 0; k < 3; k++) way[k] /= length;
   for (int halving = 0; halving < HALVINGS; halving++) {
-    const double away = ldexp(longest, -halving);
+    const double away = ldexp(away_at_first, -halving);
     int found = 0;
     for (int side = 1; side >= -1; side -= 2) {
       pendres_orbit here;
@@ -52,7 +61,7 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
       for (int k = 0; k < 3; k++) node.u[unknown[k]] += side * away * way[k] * scale[k];
       pendres_status status = meet_plane(ctx, &orbits, &node, &pair, &error);
       if (status == PENDRES_NOT_CONVERGED) continue;
-      const int good = status == PENDRES_OK && error < 1e-6 &&
+      const int good = status == PENDRES_OK && error < most_error &&
                        pendres_arc_distance(pair.fine, node.u) <= straight * away;
       if (good) status = pendres_solution_measure(ctx, 1, &pair, &here);
       if (status != PENDRES_OK) return status;
@@ -79,7 +88,8 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   pendres_image image;
   int steps = 0;
   pendres_followed twice =
-    pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
+    pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter,
+                        pendres_curve_spacing, u);
   pendres_map *map = &twice.system.map;
   if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_map_unfold(map);
   const pendres_map once = *map;
@@ -99,7 +109,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   map->period = once.mirror ? once.period : 2 * once.period;
   map->winding = once.mirror ? 0 : 2 * once.winding;
   /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time. */
-  const double reach = 0.02 * pow(once.period, -1.3);
+  const double reach = away_at_first * pow(once.period, -1.3);
   static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0};
   for (size_t k = 0; k < sizeof tries / sizeof *tries && reach * tries[k] < 0.5; k++) {
     const double away = reach * tries[k];
@@ -111,7 +121,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     node.u[PENDRES_U_W] += away * v[1];
     status = meet_plane(ctx, &twice, &node, &pair, &error);
     if (status != PENDRES_OK) return status;
-    if (error > 1e-6 || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
+    if (error > most_error || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
     /* Keep away from the branch that it came from, which the plane meets as well. Orbits of the
        other branch are on the far side after one map, and so twice as far away. */
     status = pendres_map_states(ctx, &once, steps, 1, (const double (*)[PENDRES_U_COUNT])pair.fine,

@@ -16,7 +16,9 @@ static const double suspicious = 0.3;
    cross, points are hard to correct, and the search ends early. */
 static const double touching = 0.05;
 static const double narrowest = 1e-9; /* of a search, in arclength */
-enum { MOST_TRIALS = 24 };
+/* A vertex this close to the least point, as a share of what is searched, tells nothing new. */
+static const double known_already = 0.02;
+enum { MOST_TRIALS = 24, HALVE_EVERY = 4 /* trials, in case parabolas close in from one side */ };
 
 double pendres_curve_between(const pendres_curve *t, const pendres_curve_zero *z,
                              double u[PENDRES_U_COUNT])
@@ -253,7 +255,8 @@ static pendres_status descend(pendres_context *ctx, const pendres_curve *t,
     if (width < narrowest) break;
     if (least * g[1] > 0.0 && fabs(least) > suspicious * fmin(fabs(g[0]), fabs(g[2]))) break;
     /* Where the vertex is known already, or would be next to an end, halve the longer side. */
-    if (!(next > s[0] && next < s[2]) || fabs(next - s[1]) < 0.02 * width || trial % 4 == 3)
+    if (!(next > s[0] && next < s[2]) || fabs(next - s[1]) < known_already * width ||
+        trial % HALVE_EVERY == HALVE_EVERY - 1)
       next = s[2] - s[1] > s[1] - s[0] ? 0.5 * (s[1] + s[2]) : 0.5 * (s[0] + s[1]);
     const int side = next < s[1] ? 0 : 1;
     pendres_curve_node here;

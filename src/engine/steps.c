@@ -35,6 +35,11 @@ int pendres_steps_rung(int n)
   return rung;
 }
 
+int pendres_steps_finer(int n)
+{
+  return pendres_steps_rung((int)ceil(1.4 * n));
+}
+
 /* Index of a logarithmic lattice of the given ratio; everything below `least` shares one cell. */
 static int lattice(double value, double least, double ratio)
 {

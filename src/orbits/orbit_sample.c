@@ -137,7 +137,7 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
       const curve older = coarse;
       coarse = fine;
       fine = older;
-      steps = pendres_steps_rung((int)ceil(1.4 * steps));
+      steps = pendres_steps_finer(steps);
       status = trace(ctx, orbit, steps, &fine);
       if (status == PENDRES_OK) errors_of(orbit, &coarse, &fine, error);
       if (!(fmax(error[0], error[1]) > ctx->options.tolerance)) break;

@@ -294,7 +294,7 @@ static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddl
   pendres_status status = pendres_steps_choose(ctx, &saddle->pendulum, speed,
                                                pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
-    status = pendres_boundary_grow_seed(ctx, saddle, pendres_steps_rung((int)ceil(1.4 * steps)),
+    status = pendres_boundary_grow_seed(ctx, saddle, pendres_steps_finer(steps),
                                         &seed);
   if (status == PENDRES_OK) status = pendres_boundary_grow(ctx, &seed, o, &curve);
   if (status == PENDRES_OK) status = trace(ctx, saddle, o, steps, &curve, b);

@@ -8,6 +8,7 @@
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "continuation/follow.h"
+#include "continuation/numbers.h"
 
 /* How far the drive frequency is from where it was. */
 static double away(const pendres_curve_node *start, const pendres_curve_node *node)
@@ -64,7 +65,7 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
   way_back back = {.attractor = attractor, .out = out};
   double u[PENDRES_U_COUNT];
   const pendres_followed kind =
-    pendres_followed_of(attractor, PENDRES_CONDITION_NONE, &along, 0.1, u);
+    pendres_followed_of(attractor, PENDRES_CONDITION_NONE, &along, pendres_search_spacing, u);
   const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, up, &back);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status,

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "analysis/chaos/lyapunov_move.h"
+#include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/sets.h"
 #include "engine/context_internal.h"
@@ -12,13 +13,10 @@
 /* A branch is not followed where errors grow by more than this in a map: it has long been
    unstable. */
 static const double wildest = 3000.0;
-/* The spacing of points for orbits of period one; each doubling of a cascade reaches less far. */
-static const double spacing = 0.05;
-
 /* Points each way. For pendulums whose rotations lock to the drive there are few at first, then
    four times as many until they are enough: a lock of q periods lies on a closed branch that passes
    all of its q points, and the part is one of many. */
-enum { FEW_POINTS = 48, MOST_POINTS = 2000, ENOUGH = 8 };
+enum { FEW_POINTS = 48, MOST_POINTS = PENDRES_CURVE_POINTS, ENOUGH = 8 };
 
 /* How close to a bifurcation the branch that is born there has that, too. */
 static const double near_birth = 1e-5;
@@ -104,8 +102,9 @@ static pendres_status follow(pendres_context *ctx, const pendres_orbit *start,
 {
   const size_t few = pendres_lyapunov_may_rotate(&start->pendulum) ? FEW_POINTS : MOST_POINTS;
   s->direction = limit >= pendres_parameter_get(parameter, &s->at.pendulum) ? 1 : -1;
+  /* Each doubling of a cascade reaches less far. */
   pendres_status status =
-    pendres_branch_begin(ctx, start, parameter, spacing / start->period, &s->branch);
+    pendres_branch_begin(ctx, start, parameter, pendres_curve_spacing / start->period, &s->branch);
   if (status == PENDRES_OK) status = find_end(ctx, s, limit, few, most_points(start));
   if (status != PENDRES_OK) pendres_part_free(s);
   return status;
