@@ -11,11 +11,11 @@
 #include "continuation/numbers.h"
 #include "engine/steps.h"
 
-/* Newton's steps are cut at this length, and earlier where they begin at the solution by fewer steps
-   of the integration. */
+/* Newton's steps are cut at this length, and earlier where they begin at the solution by fewer
+   steps of the integration. */
 static const double longest_first = 0.1, longest_again = 0.01;
-/* Parts of an error that cancel to less than this share may do so by chance. A determinant is off by
-   at least this share of what the entries of its matrix are. */
+/* Parts of an error that cancel to less than this share may do so by chance. A determinant is off
+   by at least this share of what the entries of its matrix are. */
 static const double by_chance = 1.0 / 32.0, own_share = 0.125;
 
 /* By how much the unknowns move when the equations are off by so much, all at once. 0 if
