@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/columns.h"
+#include "scenes/points.h"
 #include "system/clock.h"
 #include "validation/benchmark.h"
 
@@ -47,8 +47,11 @@ typedef struct work {
 } work;
 
 /* With the deck's own tolerance. */
-static pendres_status settle(const work *w, pendres_context *ctx, settling *out)
+static pendres_status settle(const scene_some *some)
 {
+  const work *w = some->of->arg;
+  pendres_context *ctx = some->ctx;
+  settling *out = some->rows;
   const size_t n = w->unit.n;
   pendres_outcome *outcome = malloc(n * sizeof *outcome);
   double *v = calloc(n, sizeof *v), resolved = 0.0;
@@ -72,28 +75,14 @@ done:
   return status;
 }
 
-/* A benchmark; the last task is settling. */
-static pendres_status measure(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+static pendres_status measure(const scene_some *some)
 {
-  const work *w = arg;
-  if (task == w->methods * w->tolerances) {
-    settling *s = farm_record_resize(out, sizeof *s);
-    return s != NULL ? settle(w, ctx, s) : PENDRES_OUT_OF_MEMORY;
-  }
-  benchmark *c = farm_record_resize(out, sizeof *c);
-  if (c == NULL) return PENDRES_OUT_OF_MEMORY;
+  const work *w = some->of->arg;
+  const size_t method = some->first / w->tolerances, tolerance = some->first % w->tolerances;
   const benchmark_rules rules = {
-    .tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[task % w->tolerances],
+    .tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[tolerance],
     .block_lanes = (int)w->d->precision.block_lanes, .stop = farm_stopped, .stop_arg = w->farm};
-  return benchmark_run(&w->unit, w->d->methods.name[task / w->tolerances], &rules, c);
-}
-
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  if (task == w->methods * w->tolerances) w->settled = *(const settling *)in->data;
-  else w->benchmark[task] = *(const benchmark *)in->data;
-  return PENDRES_OK;
+  return benchmark_run(&w->unit, w->d->methods.name[method], &rules, some->rows);
 }
 
 /* ---- writing ------------------------------------------------------------------------------- */
@@ -333,13 +322,17 @@ static pendres_status run_scene(scene_run *run)
   const size_t n = w.methods * w.tolerances;
   pendres_status status = work_unit_make(d->unit, &w.unit);
   if (status != PENDRES_OK) scene_fail(run, status, "out of memory for the unit '%s'", d->unit);
-  w.benchmark = scene_array(run, n, sizeof *w.benchmark);
+  scene_points runs = {.n = n, .chunk = 1, .size = sizeof *w.benchmark, .compute = measure,
+                       .unmarked = 1, .arg = &w};
+  scene_points last = {.n = 1, .chunk = 1, .size = sizeof w.settled, .compute = settle,
+                       .unmarked = 1, .rows = &w.settled, .arg = &w};
+  w.benchmark = runs.rows = scene_array(run, n, sizeof *w.benchmark);
   if (scene_going(run)) {
     status = work_unit_refer(&w.unit, run->farm);
     if (status != PENDRES_OK) scene_fail(run, status, "%s", farm_message(run->farm));
   }
-  scene_compute(run, &(farm_stage){ .what = "runs", .last = 1, .tasks = n + 1, .task = measure,
-                                    .timed = 1, .collect = collect, .arg = &w });
+  scene_points_compute(run, &(farm_stage){.what = "runs", .last = 1, .timed = 1}, 2,
+                       (scene_points *[]){&runs, &last});
   tell(run, &w);
   work_unit_free(&w.unit);
   return run->status;
