@@ -153,7 +153,8 @@ static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p
   set->attractor_sets[0].pendulum = *p;
   /* A caller that asks for attractors only will probably label many pendulums with them. */
   set->attractor_sets[0].effort = PENDRES_TRAPPING_MANY;
-  const pendres_settle_starts starts = {.n = n, .set = zero, .x = x, .v = v};
+  const pendres_settle_starts starts = {
+    .n = n, .set = zero, .x = x, .v = v, .only_attractors = 1};
   status = pendres_settle_batch(ctx, 1, set->attractor_sets, &starts, outcome);
   if (status == PENDRES_OK && index_sets(set) != 0)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
@@ -258,7 +259,8 @@ pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractor
 {
   size_t *zero = calloc(n + 1, sizeof *zero);
   pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
-  const pendres_settle_starts starts = {.n = n, .set = zero, .x = x, .v = v};
+  const pendres_settle_starts starts = {
+    .n = n, .set = zero, .x = x, .v = v, .only_attractors = 1};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (zero == NULL || outcome == NULL)
     (void)pendres_context_fail(ctx, status, "out of memory for attractors");
@@ -288,6 +290,7 @@ typedef struct settling {
   pendres_attractors *all;
   size_t sets;   /* those of earlier stretches, */
   size_t offset; /* and their attractors */
+  int only_attractors;
 } settling;
 
 static pendres_status settle_stretch(pendres_door *d, settling *s)
@@ -312,7 +315,8 @@ static pendres_status settle_stretch(pendres_door *d, settling *s)
     }
     pendres_attractor_set *c = all->attractor_sets + base;
     const pendres_settle_starts some = {
-      .n = last - first, .set = set + first, .x = s->x + first, .v = s->v + first};
+      .n = last - first, .set = set + first, .x = s->x + first, .v = s->v + first,
+      .only_attractors = s->only_attractors};
     status = pendres_settle_batch(ctx, s->sets - base, c, &some, s->outcome + first);
     /* Numbers within a set become numbers in the list of all attractors. */
     size_t starts[BATCH_SETS];
@@ -334,6 +338,7 @@ static pendres_status settle_from_all_sides(pendres_door *d, settling *s)
   enum { EACH = PENDRES_ATTRACTOR_SET_STARTS };
   const double exponent_error = d->ctx->options.exponent_error;
   settling all = *s;
+  all.only_attractors = 1;
   const size_t most = s->n * EACH;
   pendres_pendulum *p = pendres_door_memory(d, (most + 1) * sizeof *p);
   double *x = pendres_door_memory(d, (2 * most + 1) * sizeof *x);

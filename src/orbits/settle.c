@@ -127,12 +127,13 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   if (status == PENDRES_OK)
     status = pendres_settle_search(
       ctx, &(pendres_settle_remaining){.sets = sets, .attractor_sets = attractor_sets,
-                                       .budget = budget,
+                                       .budget = budget, .times = !from->only_attractors,
                                     .n = n, .set = set, .x = x, .v = v, .lanes = lanes,
                                     .outcome = outcome});
   const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
                                             .accuracy = accuracy};
-  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
+  if (status == PENDRES_OK && !from->only_attractors)
+    status = pendres_settle_certain(ctx, &labelled);
   if (status == PENDRES_OK) status = order_all(ctx, sets, attractor_sets, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
 done:

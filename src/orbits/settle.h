@@ -12,6 +12,8 @@ typedef struct pendres_settle_starts {
   const size_t *set; /* number of each one's parameter set, those of one set being consecutive; not
                         read by pendres_settle_known() */
   const double *x, *v;
+  int only_attractors; /* 1: what there is to settle on is all that is asked for; outcomes may be
+                          uncertain, and their times too long. Not read by pendres_settle_known() */
 } pendres_settle_starts;
 
 /*

@@ -114,6 +114,7 @@ typedef struct pendres_settle_remaining {
   size_t sets;
   pendres_attractor_set *attractor_sets; /* may grow */
   long *budget;                  /* periods of each set, all of which are spent; is raised */
+  int times;                     /* whether the times in which they settle are asked for */
   size_t n;
   const size_t *set;             /* of each pendulum, those of a set side by side */
   const double *x, *v;              /* where they began, */

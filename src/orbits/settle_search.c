@@ -226,8 +226,8 @@ pendres_status pendres_settle_search(pendres_context *ctx, const pendres_settle_
   }
   if (status == PENDRES_OK)
     for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
-  if (status == PENDRES_OK) status = repeat(ctx, &l, q, &job);
-  if (status == PENDRES_OK)
+  if (status == PENDRES_OK && q->times) status = repeat(ctx, &l, q, &job);
+  if (status == PENDRES_OK && q->times)
     for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
 done:
   free_lost(&l);
