@@ -301,14 +301,14 @@ static pendres_chaos_measures measures_of(const pendres_attractor_set *c, const 
 
 /*
  * Whether replicas need not be followed further: they agree, and each by itself is chaotic. Before
- * all of their batches are over this is asked after 4 and after 8, and then the exponent must
- * also be as accurate as requested.
+ * all of their batches are over this is asked after 4, 6, 8, ... of them, and then the exponent
+ * must also be as accurate as requested.
  */
 static int seen_enough(const pendres_context *ctx, const pendres_attractor_set *c,
                        const ensemble *v)
 {
   if (v->batches < BATCHES) {
-    if (v->batches != FEW_BATCHES && v->batches != BATCHES / 2) return 0;
+    if (v->batches < FEW_BATCHES || v->batches % 2 != 0) return 0;
     const pendres_chaos_mean growth = measures_of(c, v).growth;
     if (!(growth.error <= ctx->options.exponent_error * growth.value)) return 0;
   }
