@@ -14,6 +14,7 @@
 #include "engine/compat.h"
 #include "engine/flow_internal.h"
 #include "engine/flow_table.h"
+#include "engine/kernels_float.h"
 #include "engine/lanes_tape.h"
 #include "engine/tables.h"
 
@@ -143,6 +144,7 @@ void pendres_flow_free(pendres_flow *flow)
   pendres_lanes_replays_free(flow->replays);
   pendres_flow_lanes_close(flow);
   pendres_flow_drive_free(&flow->drive);
+  free(flow->in_float.cosine);
   free(flow);
 }
 
@@ -269,6 +271,22 @@ static pendres_status advance_to(pendres_flow *flow, int span, double end)
 pendres_status pendres_flow_period(pendres_flow *flow)
 {
   return advance_to(flow, SPAN_PERIOD, flow->drive.steps > 0 ? flow->end : two_pi);
+}
+
+pendres_status pendres_flow_period_float(pendres_flow *flow)
+{
+  const pendres_lanes_shape *s = &flow->shape;
+  const int steps = flow->drive.steps;
+  if (steps < 1 || flow->load != PENDRES_FLOW_ERRORS || s->model != PENDRES_MODEL_PLAIN)
+    return PENDRES_INVALID_ARGUMENT;
+  if (pendres_flow_float_prepare(&flow->in_float, steps) != 0) return PENDRES_OUT_OF_MEMORY;
+  const pendres_float_lanes block = {.lanes = s->stride, .y = flow->rows,
+                                     .w = flow->rows + s->stride, .k = s->coefficients,
+                                     .off = s->off};
+  flow->stopped = 0;
+  PENDRES_INSTRUCTIONS_BEST(pendres_kernels_float)->run(&flow->in_float, &block);
+  flow->evaluations += (double)steps * flow->in_float.stages * (double)flow->lanes;
+  return count_steps(flow, steps) == 0 ? PENDRES_OK : PENDRES_INTERRUPTED;
 }
 
 pendres_status pendres_flow_half_period(pendres_flow *flow)

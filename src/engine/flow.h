@@ -92,6 +92,10 @@ void pendres_flow_put_state(pendres_flow *flow, size_t lane, double y, double w)
 /* Advance all lanes by one drive period. PENDRES_INTERRUPTED if stop() returned nonzero. */
 pendres_status pendres_flow_period(pendres_flow *flow);
 
+/* Advance all lanes by one drive period in single precision: plain pendulums that carry errors,
+   which must allow for this rounding. */
+pendres_status pendres_flow_period_float(pendres_flow *flow);
+
 /*
  * Advance all lanes from drive phase 0 to pi: for an even number of fixed steps per period. Orbits
  * that are their own mirror image close after half a period and a reflection.

@@ -1,14 +1,15 @@
 /*
  * flow_internal.h -- what a block is made of.
  *
- * Owns: the struct that flow.c, which advances a block, and flow_lanes.c, which fills its lanes,
- * share. No other file includes it.
+ * Owns: the struct that flow.c, which advances a block, flow_lanes.c, which fills its lanes, and
+ * flow_float.c share. No other file includes it.
  */
 #ifndef PENDRES_FLOW_INTERNAL_H
 #define PENDRES_FLOW_INTERNAL_H
 
 #include <stddef.h>
 
+#include "engine/kernels_float.h"
 #include "engine/lanes.h"
 #include "engine/lanes_replay.h"
 #include "engine/lanes_shape.h"
@@ -66,6 +67,10 @@ int pendres_flow_drive_resize(pendres_flow_drive *drive, int steps);
 
 void pendres_flow_drive_free(pendres_flow_drive *drive);
 
+/* Make the steps of a period in single precision, unless they are there; 0, or -1 if out of memory.
+   */
+int pendres_flow_float_prepare(pendres_float_steps *s, int steps);
+
 struct pendres_flow {
   pendres_lanes_shape shape;
   double tolerance;
@@ -76,6 +81,7 @@ struct pendres_flow {
   pendres_flow_load load; /* what is carried, */
   double *off[CARRIED];   /* in these; NULL until anything is */
   pendres_flow_drive drive;
+  pendres_float_steps in_float;   /* steps in single precision, once there are any */
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;

@@ -14,6 +14,7 @@ typedef struct block {
   size_t *slot; /* the lane that is in a slot of the block */
   size_t filled;
   int carry; /* errors */
+  int in_float; /* this class of steps, in single precision */
 } block;
 
 /* Put what runs as number i into a slot. */
@@ -54,6 +55,7 @@ static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
   pendres_flow_clear(b->flow);
   if (queue[0].steps > 0) status = pendres_flow_set_steps(b->flow, queue[0].steps);
   if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
+  b->in_float = queue[0].in_float;
 
   b->filled = n < capacity ? n : capacity;
   pendres_flow_resize(b->flow, b->filled);
@@ -64,7 +66,7 @@ static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
   while (b->filled > 0) {
     status = pendres_context_poll(b->ctx);
     if (status != PENDRES_OK) return status;
-    status = pendres_flow_period(b->flow);
+    status = b->in_float ? pendres_flow_period_float(b->flow) : pendres_flow_period(b->flow);
     if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
     b->ctx->cost.pendulum_periods += (double)b->filled;
 
@@ -110,6 +112,7 @@ static pendres_status run_block(pendres_context *ctx, pendres_flow *flow, int fi
     const size_t index = pendres_strobe_which(job, i);
     queue[i] = (pendres_rank){.steps = fixed ? lanes[index].steps : 0,
                               .model = pendres_model_kind(lanes[index].pendulum),
+                              .in_float = b.carry && lanes[index].in_float,
                               .index = i};
   }
   pendres_rank_order(n, queue);

@@ -12,15 +12,16 @@
 typedef struct pendres_rank {
   int steps;
   pendres_model_terms model;
+  int in_float; /* in single precision */
   size_t index;
 } pendres_rank;
 
-/* Sort lanes by model, then by steps; those that may share a block keep their order. */
+/* Sort lanes by model, steps and precision; those that may share a block keep their order. */
 void pendres_rank_order(size_t n, pendres_rank *rank);
 
 static inline int pendres_rank_equal(const pendres_rank *a, const pendres_rank *b)
 {
-  return a->steps == b->steps && a->model == b->model;
+  return a->steps == b->steps && a->model == b->model && a->in_float == b->in_float;
 }
 
 #endif

@@ -7,11 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/steps.h"
+#include "model/model.h"
 #include "orbits/linear.h"
 #include "orbits/settle_lanes.h"
-#include "engine/steps.h"
+#include "orbits/strobe_noise.h"
 
 enum { GUESSES = 12 /* pendulums of a parameter set that are integrated before the others */ };
 
@@ -182,12 +185,34 @@ static void order_by_steps(size_t n, const pendres_strobe_lane *lanes, size_t *o
   }
 }
 
+/* Rounding in single precision was measured for pendulums that turn by so many radians a period. */
+static const double farthest_in_float = 50.0;
+
+/*
+ * The first run of plain pendulums may be in single precision up to this speed at the start; -1:
+ * none may. The error that they carry includes its rounding, so that a label is certain or the
+ * pendulum is run again. Near a small ellipse rounding may keep a pendulum from settling: the run
+ * that waits for the last of them is in double precision.
+ */
+static double fastest_in_float(const pendres_context *ctx, const pendres_pendulum *p,
+                               pendres_settle_budget budget)
+{
+  const double fastest = farthest_in_float * p->drive_frequency / two_pi;
+  const int may = budget == PENDRES_SETTLE_SHORT && ctx->options.method == PENDRES_BLOCK_FIXED &&
+                  pendres_settle_carries(ctx) && pendres_model_kind(p) == PENDRES_MODEL_PLAIN &&
+                  pendres_steps_turning_speed(p) <= fastest;
+  return may ? fastest : -1.0;
+}
+
 /* Put the pendulums of one parameter set at their starts, and choose their steps. */
 static pendres_status load_all(pendres_context *ctx, const pendres_pendulum *p,
                                const pendres_settle_starts *starts, double accuracy,
-                               pendres_strobe_lane *lanes)
+                               pendres_settle_budget budget, pendres_strobe_lane *lanes)
 {
   pendres_status status = PENDRES_OK;
+  const double fastest = fastest_in_float(ctx, p, budget);
+  const double rounding = pendres_strobe_noise_of_step_in_float();
+  double added = 0.0;
   speed_table *table = calloc(1, sizeof *table);
   if (table == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a table of steps");
@@ -195,10 +220,12 @@ static pendres_status load_all(pendres_context *ctx, const pendres_pendulum *p,
     const double x = starts->x[i], v = starts->v[i];
     pendres_strobe_lane *lane = &lanes[i];
     *lane = pendres_strobe_lane_at(p, x, v);
-    status = steps_of(ctx, p, pendres_steps_speed(p, x, v), accuracy, table, &lane->steps);
-    lane->added = i > 0 && lane[-1].steps == lane->steps
-                    ? lane[-1].added
-                    : pendres_settle_added(ctx, accuracy, lane->steps);
+    const double speed = pendres_steps_speed(p, x, v);
+    status = steps_of(ctx, p, speed, accuracy, table, &lane->steps);
+    if (i == 0 || lane[-1].steps != lane->steps)
+      added = pendres_settle_added(ctx, accuracy, lane->steps);
+    lane->in_float = speed <= fastest && accuracy * accuracy >= lane->steps * rounding * rounding;
+    lane->added = lane->in_float ? added + rounding * rounding : added;
   }
   free(table);
   return status;
@@ -218,7 +245,7 @@ pendres_status pendres_settle_known(pendres_context *ctx,
     (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
     goto done;
   }
-  status = load_all(ctx, &attractor_set->pendulum, starts, accuracy, lanes);
+  status = load_all(ctx, &attractor_set->pendulum, starts, accuracy, budget, lanes);
   if (status != PENDRES_OK) goto done;
   order_by_steps(n, lanes, order);
   for (size_t i = 0; i < n; i++) {

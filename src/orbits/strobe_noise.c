@@ -18,6 +18,12 @@ double pendres_strobe_noise_of_step(pendres_table table)
   return step_rounding * fmax(1.0, weights / usual_weights);
 }
 
+/* Single precision has 29 bits less. */
+double pendres_strobe_noise_of_step_in_float(void)
+{
+  return 0x1p29 * pendres_strobe_noise_of_step(pendres_tables_float);
+}
+
 double pendres_strobe_noise_of(double drive_frequency, const pendres_flow_error *carried)
 {
   if (!isfinite(carried->yy + carried->yw + carried->ww)) return INFINITY;

@@ -17,6 +17,9 @@
    to be random and independent: each step adds the square of this to the variance. */
 double pendres_strobe_noise_of_step(pendres_table table);
 
+/* The same in single precision, with the table for that (tables.h). */
+double pendres_strobe_noise_of_step_in_float(void);
+
 /* The larger of the standard errors of y and v, from the covariance that a lane has carried;
    infinite if it has overflowed. */
 double pendres_strobe_noise_of(double drive_frequency, const pendres_flow_error *carried);
