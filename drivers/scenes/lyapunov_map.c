@@ -9,9 +9,8 @@
 
 enum {
   AXES = 2,
-  /* Points of a task: enough for full blocks. The few that are followed for long fill them in large
-     maps only, which have tasks enough for any number of threads. */
-  FEWEST = 4096, MOST = 8192, TASKS = 128
+  /* Points of a task: enough for full blocks, also of the few that are followed for long. */
+  CHUNK = 8192
 };
 
 /* What is written of a point: NaN where it does not exist. */
@@ -26,12 +25,6 @@ typedef struct work {
   pendres_sweep sweep;
   scene_points points; /* of rows */
 } work;
-
-static size_t chunk_of(size_t count)
-{
-  const size_t some = count / TASKS;
-  return some < FEWEST ? FEWEST : some < MOST ? some : MOST;
-}
 
 /* ---- computing ----------------------------------------------------------------------------- */
 
@@ -159,7 +152,7 @@ static pendres_status run_scene(scene_run *run)
   scene_points *p = &w.points;
   (void)deck_axes(run->deck, axis);
   scene_points_over(p, run->deck, AXES, axis);
-  p->chunk = chunk_of(p->n);
+  p->chunk = CHUNK;
   SCENE_COMPUTE(run, p, "parts of the map", .last = 1);
   for (int i = 0; i < AXES; i++) scene_dimension(run, NULL, axis[i]);
   scene_points_write(run, p);

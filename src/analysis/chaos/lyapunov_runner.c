@@ -39,12 +39,12 @@ static void look_from(runner *r, const pendres_strobe_lane *l)
   r->ref_period = l->period;
 }
 
-/* The distance of two strobe points, whole turns aside, which are *across. */
+/* The distance of two strobe points, whole turns aside, which are *across; squared. */
 static double apart_by(const pendres_strobe_lane *l, double y, double w, double *across)
 {
-  const double dy = l->y - y, turn = pendres_model_turn(l->pendulum);
+  const double dy = l->y - y, dw = l->w - w, turn = pendres_model_turn(l->pendulum);
   *across = rint(dy / turn);
-  return hypot(dy - turn * *across, l->w - w);
+  return (dy - turn * *across) * (dy - turn * *across) + dw * dw;
 }
 
 void pendres_runner_trust(runner *r, const pendres_strobe_lane *l, double doubt)
@@ -59,16 +59,17 @@ void pendres_runner_trust(runner *r, const pendres_strobe_lane *l, double doubt)
 void pendres_runner_pass(runner *r, const pendres_strobe_lane *l)
 {
   double across;
-  r->back = fmin(r->back, apart_by(l, r->sure_y, r->sure_w, &across));
+  const double square = apart_by(l, r->sure_y, r->sure_w, &across);
+  if (square < r->back * r->back) r->back = sqrt(square);
 }
 
 int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
 {
   const long lag = l->period - r->ref_period;
   double across;
-  const double distance = apart_by(l, r->ref_y, r->ref_w, &across);
+  const double square = apart_by(l, r->ref_y, r->ref_w, &across), lags = (double)lag;
   /* The more periods, the more often points come back by chance. */
-  if (lag > 0 && lag <= LONGEST_ORBIT && (double)lag * distance < r->near) {
+  if (lag > 0 && lag <= LONGEST_ORBIT && lags * lags * square < r->near * r->near) {
     const double turns = (double)(l->turns - r->ref_turns) + across;
     r->period = (int)lag;
     r->winding = fabs(turns) < 1e6 ? (int)turns : 0;

@@ -41,7 +41,8 @@ typedef struct pendres_runner {
                           change where it goes; NaN: not known */
   double sure_y, sure_w; /* the last state before that was above 1, ... */
   double back;           /* ... and the smallest distance to that in averages */
-  long further;        /* periods that it is followed after its transient */
+  long until;          /* the period at which its transient is over, or it has been followed */
+  int followed;        /* after its transient */
   int open;            /* it may escape, */
   double before_y, before_w; /* and was here a period ago */
   int rotates;         /* it may be on a rotation that is not locked to the drive */

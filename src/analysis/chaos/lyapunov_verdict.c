@@ -77,14 +77,13 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
   const job *j = arg;
   pendres_runner *r = &j->runner[index];
   pendres_runner_trust(r, lane, pendres_settle_error_ratio(lane->worst));
-  const long further = lane->period - transient_of(j, lane);
-  if (further > 0 && !(r->doubt <= 1.0)) pendres_runner_pass(r, lane);
+  if (r->followed && !(r->doubt <= 1.0)) pendres_runner_pass(r, lane);
   if (pendres_runner_leaves(r, lane)) return 1;
   if (pendres_runner_comes_back(r, lane)) {
     r->state = PENDRES_RUNNER_CAUGHT;
     return 1;
   }
-  return further >= r->further || !(isfinite(lane->y) && isfinite(lane->w));
+  return lane->period >= r->until || !(isfinite(lane->y) && isfinite(lane->w));
 }
 
 /* ---- orbits -------------------------------------------------------------------------------- */
@@ -308,6 +307,7 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   const double speed =
     fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
   *r = pendres_runner_at(&lane, close_by);
+  r->until = transient_of(j, &lane);
   r->rotates = pendres_lyapunov_may_rotate(p);
   r->beside = j->care == PENDRES_CARE_CLOSE ? PENDRES_BESIDE_NOTHING : PENDRES_BESIDE_TANGENTS;
   double accuracy = usual;
@@ -392,7 +392,8 @@ static pendres_status follow(pendres_context *ctx, const job *j)
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING) continue;
-    r->further = j->longer;
+    r->until = transient_of(j, &r->lane) + j->longer;
+    r->followed = 1;
     r->lane.added = pendres_settle_added(ctx, usual, r->steps);
     if (r->doubt > 1.0)
       status = pendres_steps_choose(ctx, r->lane.pendulum, speed_of(&r->lane),
