@@ -129,9 +129,9 @@ static int is_crossed(const pendres_curve *t, size_t i)
 }
 
 /*
- * Locate a zero of the fold's test function. Where a branch was born it turns round: that looks
- * like a fold of its own map, but is the flip of a half map, of the one by which orbits close
- * there. What closes by half and is no flip of that is a fold all the same.
+ * Locate a zero of the fold's test function. Where a branch was born from another it turns back.
+ * That looks like a fold of its own map, but is a flip of a half map, the one by which the orbits
+ * close there. An orbit that closes by half where the half map has no flip is at a fold.
  */
 static pendres_status locate_fold(pendres_context *ctx, const pendres_curve *t,
                                   const double u[PENDRES_U_COUNT], double reach,

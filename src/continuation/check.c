@@ -13,7 +13,7 @@
  * turns nowhere else but where the branch was born from another, of half its map.
  */
 
-/* A point that stands for the part of a branch next to it. */
+/* A point that is no bifurcation. */
 static int regular(const pendres_curve *b, size_t i)
 {
   return b->branch_point[i].bifurcation < 0;

@@ -39,7 +39,7 @@ pendres_crossing_pivot pendres_crossing_pivot_of(const pendres_image *image, int
 void pendres_crossing_rows(const pendres_crossing_pivot *pivot, const pendres_image *image,
                            double rows[4]);
 
-/* Whether beta is 0 but for the rounding of this many steps and another error. */
+/* Whether beta is 0 within the rounding of this many steps and another error. */
 int pendres_crossing_closes(const pendres_image *image, int parameter, int steps, double error);
 
 /*

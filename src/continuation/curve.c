@@ -22,7 +22,7 @@ static pendres_status no_memory(pendres_context *ctx)
   return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
 }
 
-/* Free what callers do not see, but for the two ways. */
+/* Free the working arrays except the two ways. */
 static void forget_nodes(pendres_curve *c)
 {
   void *const arrays[] = {c->node, c->special, c->place, c->pair, c->orbit, c->error};
@@ -36,7 +36,7 @@ static void forget_nodes(pendres_curve *c)
   c->nodes = c->capacity = c->room = 0;
 }
 
-/* Free what callers do not see. */
+/* Free all working arrays. */
 static void forget(pendres_curve *c)
 {
   forget_nodes(c);
@@ -76,7 +76,8 @@ typedef struct landing {
   pendres_curve_node node;
 } landing;
 
-/* Find the parameter among the unknowns that is out of its bounds, and that bound; 0: none is. */
+/* Find a parameter among the unknowns that is out of its bounds, and which bound it has passed;
+   0: all are within. */
 static int out_of_bounds(const pendres_system *s, const pendres_curve_bounds *b,
                          const double u[PENDRES_U_COUNT], landing *out)
 {
@@ -120,7 +121,7 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
   node->held = k + 1;
   node->arclength = inside->arclength + pendres_arc_distance(inside->u, c.u);
   node->bending = inside->bending + part * (outside->bending - inside->bending);
-  /* What belongs to the place and not to the plane is taken from the way there. */
+  /* The tangent of the curve is interpolated; that of the correction is the plane of the bound. */
   for (int i = 0; i < system.unknowns; i++)
     node->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
   system.steps = c.steps;
@@ -140,8 +141,8 @@ static double turns_between(const pendres_map *map, const double from[PENDRES_U_
   return turn * rint((to[PENDRES_U_Y] - from[PENDRES_U_Y]) / turn);
 }
 
-/* Whether the chord from a to b passes the start in the start's own direction, whole turns away
-   perhaps. */
+/* Whether the chord from a to b passes the start in the direction of the start's tangent. The start
+   may be whole turns away. */
 static int passes(const pendres_system *s, const pendres_curve_node *start,
                   const pendres_curve_node *a, const pendres_curve_node *b)
 {

@@ -12,8 +12,8 @@
 #include "continuation/follow.h"
 #include "continuation/locate.h"
 
-/* Where a test function is thought to vanish: between nodes i and i + 1 (or the first, if closed),
-   this share of the way. */
+/* An estimate of where a test function vanishes: between nodes i and i + 1 (after the last node of
+   a closed curve comes the first), at this share of the chord. */
 typedef struct pendres_curve_zero {
   size_t i;
   double part;
@@ -48,19 +48,19 @@ struct pendres_curve {
   pendres_branch_end end[2];
   size_t start; /* in a set: the number of the bifurcation that it was followed from */
   size_t count, specials; /* points, special ones included */
-  /* What callers see, in their units. Of a branch: */
+  /* Results, in the caller's units. Of a branch: */
   pendres_branch_point *branch_point;
   pendres_bifurcation *bifurcation;
-  /* Of a curve of bifurcations, and where its points are: */
+  /* Of a curve of bifurcations, with the unknowns of its points: */
   pendres_curve_point *point;
   pendres_cusp *cusp;
   double (*u)[PENDRES_U_COUNT];
-  /* What has been found on the way there, until there is what callers see. */
+  /* Working arrays, which are freed once the results have been made, or kept to go on: */
   pendres_curve_way *way; /* [2] */
   size_t nodes, capacity, room;
   pendres_curve_node *node; /* in order, arclength ascending from 0 */
-  double round; /* closed: the last node is followed by the first, whose y is meant to be so much
-                   larger: whole turns, where the way round leads from well to well */
+  double round; /* of a closed curve: by how many whole turns, as an angle, y has grown when the
+                   curve is back at its first node; it may lead from well to well */
   pendres_curve_special *special;
   pendres_curve_place *place; /* [count] all points, in order */
   /* For each node: what it was corrected to, its orbit, and the errors of its parameters. */
@@ -125,10 +125,11 @@ typedef struct pendres_curve_bounds {
   size_t most_points; /* each way */
 } pendres_curve_bounds;
 
-/* What is made of a curve whose nodes have been found: its special points, and what callers see. */
+/* Makes the results of a curve whose nodes have been found: special points, measures, errors. */
 typedef pendres_status pendres_curve_finisher(pendres_context *ctx, pendres_curve *curve);
 
-/* Begin a curve, follow it, finish it, and forget its nodes. On failure *out is NULL. */
+/* Begin a curve, follow it, make its results, and free its working arrays. On failure *out is
+   NULL. */
 pendres_status pendres_curve_make(pendres_context *ctx, const pendres_curve_start *start,
                                   const pendres_curve_bounds *bounds,
                                   pendres_curve_finisher *finish, pendres_curve **out);
@@ -147,9 +148,9 @@ pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_param
 /* ---- special points ---- */
 
 /*
- * What is looked for on a curve: where the zeros of a function of its nodes are, or what else finds
- * them, and a way to locate what one stands for, near u: `out` has its place already.
- * PENDRES_NOT_CONVERGED: it was no zero.
+ * A test for special points of one kind: a function of nodes that vanishes at them, or another way
+ * to find candidates; and a function that locates the special point near a candidate u, whose place
+ * on the curve is already in *out. PENDRES_NOT_CONVERGED: there is none.
  */
 enum { PENDRES_CURVE_ZEROS = 256 /* at most, of one function */ };
 typedef double pendres_curve_function(const pendres_curve_node *node);

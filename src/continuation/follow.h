@@ -1,10 +1,10 @@
 /*
  * follow.h -- the one follower: along a curve of solutions by pseudo-arclength.
  *
- * Owns: predictor, corrector and step length. A follower is on its way along a curve, whatever the
- * curve's equations are: it predicts several points ahead of its place at once, in lanes side by
- * side, corrects all of them by Newton's method, and keeps those that converged and lie in order;
- * several followers share the same blocks. What one finds depends on itself alone.
+ * Owns: predictor, corrector and step length. A follower has a place on a curve of any equations.
+ * It predicts several points ahead at once, which are integrated side by side, corrects all of them
+ * by Newton's method, and keeps those that converged and lie in order. Several followers share
+ * blocks; what one of them finds does not depend on the others.
  *
  * Source: Keller, in Applications of Bifurcation Theory (1977); Kuznetsov, section 10.2.
  */
@@ -23,19 +23,19 @@ typedef struct pendres_followed {
                                          way */
   double tolerance; /* the error of a period that steps are chosen for */
   double spacing;   /* the largest spacing of points, in scaled arclength */
-  int apart; /* found where a follower begins. Bit k: off the orbits that already close by half map
-                number k, and stays off them: where its branch meets the one that it was born from,
-                it stays on its own */
+  int apart; /* set where a follower begins. Bit k: its orbits do not close by half map number k,
+                and points that do are refused, so that the follower does not change over to the
+                branch from which its own was born */
 } pendres_followed;
 
 /* A place on a curve. */
 typedef struct pendres_curve_node {
   double u[PENDRES_U_COUNT];
   double tangent[PENDRES_UNKNOWNS]; /* unit vector of the scaled unknowns */
-  int held; /* 1 + the number of an unknown that corrections leave as it is; 0: none */
+  int held; /* 1 + the number of an unknown that corrections do not change; 0: none */
   double arclength; /* from where the follower began, of the scaled unknowns */
   pendres_image image;
-  double growth;  /* how sensitive the equations are here; curves end where it is too large */
+  double growth;  /* by how much the equations enlarge errors; curves end where it is too large */
   double null[2]; /* of folds: the null vector of N - I, its sign kept along the curve, */
   double bending; /* and the derivative of det(N - I) along it, whose zero is a cusp */
 } pendres_curve_node;
@@ -78,32 +78,32 @@ typedef struct pendres_correction {
   double tangent[PENDRES_UNKNOWNS]; /* the point stays in the plane across it */
   int steps;                        /* a period */
   double u[PENDRES_U_COUNT];        /* where it is; replaced */
-  /* The corrector's own: */
+  /* Set by the corrector: */
   enum { PENDRES_CORRECTION_ACTIVE, PENDRES_CORRECTION_CONVERGED, PENDRES_CORRECTION_FAILED } state;
   int waiting;
   pendres_equations at;
 } pendres_correction;
 
-/* Correct n points. One fails, too, that converges to orbits that its kind keeps apart from. */
+/* Correct n points. Those that converge to orbits from which their kind keeps apart fail, too. */
 pendres_status pendres_follow_correct(pendres_context *ctx, size_t n, pendres_correction *points);
 
 /* The error of the scaled unknowns of a corrected point by rounding; NaN where that failed. */
 double pendres_correction_rounding(const pendres_correction *point);
 
-/* What a node is beside its place: image, growth, tangent, and null vector and bending with the
-   sign of the null vector that the node has already. */
+/* Set image, growth, tangent, null vector and bending of a node. The null vector keeps the sign
+   that it has in the node. */
 pendres_status pendres_follow_describe(pendres_context *ctx, const pendres_followed *kind,
                                        int steps, pendres_curve_node *node);
 
 /*
- * Something on a curve: a function of its nodes that changes its sign there, and what follows from
- * two nodes between which it does and a place u between them.
+ * A search along a curve: a function of its nodes that changes its sign at what is searched for,
+ * and a function that locates that between two nodes, near u.
  */
 typedef struct pendres_search {
   const char *start; /* what the curve is of: "orbit" */
   double (*value)(const pendres_curve_node *start, const pendres_curve_node *node);
-  /* PENDRES_NOT_CONVERGED: it is not there, and the search goes on; PENDRES_NOT_FOUND: the other
-     way is tried. */
+  /* PENDRES_NOT_CONVERGED: there is nothing, and the search goes on; PENDRES_NOT_FOUND: it goes on
+     in the other direction. */
   pendres_status (*locate)(pendres_context *ctx, const pendres_followed *kind,
                            const pendres_curve_node nodes[2], const double u[PENDRES_U_COUNT],
                            void *out);

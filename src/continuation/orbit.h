@@ -25,9 +25,9 @@ pendres_status pendres_solution_measure(pendres_context *ctx, size_t n,
                                         const pendres_solution *pairs, pendres_orbit *out);
 
 /*
- * The multipliers of an orbit at a bifurcation that was found as the parameters changed, each known
- * but for its error: one is +1 or -1, and the product of both is known (Liouville). What a map near
- * the bifurcation has instead tells of its distance alone.
+ * The multipliers of an orbit at a bifurcation, whose parameters are known to these errors: one is
+ * +1 or -1, and the product of both follows from the damping (Liouville). Those of the map that was
+ * computed there differ from them, since it is a little off the bifurcation.
  */
 void pendres_orbit_set_critical(pendres_special kind, int parameters,
                                 const pendres_parameter *parameter, const double *error,

@@ -27,7 +27,7 @@ static void arrays_of(const pendres_curve *c, size_t size[ARRAYS], size_t count[
   memcpy(count, counts, sizeof counts);
 }
 
-/* What stands before the arrays: the same of the same curve, padding included. */
+/* The head before the arrays: equal curves have equal bytes, padding included. */
 static pendres_curve head_of(const pendres_curve *c)
 {
   pendres_curve h;

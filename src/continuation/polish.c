@@ -233,8 +233,8 @@ pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *c)
 
 /* ---- branches that only lead on ---- */
 
-/* The special points stand behind nodes: polish these and the next ones, so that nodes and special
-   points are in the order of the parameter, too. */
+/* Make the nodes before and behind special points exact, so that these and the nodes are in the
+   order of the parameter, too. */
 static pendres_status polish_neighbours(pendres_context *ctx, pendres_curve *c)
 {
   size_t *index = malloc((2 * c->specials + 1) * sizeof *index), n = 0;

@@ -2,9 +2,9 @@
  * sets.h -- sets of branches and of curves, and the curves that many bifurcations lie on, found in
  * parts that know nothing of each other.
  *
- * Owns: which bifurcations can lie on one curve, so that all others can be left to other threads;
- * how what these find is put together. The curves are those that pendres_curves_extend() finds, in
- * its order.
+ * Owns: which bifurcations can lie on one curve, so that those of different curves can be given to
+ * different threads; and how the curves that these find are put together. The curves are those that
+ * pendres_curves_extend() finds, in its order.
  */
 #ifndef PENDRES_SETS_H
 #define PENDRES_SETS_H

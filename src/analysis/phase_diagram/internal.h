@@ -27,7 +27,7 @@ typedef struct pendres_phase_done {
   size_t values;               /* points of the line */
   size_t count;                /* those that have results */
   pendres_phase_point *points; /* [values], the first `count` set */
-  size_t *place;               /* [values] where it stands in points */
+  size_t *place;               /* [values] its index in points */
   pendres_phase_mark *mark;    /* [values] */
   pendres_branches *branches;
 } pendres_phase_done;
@@ -63,7 +63,7 @@ struct pendres_phase_diagram {
   pendres_phase_round round;   /* the present one; no tasks: before the first, or all is done */
   int begun;
   pendres_phase_done *line;    /* [lines] */
-  pendres_phase_point nothing; /* what stands for a point that has no results */
+  pendres_phase_point nothing; /* is given for a point that has no results */
   pendres_bifurcation *bifurcation; /* of all lines, in their order */
   size_t *first;               /* [lines + 1] the first bifurcation of each line */
   size_t bifurcations;

@@ -118,7 +118,7 @@ static int enough(const pendres_small_end *end, const pendres_label_states *s,
   return s->count > 1 || (s->count > 0 && pendres_small_end_from(end, &p->pendulum).beyond);
 }
 
-/* Look up on the branches from number `first` on what is not known yet of a point. */
+/* Find the states of a point that are not known yet on the branches from number `first` on. */
 static pendres_status look_up(line *l, size_t first, pendres_label_states *s,
                               pendres_phase_point *p)
 {
@@ -368,7 +368,7 @@ static int beyond_cusps(const pendres_curves *curves, const pendres_pendulum *p)
   return cusps > 0;
 }
 
-/* Add the branches through all points at which a curve crosses the line. */
+/* Add the branches through all places at which a curve crosses the line. */
 static pendres_status add_crossed(pendres_context *ctx, const pendres_curve *curve,
                                   const pendres_pendulum *of_line,
                                   const pendres_branch_options *options,
@@ -393,7 +393,7 @@ static pendres_status add_crossed(pendres_context *ctx, const pendres_curve *cur
   return status;
 }
 
-/* The states that a point has been found to have, but for one without a name. */
+/* The named states that have been found at a point. */
 static pendres_label_states states_of(const pendres_phase_point *p)
 {
   pendres_label_states s = {.count = 0};

@@ -17,9 +17,9 @@ int pendres_phase_on_sheets(const pendres_orbit *orbit);
 pendres_small_end pendres_phase_small_end(const pendres_branches *branches);
 
 /* How far branches and curves are followed in a parameter around a diagram's first and last value
-   of it, so that they meet the fold that the names of its points follow from. plain: the pendulums
-   have neither torque nor parametric drive nor another force. Of others it is not known where that
-   fold is, and branches reach beyond the diagram by a tenth of its width. */
+   of it, so that they include the fold by which SA and LA are told apart. plain: the pendulums have
+   neither torque nor parametric drive nor another force. For others it is not known where that fold
+   is, and branches reach beyond the diagram by a tenth of its width. */
 void pendres_phase_reach(pendres_parameter parameter, int plain, double first, double last,
                          double *low, double *high);
 

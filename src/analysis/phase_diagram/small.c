@@ -4,7 +4,7 @@
 #include "continuation/sets.h"
 #include "model/model.h"
 
-/* Orbits on the sheets that fold over each other, whatever their stability. */
+/* Stable or not: the sheets of SA, LA and the state between them fold over each other. */
 int pendres_phase_on_sheets(const pendres_orbit *o)
 {
   return pendres_label_named(o) && (o->symmetric || !pendres_pendulum_symmetric(&o->pendulum));
