@@ -6,6 +6,7 @@
 
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
+#include "analysis/sweeps/hysteresis_left.h"
 
 /* So many at once that the few lanes left at last, which slip past the end of a lock seldom, are
    those of all values of most paths. */
@@ -58,6 +59,25 @@ void pendres_path_unlocked_free(pendres_path *w)
   w->unlocked = NULL;
 }
 
+/* Rotations that slip too seldom for their means to be known go on for as long again: by then some
+   have come to the lock that they were on their way to. */
+static pendres_status go_on(pendres_context *ctx, size_t n, pendres_settled *s)
+{
+  size_t count = 0;
+  pendres_settled *some = malloc((n + 1) * sizeof *some);
+  if (some == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for rotations");
+  for (size_t k = 0; k < n; k++)
+    if (s[k].slips)
+      some[count++] = pendres_settled_nothing_at(&s[k].pendulum, s[k].x, s[k].v);
+  const pendres_status status = pendres_settled_rotations(ctx, count, some);
+  count = 0;
+  for (size_t k = 0; k < n; k++)
+    if (s[k].slips) s[k] = some[count++];
+  free(some);
+  return status;
+}
+
 /* Average the rotations at values from number i on that are not known yet, side by side. *next
    receives what is found at value number i. */
 static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
@@ -77,7 +97,10 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
     known[n] = u;
     s[n++] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
   }
-  const pendres_status status = pendres_settled_rotations(w->ctx, n, s);
+  pendres_path_allow_all(w); /* the work is that of many values */
+  pendres_status status = pendres_settled_rotations(w->ctx, n, s);
+  if (status == PENDRES_OK) status = go_on(w->ctx, n, s);
+  pendres_path_allow(w);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
     const pendres_attractor *a = &s[k].attractor;
     known[k]->found = a->label == PENDRES_LABEL_QUASI_PERIODIC;
