@@ -360,6 +360,14 @@ static void backbone_of_any_force(void **state)
     check_near((double)want.loop_area, o[i].loop_area, 2.0 * o[i].loop_area_error);
   }
   assert_true(o[2].x > 0.5); /* in the upper well */
+  /* Whichever pendulums are asked for with it, each has the same digits. */
+  for (size_t i = 0; i < 2 * COUNT; i++) {
+    pendres_orbit alone;
+    double of;
+    check_ok(pendres_backbone_find(ctx, 1, &one[i], &alone, &of, outcome));
+    assert_true(of == error[i] && alone.x == o[i].x && alone.loop_area == o[i].loop_area &&
+                alone.pendulum.drive_frequency == o[i].pendulum.drive_frequency);
+  }
   pendres_context_free(ctx);
 }
 

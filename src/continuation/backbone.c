@@ -2,9 +2,9 @@
  * backbone.c -- where the response lags a quarter of a turn; see continuation.h.
  *
  * The orbits of pendulums that differ in the damping alone form a curve in drive frequency and
- * damping. At strong damping they are small oscillations about a well, which are known; from there
- * the curve is followed to weaker damping, as far as it goes. Where it turns back the drive puts in
- * more than friction can take out, whatever the amplitude.
+ * damping. Where the damping is strong enough they are small oscillations about a well, which are
+ * known; from there the curve is followed to stronger and to weaker damping. Where it turns back
+ * the drive puts in more than friction can take out, whatever the amplitude.
  */
 #include <pendres/continuation.h>
 
@@ -30,9 +30,6 @@ enum { MOST_ROLLS = 1000, MOST_STARTS = 6 };
 static const double first_amplitude = 0.1;
 /* So close to a place the force is linear to a few millionths. */
 static const double near = 1e-3;
-/* The damping at the start is larger by this factor than what is asked for: the start is moved when
-   it is corrected. */
-static const double beyond = 1.1;
 
 /* ---- small oscillations ---- */
 
@@ -79,13 +76,21 @@ static double damping_at(const pendres_pendulum *p, double well, double amplitud
   return p->drive_amplitude / (amplitude * sqrt(stiffness(p, well, amplitude)));
 }
 
-/* The largest amplitude to begin at with a larger damping than this one. */
-static double largest_start(const pendres_pendulum *p, double well, double damping)
+/* Whether an oscillation loses less than all of its energy in a radian. */
+static int swings(const pendres_pendulum *p, double well, double a)
+{
+  return damping_at(p, well, a) < sqrt(stiffness(p, well, a));
+}
+
+/* The amplitude to begin at, near where oscillations cease to be overdamped: it depends on the line
+   alone, and so does the curve, whichever dampings are asked for. */
+static double start_amplitude(const pendres_pendulum *p, double well)
 {
   double a = first_amplitude;
-  while (stiffness(p, well, 2.0 * a) >= stiffness(p, well, a) &&
-         damping_at(p, well, 2.0 * a) >= damping)
+  while (stiffness(p, well, 2.0 * a) >= stiffness(p, well, a) && !swings(p, well, 2.0 * a) &&
+         isfinite(2.0 * a))
     a *= 2.0;
+  while (swings(p, well, a)) a *= 0.5;
   return a;
 }
 
@@ -103,30 +108,29 @@ static pendres_orbit oscillation(const pendres_pendulum *p, double well, double 
   return o;
 }
 
-/* Begin the curve of a pendulum's orbits where the damping is larger than this one.
+/* Begin the curve of a pendulum's orbits, towards weaker damping and towards stronger.
    PENDRES_NOT_FOUND: there is none. */
-static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, double strongest,
-                            pendres_follower *w)
+static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, pendres_follower w[2])
 {
   static const pendres_parameter along[] = {PENDRES_DRIVE_FREQUENCY, PENDRES_DAMPING};
   pendres_pendulum p = *of;
   double well;
-  int starts = 0;
   if (!find_well(&p, &well)) return PENDRES_NOT_FOUND;
-  for (double a = largest_start(&p, well, beyond * strongest); a > 0.0 && starts < MOST_STARTS;
-       a *= 0.5) {
+  double a = start_amplitude(&p, well);
+  for (int i = 0; i < MOST_STARTS && a > 0.0; i++, a *= 0.5) {
     double u[PENDRES_U_COUNT];
     p.damping = damping_at(&p, well, a);
-    if (!(p.damping >= beyond * strongest)) continue;
+    if (!isfinite(p.damping)) continue;
     p.drive_frequency = p.drive_amplitude / (a * p.damping);
-    starts++;
     const pendres_orbit o = oscillation(&p, well, a);
     const pendres_followed kind =
       pendres_followed_of(&o, PENDRES_CONDITION_LAG, along, pendres_search_spacing, u);
-    const pendres_status status = pendres_follow_begin(ctx, &kind, u, -1.0, w);
+    pendres_status status = pendres_follow_begin(ctx, &kind, u, -1.0, &w[0]);
+    if (status == PENDRES_OK) status = pendres_follow_begin(ctx, &kind, u, 1.0, &w[1]);
     if (status != PENDRES_OK && status != PENDRES_NOT_CONVERGED) return status;
-    const double off = hypot(w->here.u[PENDRES_U_Y] - well, w->here.u[PENDRES_U_W] - a);
-    if (status == PENDRES_OK && off < a && w->here.u[PENDRES_U_GAMMA] > strongest) return status;
+    const double *at = w[0].here.u;
+    if (status == PENDRES_OK && hypot(at[PENDRES_U_Y] - well, at[PENDRES_U_W] - a) < a)
+      return status;
   }
   return PENDRES_NOT_FOUND;
 }
@@ -140,13 +144,15 @@ typedef struct line {
   size_t *index;            /* [n] of the caller's */
   double *damping;          /* [n] */
   pendres_curve_node *node; /* [n] */
-  size_t found;             /* of the nodes, the first */
+  int *on;                  /* [n] whether the node lies on the curve */
+  size_t found;             /* of the nodes, the first, once they are corrected */
 } line;
 
 /* Find the point of the curve with a damping between two nodes, which may turn back on the way: on
    the parabola with the first one's tangent through the second. 0: there is none. */
 static int between(const pendres_system *s, const pendres_curve_node *a,
-                   const pendres_curve_node *b, double damping, pendres_curve_node *out)
+                   const pendres_curve_node *b, int forth, double damping,
+                   pendres_curve_node *out)
 {
   const int last = s->unknowns - 1;
   const double h = b->arclength - a->arclength, away = damping - a->u[PENDRES_U_GAMMA];
@@ -157,8 +163,8 @@ static int between(const pendres_system *s, const pendres_curve_node *a,
     bend[k] = (b->u[i] - a->u[i] - slope[k] * h) / (h * h);
   }
   const double square = slope[last] * slope[last] + 4.0 * bend[last] * away;
-  double way = 2.0 * away / (slope[last] - sqrt(square));
-  if (damping >= b->u[PENDRES_U_GAMMA]) way = fmin(way, h); /* beyond by rounding alone */
+  double way = 2.0 * away / (slope[last] + forth * sqrt(square));
+  if (forth * (b->u[PENDRES_U_GAMMA] - damping) >= 0.0) way = fmin(way, h); /* but for rounding */
   if (!(square >= 0.0 && way >= 0.0 && way <= h)) return 0;
   *out = *a;
   for (int k = 0; k < s->unknowns; k++)
@@ -170,20 +176,25 @@ static int between(const pendres_system *s, const pendres_curve_node *a,
   return 1;
 }
 
-/* Follow the curve to the weakest damping of a line, or as far as it goes. */
-static pendres_status follow(pendres_context *ctx, pendres_follower *w, line *l)
+/* Follow the curve as long as the damping grows (way: 1) or falls (-1), and take the points of the
+   line on it, from number `next` on, one after another in that direction. */
+static pendres_status follow(pendres_context *ctx, pendres_follower *w, int way, size_t next,
+                             line *l)
 {
   pendres_curve_node last = w->here;
   for (int i = 0; i < PENDRES_SEARCH_ADVANCES && !w->stuck &&
                   w->here.growth < pendres_curve_wildest; i++) {
+    if (next >= l->n) return PENDRES_OK;
     const pendres_status status = pendres_follow_advance(ctx, 1, &w);
     if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
     for (int k = 0; k < w->found; k++, last = w->ahead[k - 1]) {
-      const pendres_curve_node *next = &w->ahead[k];
-      while (l->found < l->n && between(&w->kind.system, &last, next, l->damping[l->found],
-                                        &l->node[l->found]))
-        l->found++;
-      if (l->found == l->n || !(next->u[PENDRES_U_GAMMA] < last.u[PENDRES_U_GAMMA]))
+      const pendres_curve_node *to = &w->ahead[k];
+      while (next < l->n && between(&w->kind.system, &last, to, way, l->damping[next],
+                                    &l->node[next])) {
+        l->on[next] = 1;
+        next -= (size_t)way; /* below 0 is beyond n */
+      }
+      if (next >= l->n || !(way * (to->u[PENDRES_U_GAMMA] - last.u[PENDRES_U_GAMMA]) > 0.0))
         return PENDRES_OK;
     }
   }
@@ -194,6 +205,14 @@ static pendres_status follow(pendres_context *ctx, pendres_follower *w, line *l)
 static pendres_status correct(pendres_context *ctx, const pendres_followed *kind, line *l)
 {
   size_t kept = 0;
+  for (size_t k = 0; k < l->n; k++) {
+    if (!l->on[k]) continue;
+    l->node[kept] = l->node[k];
+    l->damping[kept] = l->damping[k];
+    l->index[kept++] = l->index[k];
+  }
+  l->found = kept;
+  kept = 0;
   pendres_correction *c = calloc(l->found + 1, sizeof *c);
   pendres_status status = PENDRES_OK;
   if (c == NULL)
@@ -257,12 +276,15 @@ static pendres_status measure(pendres_context *ctx, const pendres_followed *kind
 
 static pendres_status find_line(pendres_context *ctx, line *l, const results *out)
 {
-  pendres_follower w;
-  pendres_status status = begin(ctx, l->first, l->damping[0], &w);
-  if (status == PENDRES_NOT_FOUND) return PENDRES_OK;
-  if (status == PENDRES_OK) status = follow(ctx, &w, l);
-  if (status == PENDRES_OK) status = correct(ctx, &w.kind, l);
-  return status == PENDRES_OK ? measure(ctx, &w.kind, l, out) : status;
+  pendres_follower w[2];
+  pendres_status status = begin(ctx, l->first, w);
+  if (status != PENDRES_OK) return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
+  size_t weaker = 0;
+  while (weaker < l->n && l->damping[weaker] > w[0].here.u[PENDRES_U_GAMMA]) weaker++;
+  status = follow(ctx, &w[0], -1, weaker, l);
+  if (status == PENDRES_OK) status = follow(ctx, &w[1], 1, weaker - 1, l);
+  if (status == PENDRES_OK) status = correct(ctx, &w[0].kind, l);
+  return status == PENDRES_OK ? measure(ctx, &w[0].kind, l, out) : status;
 }
 
 /* ---- several pendulums ---- */
@@ -290,6 +312,7 @@ static void take_line(size_t n, const pendres_pendulum *p, size_t first,
     }
     l->damping[k] = p[i].damping;
     l->index[k] = i;
+    l->on[l->n - 1] = 0;
   }
 }
 
@@ -317,8 +340,9 @@ static pendres_status backbone_find(pendres_context *ctx, size_t n,
   pendres_status status = PENDRES_OK;
   line l = {.index = malloc((n + 1) * sizeof *l.index),
             .damping = malloc((n + 1) * sizeof *l.damping),
-            .node = calloc(n + 1, sizeof *l.node)};
-  if (l.index == NULL || l.damping == NULL || l.node == NULL)
+            .node = calloc(n + 1, sizeof *l.node),
+            .on = calloc(n + 1, sizeof *l.on)};
+  if (l.index == NULL || l.damping == NULL || l.node == NULL || l.on == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     out->outcome[i] = PENDRES_STATUS_COUNT; /* none yet */
@@ -334,6 +358,7 @@ static pendres_status backbone_find(pendres_context *ctx, size_t n,
   free(l.index);
   free(l.damping);
   free(l.node);
+  free(l.on);
   return status;
 }
 
