@@ -323,6 +323,43 @@ static void left_out(void **state)
   pendres_hysteresis_free(kept);
 }
 
+/*
+ * Chaos of the driven pendulum that becomes larger in an interior crisis is told both ways. Runge
+ * and Kutta's method with 300 steps a period stays in the smaller set for 200,000 periods at
+ * `inside`, and leaves it at `outside`. In a Duffing oscillator's chaos nothing happens between
+ * 0.41 and 0.42.
+ */
+static void interior_crises(void **state)
+{
+  enum { VALUES = 4 };
+  static const double value[VALUES] = {2.645, 2.6475, 2.645, 2.645};
+  static const double inside = 2.646397, outside = 2.646398;
+  const pendres_pendulum p = {.damping = 0.22, .drive_frequency = 1.0};
+  const pendres_hysteresis_path path = {PENDRES_DRIVE_AMPLITUDE, VALUES, value};
+  pendres_hysteresis *h = NULL;
+  check_ok(pendres_hysteresis_find(*state, &p, &(pendres_state){0.1, 0.1}, &path, &h));
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
+  for (size_t i = 0; i < 2; i++) {
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, i);
+    assert_int_equal(j->kind, PENDRES_JUMP_CRISIS);
+    assert_true(j->from == PENDRES_LABEL_CHAOTIC && j->to == PENDRES_LABEL_CHAOTIC);
+    assert_true(j->step == i + 1 && j->direction == (i == 0 ? 1 : -1));
+    assert_true(j->value - j->value_error < outside && j->value + j->value_error > inside);
+    assert_true(j->value_error < 5e-5);
+  }
+  pendres_hysteresis_free(h);
+
+  static const double amplitude[] = {0.41, 0.42};
+  const pendres_pendulum wells = {.damping = 0.25, .drive_frequency = 1.0,
+                                  .force = PENDRES_FORCE_POLYNOMIAL,
+                                  .force_coefficients = {-1.0, 0.0, 1.0}};
+  const pendres_hysteresis_path quiet = {PENDRES_DRIVE_AMPLITUDE, 2, amplitude};
+  check_ok(pendres_hysteresis_find(*state, &wells, &(pendres_state){1.0, 0.0}, &quiet, &h));
+  assert_int_equal(pendres_hysteresis_get(h, 1)->attractor.label, PENDRES_LABEL_CHAOTIC);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 0);
+  pendres_hysteresis_free(h);
+}
+
 /* To find what there is beyond the end of SA at 0.8416 takes more than a value may take here. That
    is tried once, not at each of the values beyond; back before the end SA goes on. */
 static void beyond_an_end(void **state)
@@ -387,6 +424,7 @@ int main(void)
     cmocka_unit_test(escaped),
     cmocka_unit_test_setup_teardown(left_out, setup_exact, teardown),
     cmocka_unit_test(not_worth_it),
+    cmocka_unit_test_setup_teardown(interior_crises, setup, teardown),
     cmocka_unit_test(beyond_an_end),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -75,7 +75,8 @@ typedef struct pendres_hysteresis_point {
  * PENDRES_JUMP_OTHER: it ends within the error of the value, for a reason that is not known;
  * PENDRES_JUMP_BRANCH_POINT: the orbit meets another branch and exchanges its stability with that
  * (transcritical); PENDRES_JUMP_CRISIS: a chaotic attractor meets an unstable orbit, or its stable
- * manifold; PENDRES_JUMP_HOMOCLINIC: a rotation without a drive meets the upper equilibrium.
+ * manifold, and ends or, if what follows is chaotic too, suddenly becomes larger or, the other way,
+ * smaller; PENDRES_JUMP_HOMOCLINIC: a rotation without a drive meets the upper equilibrium.
  * PENDRES_JUMP_COUNT: how many there are.
  *
  * All of these are ends of states: a state is never reported to end because a computation stopped.

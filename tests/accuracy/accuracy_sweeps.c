@@ -240,7 +240,8 @@ static void check_jump(item *t, const pendres_jump *j)
   for (int k = 0; k < t->jumps; k++) others += t->jump[k].step == j->step;
   if (!(j->value_error >= 0.0 && isfinite(j->value_error)))
     complain(t, "a jump without an error", a->value, b->value, j->value);
-  if (j->to_period < 1 && j->from == j->to && j->to != PENDRES_LABEL_RUNNING)
+  const int crisis = j->kind == PENDRES_JUMP_CRISIS && j->to == PENDRES_LABEL_CHAOTIC;
+  if (j->to_period < 1 && j->from == j->to && j->to != PENDRES_LABEL_RUNNING && !crisis)
     complain(t, "a jump to a state of the same name", a->value, b->value, j->value);
   if (others == 1 && !j->gradual && alike(&a->attractor, &b->attractor))
     complain(t, "a jump to the state it came from", a->value, b->value, j->value);

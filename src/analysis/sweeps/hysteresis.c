@@ -8,6 +8,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "analysis/sweeps/hysteresis_chaos.h"
+#include "analysis/sweeps/hysteresis_crisis.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_orbit.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
@@ -81,6 +82,19 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
   return status == PENDRES_OK ? pendres_path_note(w, &j) : status;
 }
 
+/* Chaos goes on at value number `step`; it may have become larger or smaller on the way there. */
+static pendres_status go_on_in_chaos(path *w, size_t step, const pendres_settled *old)
+{
+  pendres_jump j = {
+    .step = step, .direction = pendres_path_direction(w, step), .kind = PENDRES_JUMP_OTHER};
+  const pendres_status status =
+    pendres_crisis_find(w->ctx, w->parameter, old, w->at, &w->state, &j);
+  if (status != PENDRES_OK || j.kind != PENDRES_JUMP_CRISIS) return status;
+  const pendres_status noted = pendres_path_note(w, &j);
+  pendres_path_leave(w);
+  return noted;
+}
+
 /* A pendulum that has escaped does not return, whatever the parameter does. */
 static void stay_away(path *w, size_t *i)
 {
@@ -146,6 +160,10 @@ static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known
     pendres_path_allow(w); /* where it ended is a question of its own */
     status = end_chaos(w, *i, &old);
     pendres_path_leave(w);
+  } else if (status == PENDRES_OK && w->settled &&
+             old.attractor.label == PENDRES_LABEL_CHAOTIC &&
+             w->state.attractor.label == PENDRES_LABEL_CHAOTIC) {
+    status = go_on_in_chaos(w, *i, &old);
   }
   w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
   if (status == PENDRES_OK && w->at == w->value[*i])

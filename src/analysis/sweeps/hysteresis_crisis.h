@@ -1,0 +1,23 @@
+/*
+ * hysteresis_crisis.h -- chaos that suddenly becomes larger or smaller, and goes on.
+ *
+ * Owns: where an interior crisis lies between two values of a parameter, at both of which a
+ * pendulum is chaotic.
+ */
+#ifndef PENDRES_HYSTERESIS_CRISIS_H
+#define PENDRES_HYSTERESIS_CRISIS_H
+
+#include "analysis/sweeps/hysteresis_jump.h"
+
+/*
+ * A pendulum was in chaos at value `from` of a parameter, and is at that of `there`. Where the set
+ * of its strobe points is suddenly larger on one side of a place between the two, kind (which the
+ * caller has set to another), value, value_error, from, to, to_period, share and certain of the
+ * jump are set. One place is found where there are several. What changes gradually, or cannot be
+ * told from it, is not.
+ */
+pendres_status pendres_crisis_find(pendres_context *ctx, pendres_parameter parameter,
+                                   const pendres_settled *old, double from,
+                                   const pendres_settled *there, pendres_jump *jump);
+
+#endif
