@@ -243,7 +243,7 @@ static void check_jump(item *t, const pendres_jump *j)
   const int crisis = j->kind == PENDRES_JUMP_CRISIS && j->to == PENDRES_LABEL_CHAOTIC;
   if (j->to_period < 1 && j->from == j->to && j->to != PENDRES_LABEL_RUNNING && !crisis)
     complain(t, "a jump to a state of the same name", a->value, b->value, j->value);
-  if (others == 1 && !j->gradual && alike(&a->attractor, &b->attractor))
+  if (others == 1 && !j->gradual && !crisis && alike(&a->attractor, &b->attractor))
     complain(t, "a jump to the state it came from", a->value, b->value, j->value);
   if ((j->value - a->value) * j->direction < -j->value_error ||
       (b->value - j->value) * j->direction < -j->value_error)

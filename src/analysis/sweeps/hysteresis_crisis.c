@@ -332,9 +332,10 @@ pendres_status pendres_crisis_find(pendres_context *ctx, pendres_parameter param
   w->smaller = larger > 0 ? old : there;
   w->small = larger > 0 ? from : to;
   w->large = larger > 0 ? to : from;
-  const double other = w->large;
+  const double begin = w->small, other = w->large;
   status = halve(w);
-  if (status == PENDRES_OK) status = by_lives(w, other, jump, &found);
+  /* Where chaos stays nowhere in between, its region may not have been all that there is of it. */
+  if (status == PENDRES_OK && w->small != begin) status = by_lives(w, other, jump, &found);
   if (status == PENDRES_OK && found) status = in_chaos(w, w->small, &chaotic);
   if (!chaotic) goto done;
   jump->kind = PENDRES_JUMP_CRISIS;
