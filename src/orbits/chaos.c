@@ -250,12 +250,13 @@ static pendres_chaos_mean confident(pendres_chaos_mean m)
 static int all_chaotic(const ensemble *v)
 {
   for (size_t i = 0; i < REPLICAS; i++) {
-    double growth = 0.0, latter = 0.0;
+    double growth = 0.0, latter = 0.0, off = 0.0;
     for (int b = 0; b < v->batches; b++) {
       growth += v->batch[i][b][PENDRES_REPLICA_GROWTH];
+      off += v->batch[i][b][PENDRES_REPLICA_COARSE];
       if (b >= v->batches / 2) latter += v->batch[i][b][PENDRES_REPLICA_GROWTH];
     }
-    if (pendres_growth_tell(growth, latter) != PENDRES_GROWTH_CHAOS) return 0;
+    if (pendres_growth_tell(growth, latter, fabs(off)) != PENDRES_GROWTH_CHAOS) return 0;
   }
   return 1;
 }

@@ -86,8 +86,9 @@ int pendres_batches_change(const double sum[BATCHES])
 
 /* ---- the verdict ---- */
 
-pendres_growth_verdict pendres_growth_tell(double growth, double latter)
+pendres_growth_verdict pendres_growth_tell(double growth, double latter, double off)
 {
-  if (growth > passing && latter > 0.0) return PENDRES_GROWTH_CHAOS;
-  return growth < -passing && latter < 0.0 ? PENDRES_GROWTH_ORDER : PENDRES_GROWTH_DOUBT;
+  const double half = 0.5 * off;
+  if (growth - off > passing && latter > half) return PENDRES_GROWTH_CHAOS;
+  return growth + off < -passing && latter < -half ? PENDRES_GROWTH_ORDER : PENDRES_GROWTH_DOUBT;
 }

@@ -235,19 +235,15 @@ static pendres_status tell_linear(pendres_context *ctx, const job *j)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/* What the growth of both vectors says; those with steps twice as long must agree. */
-static pendres_growth_verdict tell_growth(const pendres_runner *r)
+/* What the growth says, with an error of the steps of `off` in all. */
+static pendres_growth_verdict tell_growth(const pendres_runner *r, double off)
 {
-  pendres_growth_verdict told[2];
-  for (int i = 0; i < 2; i++) {
-    double all = 0.0, latter = 0.0;
-    for (int b = 0; b < BATCHES; b++) {
-      all += r->growth[i][b];
-      if (b >= BATCHES / 2) latter += r->growth[i][b];
-    }
-    told[i] = pendres_growth_tell(all, latter);
+  double all = 0.0, latter = 0.0;
+  for (int b = 0; b < BATCHES; b++) {
+    all += r->growth[0][b];
+    if (b >= BATCHES / 2) latter += r->growth[0][b];
   }
-  return told[0] == told[1] ? told[0] : PENDRES_GROWTH_DOUBT;
+  return pendres_growth_tell(all, latter, off);
 }
 
 /* Judge runners by their averages; those on chaos or on rotations that are not locked are done. So
@@ -261,7 +257,7 @@ static void judge(const job *j, long batch, double enough)
     if (r->state != PENDRES_RUNNER_MOVING) continue;
     const double rate = r->lane.pendulum->drive_frequency / two_pi;
     const double off = pendres_runner_extrapolate(r, batch);
-    const pendres_growth_verdict told = tell_growth(r);
+    const pendres_growth_verdict told = tell_growth(r, off * (double)(batch * BATCHES));
     const double growth = pendres_batches_mean(r->growth[0], batch, &error);
     const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
     const int chaotic = told == PENDRES_GROWTH_CHAOS && !pendres_batches_change(r->growth[0]) &&
