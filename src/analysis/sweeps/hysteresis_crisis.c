@@ -28,6 +28,7 @@ enum {
   CELLS = 32,     /* of a region, a side. It reaches beyond what it was made of by one to two of
                      them, of 1.5 times its size together: 5 to 10 %, the least change seen */
   HALVINGS = 12,  /* of the interval: what changes gradually does so by its size within 1/4096 */
+  ROUNDS = 4,     /* of halvings, each from where the one before has led */
   MOST_LIVES = 64 * PERIODS, /* periods that pendulums may take to leave a region */
   FURTHER = 8,    /* lives are measured at two distances from the crisis, at most this factor */
   CLOSER = 4      /* and at least this factor apart */
@@ -221,25 +222,38 @@ static pendres_status mean_life(const search *w, double value, double *life)
 
 /* ---- the search ---- */
 
-/* Where chaos has not left the region of the smaller one, that is extended by what it has visited:
-   what grows gradually is followed. */
+/* Whether chaos leaves the region of the smaller one at a value. Where it does not, that is
+   extended by what it has visited: what grows gradually is followed. */
+static pendres_status leaves(search *w, double value, int *left)
+{
+  const pendres_pendulum p = pendres_parameter_with(&w->smaller->pendulum, w->parameter, value);
+  states s = w->in;
+  const pendres_status status = take_sample(w->ctx, &p, &s, &w->points);
+  *left = status != PENDRES_OK || share_outside(&w->where, &w->points) > 0.0;
+  if (*left) return status;
+  w->small = value;
+  w->in = s;
+  add_all(&w->where, &w->points);
+  return status;
+}
+
+/* Halve the interval. What left a region that was still smaller may not leave it any more at the
+   end, and the search goes on from there. */
 static pendres_status halve(search *w)
 {
+  const double other = w->large;
   pendres_status status = PENDRES_OK;
-  for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
-    const double middle = 0.5 * (w->small + w->large);
-    const pendres_pendulum p = pendres_parameter_with(&w->smaller->pendulum, w->parameter, middle);
-    states s = w->in;
-    status = take_sample(w->ctx, &p, &s, &w->points);
-    if (status != PENDRES_OK) break;
-    if (share_outside(&w->where, &w->points) > 0.0) {
-      w->large = middle;
-    } else {
-      w->small = middle;
-      w->in = s;
-      add_all(&w->where, &w->points);
+  int left = 0;
+  for (int round = 0; round < ROUNDS && !left && status == PENDRES_OK; round++) {
+    w->large = other;
+    for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
+      const double middle = 0.5 * (w->small + w->large);
+      status = leaves(w, middle, &left);
+      if (left) w->large = middle;
     }
+    if (status == PENDRES_OK) status = leaves(w, w->large, &left);
   }
+  if (!left) w->small = w->large = other;
   return status;
 }
 
