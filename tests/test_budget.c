@@ -199,7 +199,7 @@ static const struct {
                  "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
                  "&sweep temperature = 0.02, 0.03 /\n&noise trajectories = 400, periods = 20 /\n" },
   { "map", "&scene kind = 'lyapunov_map' /\n&pendulum drive_frequency = 0.8 /\n"
-           "&sweep damping = 0.3, 0.5, drive_amplitude_range = 0.5, 1.5, 2400 /\n"
+           "&sweep damping = 0.3, 0.5, drive_amplitude_range = 0.5, 1.5, 6000 /\n"
            "&lyapunov_map transient = 20, periods = 40 /\n" },
 };
 

@@ -144,8 +144,8 @@ static const scene_column of_backbone[] = {
 static void backbone_dampings(const scene_lines *l, pendres_pendulum *p, double *damping)
 {
   const double first = l->grid.line_value[0], last = l->grid.line_value[l->grid.lines - 1];
-  const double low = 0.5 * first;
-  const double high = fmax(fmax(1.0, 2.0 * first), fmin(2.0 * last, 100.0));
+  const double rate = 1.0 / pendres_units_of(&l->grid.pendulum).time, low = 0.5 * first;
+  const double high = fmax(fmax(rate, 2.0 * first), fmin(2.0 * last, 100.0 * rate));
   for (int i = 0; i < BACKBONE; i++) {
     damping[i] = low * pow(high / low, i / (BACKBONE - 1.0));
     p[i] = l->grid.pendulum;
