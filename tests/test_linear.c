@@ -214,10 +214,38 @@ static void rest_dissipates_nothing(void **state)
   }
 }
 
+/* A sweep that comes into the tongue about twice the natural frequency goes to infinity, once. What
+   has gone there does not return, nor go there again: neither on the way out of the tongue. */
+static void escapes_once(void **state)
+{
+  const double value[] = {0.4, 1.6, 2.0, 2.1, 4.0};
+  enum { VALUES = sizeof value / sizeof *value };
+  const pendres_hysteresis_path along = {PENDRES_DRIVE_FREQUENCY, VALUES, value};
+  pendres_pendulum p = oscillator(0.1, value[0], -0.5);
+  pendres_context *ctx = NULL;
+  pendres_hysteresis *h = NULL;
+  (void)state;
+  p.drive_amplitude = 0.05;
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_hysteresis_find(ctx, &p, &(pendres_state){-0.16, 0.04}, &along, &h));
+  pendres_context_free(ctx);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 1);
+  const pendres_jump *jump = pendres_hysteresis_jump_get(h, 0);
+  assert_int_equal(jump->from, PENDRES_LABEL_PERIODIC);
+  assert_int_equal(jump->to, PENDRES_LABEL_ESCAPE);
+  assert_int_equal(jump->kind, PENDRES_JUMP_FLIP);
+  assert_true(jump->value > value[1] && jump->value < value[2]);
+  for (size_t i = 0; i < VALUES; i++)
+    assert_int_equal(pendres_hysteresis_get(h, i)->attractor.label,
+                     i < 2 ? PENDRES_LABEL_PERIODIC : PENDRES_LABEL_ESCAPE);
+  pendres_hysteresis_free(h);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(map), cmocka_unit_test(mathieu), cmocka_unit_test(all_escape),
-    cmocka_unit_test(response), cmocka_unit_test(rest_dissipates_nothing)};
+    cmocka_unit_test(response), cmocka_unit_test(rest_dissipates_nothing),
+    cmocka_unit_test(escapes_once)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

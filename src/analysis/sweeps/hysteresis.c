@@ -192,7 +192,10 @@ static pendres_status go_on(path *w, size_t *i)
   }
   if (pendres_path_short(&w->state.attractor)) status = pendres_path_orbit(w, i);
   else if (rotates) status = pendres_path_unlocked(w, i, &known);
-  if (status != PENDRES_OK || *i > before || rotates_freely(&w->state.attractor)) return status;
+  /* Nothing is left to settle if the pendulum has gone to a free rotation, or to infinity. */
+  if (status != PENDRES_OK || *i > before || rotates_freely(&w->state.attractor) ||
+      w->state.attractor.label == PENDRES_LABEL_ESCAPE)
+    return status;
   return settle_at(w, i, &known);
 }
 
