@@ -8,7 +8,7 @@ name=$(basename "$result")
 mkdir -p "$(dirname "$result")"
 start=$(date +%s.%N)
 if command -v timeout >/dev/null 2>&1; then
-  timeout "$limit" "$@" >"$result.log" 2>&1
+  timeout -k 20 "$limit" "$@" >"$result.log" 2>&1
 else
   "$@" >"$result.log" 2>&1
 fi
