@@ -45,7 +45,7 @@ static void run_long(pendres_context *ctx, pendres_flow_kind kind, const pendres
     pendres_block_load(&b, i, &from[i].pendulum, from[i].y, from[i].w);
   for (int k = 0; k < PERIODS; k++) check_ok(pendres_block_period(&b));
   const pendres_rows rows = pendres_block_rows(&b);
-  for (size_t row = 0; row < pendres_chain_rows(kind); row++)
+  for (size_t row = 0; row < pendres_flow_kind_rows(kind); row++)
     for (size_t i = 0; i < N; i++) out[row * N + i] = pendres_rows_get(&rows, (int)row, i);
 }
 
@@ -65,7 +65,7 @@ static void test_as_one_long_run(void **state)
     chain(ctx, kind, N, from, chained);
     run_long(ctx, kind, from, whole);
     assert_memory_equal(chained, whole, PENDRES_ROWS_STATE * N * sizeof *whole);
-    for (size_t k = 0; k < pendres_chain_rows(kind) * N; k++)
+    for (size_t k = 0; k < pendres_flow_kind_rows(kind) * N; k++)
       check_near(chained[k], whole[k], 1e-13);
   }
   pendres_context_free(ctx);

@@ -26,6 +26,17 @@ static inline pendres_instructions pendres_instructions_here(void)
   return PENDRES_INSTRUCTIONS_BASE;
 }
 
+/* In a file that is compiled once for each set: NAME_avx2, say, and the set's name in quotes. */
+#ifndef PENDRES_KERNELS
+#define PENDRES_KERNELS base
+#endif
+#define PENDRES_INSTRUCTIONS_JOIN_(name, set) name##_##set
+#define PENDRES_INSTRUCTIONS_JOIN(name, set) PENDRES_INSTRUCTIONS_JOIN_(name, set)
+#define PENDRES_INSTRUCTIONS_OWN(name) PENDRES_INSTRUCTIONS_JOIN(name, PENDRES_KERNELS)
+#define PENDRES_INSTRUCTIONS_QUOTE_(set) #set
+#define PENDRES_INSTRUCTIONS_QUOTE(set) PENDRES_INSTRUCTIONS_QUOTE_(set)
+#define PENDRES_INSTRUCTIONS_NAME PENDRES_INSTRUCTIONS_QUOTE(PENDRES_KERNELS)
+
 /* A pointer to the best of NAME_base, NAME_avx2 and NAME_avx512. */
 #if defined(__x86_64__)
 #define PENDRES_INSTRUCTIONS_BEST(name)                                        \

@@ -258,7 +258,7 @@ static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, co
 {
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_chain_start *from = malloc(p->n * sizeof *from);
-  double *at = malloc(pendres_chain_rows(kind) * p->n * sizeof *at);
+  double *at = malloc(pendres_flow_kind_rows(kind) * p->n * sizeof *at);
   const pendres_rows rows = {.at = at, .stride = p->n};
   for (size_t i = 0; i < p->n && from != NULL; i++)
     from[i] = (pendres_chain_start){pendres_map_pendulum(p->map->force, p->u[i]),

@@ -13,17 +13,6 @@ typedef struct part {
   double *y, *w; /* [period][n] */
 } part;
 
-size_t pendres_chain_rows(pendres_flow_kind kind)
-{
-  static const size_t rows[PENDRES_FLOW_KINDS] = {
-    [PENDRES_FLOW_STATE] = PENDRES_ROWS_STATE,
-    [PENDRES_FLOW_VARIATIONAL] = PENDRES_ROWS_VARIATIONAL,
-    [PENDRES_FLOW_SENSITIVITY] = PENDRES_ROWS_SENSITIVITY,
-    [PENDRES_FLOW_DRIVES] = PENDRES_ROWS_DRIVES,
-    [PENDRES_FLOW_ALL] = PENDRES_ROWS_ALL};
-  return rows[kind];
-}
-
 /* Note the starts of some periods, and leave the states at their end in the first two rows. */
 static pendres_status run_states(const part *p, int periods)
 {
@@ -51,7 +40,7 @@ static pendres_status run_states(const part *p, int periods)
 /* Multiply the derivatives of pendulum i by those of one more period, of this lane of a block. */
 static void multiply(const pendres_chain *c, const pendres_rows *rows, size_t lane, size_t i)
 {
-  const size_t count = pendres_chain_rows(c->kind);
+  const size_t count = pendres_flow_kind_rows(c->kind);
   double m[2][2];
   pendres_rows_tangent(rows, lane, m);
   for (size_t row = PENDRES_ROWS_STATE; row < count; row += 2) {
@@ -83,7 +72,7 @@ static pendres_status run_derivatives(const part *p, int periods)
 static void begin(const pendres_chain *c)
 {
   const size_t n = c->n;
-  memset(c->rows, 0, pendres_chain_rows(c->kind) * n * sizeof *c->rows);
+  memset(c->rows, 0, pendres_flow_kind_rows(c->kind) * n * sizeof *c->rows);
   for (size_t i = 0; i < n; i++) {
     c->rows[i] = c->from[i].y;
     c->rows[n + i] = c->from[i].w;

@@ -32,9 +32,6 @@ typedef struct pendres_chain {
 /* What a lane gets does not depend on the others. */
 pendres_status pendres_chain_run(pendres_context *ctx, const pendres_chain *c);
 
-/* Rows of a kind of block. */
-size_t pendres_chain_rows(pendres_flow_kind kind);
-
 /* Whether periods are better chained, which is always the same for one number of periods: where
    those of a single orbit fill a vector of the kernels. */
 static inline int pendres_chain_worth(int periods)

@@ -184,19 +184,28 @@ static pendres_status make_flow(pendres_context *ctx, size_t rows, double tolera
                               pendres_status_message(status));
 }
 
+size_t pendres_flow_kind_rows(pendres_flow_kind kind)
+{
+  static const size_t rows[PENDRES_FLOW_KINDS] = {
+    [PENDRES_FLOW_STATE] = PENDRES_ROWS_STATE,
+    [PENDRES_FLOW_VARIATIONAL] = PENDRES_ROWS_VARIATIONAL,
+    [PENDRES_FLOW_SENSITIVITY] = PENDRES_ROWS_SENSITIVITY,
+    [PENDRES_FLOW_DRIVES] = PENDRES_ROWS_DRIVES,
+    [PENDRES_FLOW_ALL] = PENDRES_ROWS_ALL};
+  return rows[kind];
+}
+
 pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
                                     pendres_flow **out)
 {
-  static const size_t rows[PENDRES_FLOW_KINDS] = {PENDRES_ROWS_STATE, PENDRES_ROWS_VARIATIONAL,
-                                                  PENDRES_ROWS_SENSITIVITY, PENDRES_ROWS_DRIVES,
-                                                  PENDRES_ROWS_ALL};
   pendres_status status = PENDRES_OK;
   /* ARKODE (6.4) crashes when it is called again after an allocation has failed. */
   if (ctx->flows[kind] != NULL && pendres_flow_failure(ctx->flows[kind]) == ARK_MEM_FAIL) {
     pendres_flow_free(ctx->flows[kind]);
     ctx->flows[kind] = NULL;
   }
-  if (ctx->flows[kind] == NULL) status = make_flow(ctx, rows[kind], 0.0, &ctx->flows[kind]);
+  if (ctx->flows[kind] == NULL)
+    status = make_flow(ctx, pendres_flow_kind_rows(kind), 0.0, &ctx->flows[kind]);
   *out = ctx->flows[kind];
   return status;
 }

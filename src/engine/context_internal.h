@@ -59,6 +59,9 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
                                     const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
+/* Rows of a kind of block. */
+size_t pendres_flow_kind_rows(pendres_flow_kind kind);
+
 /* The context's block of a kind, made at its first use. */
 pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
                                     pendres_flow **out);

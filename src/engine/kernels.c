@@ -10,14 +10,9 @@
 
 #include <string.h>
 
+#include "base/instructions.h"
 #include "engine/kernels_force.h"
 #include "engine/kernels_vector.h"
-
-#ifndef PENDRES_KERNELS
-#define PENDRES_KERNELS base
-#endif
-#define JOIN_(a, b) a##_##b
-#define JOIN(a, b) JOIN_(a, b)
 
 #define FMA(a, b, c) __builtin_fma((a), (b), (c))
 
@@ -473,7 +468,4 @@ static void run(size_t rows, const pendres_strip *s, const pendres_operation *o,
     run_rows_PLAIN(rows, s, o, n);
 }
 
-#define TEXT_(a) #a
-#define TEXT(a) TEXT_(a)
-
-const pendres_kernels JOIN(pendres_kernels, PENDRES_KERNELS) = {TEXT(PENDRES_KERNELS), run};
+const pendres_kernels PENDRES_INSTRUCTIONS_OWN(pendres_kernels) = {PENDRES_INSTRUCTIONS_NAME, run};

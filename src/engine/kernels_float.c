@@ -13,11 +13,7 @@
 #include <immintrin.h>
 #endif
 
-#ifndef PENDRES_KERNELS
-#define PENDRES_KERNELS base
-#endif
-#define JOIN_(a, b) a##_##b
-#define JOIN(a, b) JOIN_(a, b)
+#include "base/instructions.h"
 
 /* Lanes of a vector, and vectors whose y and w fit the registers together with a sine's. */
 #if defined(__AVX512F__)
@@ -235,4 +231,4 @@ static void run(const pendres_float_steps *s, const pendres_float_lanes *b)
 #endif
 }
 
-const pendres_kernels_float JOIN(pendres_kernels_float, PENDRES_KERNELS) = {run};
+const pendres_kernels_float PENDRES_INSTRUCTIONS_OWN(pendres_kernels_float) = {run};

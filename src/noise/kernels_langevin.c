@@ -11,20 +11,13 @@
 
 #include <Random123/philox.h>
 
+#include "base/instructions.h"
 #include "base/sine.h"
 #include "model/forces.h"
 
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
-
-#ifndef PENDRES_KERNELS
-#define PENDRES_KERNELS base
-#endif
-#define JOIN_(a, b) a##_##b
-#define JOIN(a, b) JOIN_(a, b)
-#define TEXT_(a) #a
-#define TEXT(a) TEXT_(a)
 
 #define FMA(a, b, c) __builtin_fma((a), (b), (c))
 
@@ -241,8 +234,8 @@ static void sample(size_t stride, const pendres_langevin_rows *rows,
   }
 }
 
-const pendres_kernels_langevin JOIN(pendres_kernels_langevin, PENDRES_KERNELS) = {
-  .name = TEXT(PENDRES_KERNELS),
+const pendres_kernels_langevin PENDRES_INSTRUCTIONS_OWN(pendres_kernels_langevin) = {
+  .name = PENDRES_INSTRUCTIONS_NAME,
   .words = words,
   .gauss = gauss,
   .drift = drift,

@@ -25,11 +25,11 @@ void pendres_attractor_set_clear(pendres_attractor_set *c)
 }
 
 const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
-                                                              const pendres_strobe_lane *lane)
+                                                              double y, double w)
 {
   for (size_t i = 0; i < c->ellipses; i++) {
     const pendres_trapping_ellipse *t = &c->ellipse[i];
-    if (pendres_trapping_holds(t, lane->y, lane->w)) return t;
+    if (pendres_trapping_holds(t, y, w)) return t;
   }
   return NULL;
 }
@@ -37,7 +37,7 @@ const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attr
 int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
                                  long *well)
 {
-  const pendres_trapping_ellipse *t = pendres_attractor_set_ellipse(c, lane);
+  const pendres_trapping_ellipse *t = pendres_attractor_set_ellipse(c, lane->y, lane->w);
   if (t == NULL) return -1;
   *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / t->turn);
   return c->owner[t - c->ellipse];

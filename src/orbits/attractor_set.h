@@ -101,8 +101,8 @@ void pendres_attractor_set_compare_images(pendres_attractor_set *c);
 int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
                                  long *well);
 
-/* That ellipse itself; NULL if in none. */
+/* The ellipse that a state is in; NULL if in none. */
 const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
-                                                              const pendres_strobe_lane *lane);
+                                                              double y, double w);
 
 #endif

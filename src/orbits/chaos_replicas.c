@@ -25,13 +25,6 @@ pendres_replica pendres_replica_at(double y, double w)
     .y = y, .w = w, .u = PENDRES_TANGENTS_BEGIN, .low = {y, y}, .high = {y, y}};
 }
 
-static int in_ellipse(const pendres_attractor_set *c, const pendres_replica *a)
-{
-  for (size_t i = 0; i < c->ellipses; i++)
-    if (pendres_trapping_holds(&c->ellipse[i], a->y, a->w)) return 1;
-  return 0;
-}
-
 /* ---- samples within a period ---- */
 
 /* What is watched of all replicas of a block, side by side; between periods each has its own. */
@@ -162,7 +155,8 @@ static void arrive(const pendres_attractor_set *c, size_t i, const pendres_rows 
   a->periods++;
   /* A replica that escapes has left the chaos, too. */
   if (a->trapped == 0 &&
-      (in_ellipse(c, a) || !isfinite(a->y) || pendres_model_escapes(&c->pendulum, a->y, a->w)))
+      (pendres_attractor_set_ellipse(c, a->y, a->w) != NULL || !isfinite(a->y) ||
+       pendres_model_escapes(&c->pendulum, a->y, a->w)))
     a->trapped = a->periods;
 }
 

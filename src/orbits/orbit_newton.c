@@ -108,7 +108,7 @@ static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, si
                                 pendres_newton_candidate *c)
 {
   pendres_chain_start *from = malloc(lanes * sizeof *from);
-  double *at = malloc(pendres_chain_rows(kind) * lanes * sizeof *at);
+  double *at = malloc(pendres_flow_kind_rows(kind) * lanes * sizeof *at);
   const pendres_chain chain = {.kind = kind, .steps = c[0].steps, .periods = c[0].guess->period,
                                .n = lanes, .from = from, .rows = at};
   pendres_status status = PENDRES_OK;
@@ -153,7 +153,7 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
     return status;
   }
 
-  const size_t kept = pendres_chain_rows(kind);
+  const size_t kept = pendres_flow_kind_rows(kind);
   if (taken != NULL && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
   load_lanes(&b, lanes, companions, c);

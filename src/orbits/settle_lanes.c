@@ -166,7 +166,7 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
   o->attractor = attractor;
   o->label = c->attractors[attractor].label;
   o->settling_periods = lane->period;
-  judge(l, i, error_ratio_in_ellipse(pendres_attractor_set_ellipse(c, lane), lane));
+  judge(l, i, error_ratio_in_ellipse(pendres_attractor_set_ellipse(c, lane->y, lane->w), lane));
   return 1;
 }
 

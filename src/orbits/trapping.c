@@ -38,6 +38,18 @@ static const double slow_multiplier = 0.8;
 /* A point is home where its radius is at most this share of that of the ellipse known already. */
 static const double home_share = 0.9;
 
+/* ---- the linear map ---- */
+
+/* The monodromy matrix, from (x, v) to (y, w = v/omega). */
+static void map_of(const pendres_orbit *o, double m[2][2])
+{
+  const double omega = o->pendulum.drive_frequency;
+  m[0][0] = o->monodromy[0][0];
+  m[0][1] = o->monodromy[0][1] * omega;
+  m[1][0] = o->monodromy[1][0] / omega;
+  m[1][1] = o->monodromy[1][1];
+}
+
 /*
  * Close to a fold one direction is slow, and the metric below would make the ellipse short just
  * along it. There the distance is measured by components along the unit eigenvectors instead.
@@ -70,11 +82,10 @@ static int slow_metric(const double m[2][2], double p[3])
  * Metric of a contracting 2x2 matrix: P = sum (M')^k M^k, summed by squaring:
  * P_{2m} = P_m + (M^m)' P_m M^m. Returns 0 if M does not contract.
  */
-static int metric_of(const double monodromy[2][2], double omega, double p[3])
+static int metric_of(const pendres_orbit *o, double p[3])
 {
-  /* From (x, v) to (y, w = v/omega). */
-  double m[2][2] = {{monodromy[0][0], monodromy[0][1] * omega},
-                    {monodromy[1][0] / omega, monodromy[1][1]}};
+  double m[2][2];
+  map_of(o, m);
   const double once[2][2] = {{m[0][0], m[0][1]}, {m[1][0], m[1][1]}};
   p[0] = p[2] = 1.0;
   p[1] = 0.0;
@@ -100,7 +111,6 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
   return 1;
 }
 
-/* ---- the linear map ---- */
 
 /*
  * The largest length that the linear map, `looks` times, makes of a unit length, in the metric: the
@@ -108,9 +118,9 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
  */
 static double linear_share(const pendres_trapping_ellipse *t, const pendres_orbit *o, int looks)
 {
-  const double omega = o->pendulum.drive_frequency, *p = t->metric;
-  const double m[2][2] = {{o->monodromy[0][0], o->monodromy[0][1] * omega},
-                          {o->monodromy[1][0] / omega, o->monodromy[1][1]}};
+  const double *p = t->metric;
+  double m[2][2];
+  map_of(o, m);
   double a = 1.0, b = 0.0, c = 0.0, d = 1.0;
   for (int k = 0; k < looks; k++) {
     const double top[2] = {a, b};
@@ -131,10 +141,11 @@ static double linear_share(const pendres_trapping_ellipse *t, const pendres_orbi
 /* What the linear map makes of a difference from the centre, `looks` times. */
 static void linear_image(const pendres_orbit *o, int looks, double d[2])
 {
-  const double omega = o->pendulum.drive_frequency;
+  double m[2][2];
+  map_of(o, m);
   for (int k = 0; k < looks; k++) {
-    const double y = o->monodromy[0][0] * d[0] + o->monodromy[0][1] * omega * d[1];
-    d[1] = o->monodromy[1][0] / omega * d[0] + o->monodromy[1][1] * d[1];
+    const double y = m[0][0] * d[0] + m[0][1] * d[1];
+    d[1] = m[1][0] * d[0] + m[1][1] * d[1];
     d[0] = y;
   }
 }
@@ -355,7 +366,7 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
     ellipses[i] = (pendres_trapping_ellipse){
       .y = at.y, .w = at.w, .period = o->period, .winding = o->winding,
       .turn = pendres_model_turn(&o->pendulum)};
-    if (!o->stable || !metric_of(o->monodromy, o->pendulum.drive_frequency, ellipses[i].metric))
+    if (!o->stable || !metric_of(o, ellipses[i].metric))
       continue;
     const int looks = contraction_looks(&ellipses[i], o);
     s[left++] = (search){.orbit = i,

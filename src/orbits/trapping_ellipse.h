@@ -12,6 +12,8 @@
 #ifndef PENDRES_TRAPPING_ELLIPSE_H
 #define PENDRES_TRAPPING_ELLIPSE_H
 
+#include <math.h>
+
 #include "base/angles.h"
 
 /* Terms of the third to the sixth degree in two coordinates. */
@@ -36,6 +38,36 @@ static inline double pendres_trapping_norm2(const pendres_trapping_ellipse *t, d
 {
   const double dy = pendres_less_turns(y - t->y, t->turn), dw = w - t->w;
   return t->metric[0] * dy * dy + 2.0 * t->metric[1] * dy * dw + t->metric[2] * dw * dw;
+}
+
+/* The Cholesky factor L of the metric, P = L L': L_yy, L_wy, L_ww. */
+static inline void pendres_trapping_factor(const pendres_trapping_ellipse *t, double l[3])
+{
+  l[0] = sqrt(t->metric[0]);
+  l[1] = t->metric[1] / l[0];
+  l[2] = sqrt(t->metric[2] - l[1] * l[1]);
+}
+
+/* The coordinates L' (z - centre) of a state, in which the metric is that of Euclid. */
+static inline void pendres_trapping_coordinates(const pendres_trapping_ellipse *t, double y,
+                                                double w, double out[2])
+{
+  double l[3];
+  pendres_trapping_factor(t, l);
+  const double dy = pendres_less_turns(y - t->y, t->turn), dw = w - t->w;
+  out[0] = l[0] * dy + l[1] * dw;
+  out[1] = l[2] * dw;
+}
+
+/* The state that has such coordinates. */
+static inline void pendres_trapping_state(const pendres_trapping_ellipse *t, double p, double q,
+                                          double *y, double *w)
+{
+  double l[3];
+  pendres_trapping_factor(t, l);
+  const double dw = q / l[2];
+  *y = t->y + (p - l[1] * dw) / l[0];
+  *w = t->w + dw;
 }
 
 /* The radius is less by this share than that of the largest ring that came home, which leaves room

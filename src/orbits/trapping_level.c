@@ -65,15 +65,13 @@ static double value_at(const double term[TERMS], const double z[2])
   return sum;
 }
 
-/* Coordinates in which the metric is that of Euclid, in units of `length`: L' d, where P = L L'. */
+/* Coordinates in the metric, in units of `length`. */
 static void coordinates(const pendres_trapping_ellipse *t, double length, double y, double w,
                         double z[2])
 {
-  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
-  const double l22 = sqrt(t->metric[2] - l21 * l21);
-  const double dy = pendres_less_turns(y - t->y, t->turn), dw = w - t->w;
-  z[0] = (l11 * dy + l21 * dw) / length;
-  z[1] = l22 * dw / length;
+  pendres_trapping_coordinates(t, y, w, z);
+  z[0] /= length;
+  z[1] /= length;
 }
 
 double pendres_trapping_polynomial(const pendres_trapping_ellipse *t, double y, double w)
@@ -114,18 +112,13 @@ static void even_metric(const pendres_orbit *o, double p[3])
 /* Lay the points of a disk. */
 static void lay(disk *d, pendres_strobe_lane *lanes, const pendres_pendulum *p)
 {
-  const pendres_trapping_ellipse *t = &d->ellipse;
-  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
-  const double l22 = sqrt(t->metric[2] - l21 * l21);
   for (int i = 0; i < POINTS; i++) {
     const double r = (i / RAYS + 1.0) / CIRCLES, angle = two_pi * (i % RAYS) / RAYS;
     d->from[i][0] = r * cos(angle);
     d->from[i][1] = r * sin(angle);
-    const double dw = d->radius * d->from[i][1] / l22;
-    lanes[i] = (pendres_strobe_lane){.pendulum = p,
-                                     .y = t->y + (d->radius * d->from[i][0] - l21 * dw) / l11,
-                                     .w = t->w + dw,
-                                     .steps = d->steps};
+    lanes[i] = (pendres_strobe_lane){.pendulum = p, .steps = d->steps};
+    pendres_trapping_state(&d->ellipse, d->radius * d->from[i][0], d->radius * d->from[i][1],
+                           &lanes[i].y, &lanes[i].w);
   }
 }
 
@@ -143,16 +136,18 @@ static int fitted(int i)
   return i % 2 == 0;
 }
 
-/* V by least squares of V(image) - kept V, as a share of |z|^2; 0 without memory. */
-static int fit(const disk *d, double term[TERMS])
+/* V by least squares of V(image) - kept V, as a share of |z|^2. */
+static pendres_status fit(pendres_context *ctx, const disk *d, double term[TERMS])
 {
   enum { ROWS = FITTED + TERMS };
   gsl_matrix *a = gsl_matrix_calloc(ROWS, TERMS);
   gsl_vector *b = gsl_vector_calloc(ROWS), *tau = gsl_vector_alloc(TERMS);
   gsl_vector *left = gsl_vector_alloc(ROWS);
   gsl_vector_view x = gsl_vector_view_array(term, TERMS);
-  int ok = a != NULL && b != NULL && tau != NULL && left != NULL;
-  for (int i = 0, row = 0; i < POINTS && ok; i++) {
+  pendres_status status = PENDRES_OK;
+  if (a == NULL || b == NULL || tau == NULL || left == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping levels");
+  for (int i = 0, row = 0; i < POINTS && status == PENDRES_OK; i++) {
     double here[TERMS], there[TERMS];
     const double *from = d->from[i], *to = d->to[i];
     const double square = from[0] * from[0] + from[1] * from[1];
@@ -163,15 +158,17 @@ static int fit(const disk *d, double term[TERMS])
       gsl_matrix_set(a, (size_t)row, k, (there[k] - d->kept * here[k]) / square);
     gsl_vector_set(b, (size_t)row++, d->kept - (to[0] * to[0] + to[1] * to[1]) / square);
   }
-  for (size_t k = 0; k < TERMS && ok; k++)
+  for (size_t k = 0; k < TERMS && status == PENDRES_OK; k++)
     gsl_matrix_set(a, FITTED + k, k, indifferent * (1.0 - d->kept));
-  ok = ok && gsl_linalg_QR_decomp(a, tau) == 0 &&
-       gsl_linalg_QR_lssolve(a, tau, b, &x.vector, left) == 0;
+  if (status == PENDRES_OK &&
+      (gsl_linalg_QR_decomp(a, tau) != 0 ||
+       gsl_linalg_QR_lssolve(a, tau, b, &x.vector, left) != 0))
+    for (int k = 0; k < TERMS; k++) term[k] = NAN; /* which has no region */
   gsl_matrix_free(a);
   gsl_vector_free(b);
   gsl_vector_free(tau);
   gsl_vector_free(left);
-  return ok;
+  return status;
 }
 
 /* ---- the region ---- */
@@ -286,11 +283,13 @@ static double take_region(const disk *d, pendres_trapping_ellipse *t, int *whole
 /* ---- the search for the best disk ---- */
 
 /* Judge a disk that has been followed, and choose the next one. `found` gets what is better. */
-static void judge(disk *d, pendres_trapping_ellipse *found)
+static pendres_status judge(pendres_context *ctx, disk *d, pendres_trapping_ellipse *found)
 {
   pendres_trapping_ellipse t = d->ellipse;
   int whole = 0;
-  const double squares = fit(d, t.term) ? take_region(d, &t, &whole) : 0.0;
+  const pendres_status status = fit(ctx, d, t.term);
+  if (status != PENDRES_OK) return status;
+  const double squares = take_region(d, &t, &whole);
   if (squares > d->best) {
     if (squares > found->radius * found->radius) *found = t;
     d->best = squares;
@@ -301,6 +300,7 @@ static void judge(disk *d, pendres_trapping_ellipse *found)
   const double next = fmin(widest, d->radius * d->pace);
   if (d->passes >= PASSES || next == d->radius || next < d->ellipse.radius) d->done = 1;
   d->radius = next;
+  return status;
 }
 
 /* Follow the points of *n disks over their orbits' periods; *n becomes how many could be. */
@@ -372,7 +372,7 @@ pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,
     status = follow(ctx, &left, at, orbits, lanes);
     size_t again = 0;
     for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
-      judge(at[k], &ellipses[at[k]->orbit]);
+      status = judge(ctx, at[k], &ellipses[at[k]->orbit]);
       if (!at[k]->done) at[again++] = at[k];
     }
     left = again;

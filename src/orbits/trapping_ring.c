@@ -21,19 +21,14 @@ double pendres_trapping_tolerance(double margin)
   return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
 }
 
-/* A point of the ellipse, by the Cholesky factor of its metric. */
 static void start(pendres_trapping_point *q, pendres_trapping_ring *r, double angle,
                   pendres_strobe_lane *lane)
 {
-  const pendres_trapping_ellipse *t = r->ellipse;
-  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
-  const double l22 = sqrt(t->metric[2] - l21 * l21);
-  const double dw = r->radius * sin(angle) / l22;
   q->of = r;
   q->angle = angle;
   q->looks = q->home = 0;
-  q->w[0] = t->w + dw;
-  q->y[0] = t->y + (r->radius * cos(angle) - l21 * dw) / l11;
+  pendres_trapping_state(r->ellipse, r->radius * cos(angle), r->radius * sin(angle), &q->y[0],
+                         &q->w[0]);
   *lane = (pendres_strobe_lane){
     .pendulum = r->pendulum, .y = q->y[0], .w = q->w[0], .steps = r->steps};
 }
