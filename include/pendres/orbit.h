@@ -61,7 +61,7 @@ typedef struct pendres_orbit {
   double loop_area_error;    /**< its error */
   double dissipation;        /**< D = (gamma/q) closed integral of v^2 dt, in m g l */
   double dissipation_error;  /**< its error */
-  double mean_power;         /**< P = A omega / (2 pi), in m omega_0^3 */
+  double mean_power;         /**< P = A omega / (2 pi), in m g l omega_0 */
   double mean_power_error;   /**< its error */
   double amplitude;          /**< half the peak-to-peak of the angle, in rad */
   double amplitude_error;    /**< its error */

@@ -56,7 +56,7 @@ typedef struct pendres_response {
   double phase_lag;                 /**< phi of the averaged loop's first harmonic,
                                          y ~ cos(theta - phi), in rad */
   double phase_lag_error;           /**< its error */
-  double mean_power;                /**< P = A omega / (2 pi), in m omega_0^3 */
+  double mean_power;                /**< P = A omega / (2 pi), in m g l omega_0 */
   double mean_power_error;          /**< its error */
   double sa_fraction;               /**< share of the members on SA; NaN where no attractor is SA
                                          or LA */
@@ -130,7 +130,7 @@ typedef struct pendres_response_noise {
   pendres_response_mean loop_area;  /**< mean loop area, in m g l */
   pendres_response_mean amplitude;  /**< length of the mean loop's first harmonic, in rad */
   pendres_response_mean phase_lag;  /**< its phase lag, 0 .. 2 pi */
-  pendres_response_mean mean_power; /**< mean power taken up from the drive, in m omega_0^3 */
+  pendres_response_mean mean_power; /**< mean power taken up from the drive, in m g l omega_0 */
   int steps_per_period;           /**< the most steps a drive period of any state; 0 at T = 0 */
 } pendres_response_noise;
 

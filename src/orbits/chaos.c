@@ -116,7 +116,7 @@ static pendres_status find_suspect(pendres_context *ctx, const pendres_attractor
   return status;
 }
 
-/* Estimate how long chaos lasts that ends, from the replicas that have left it by now. */
+/* Estimate how long transient chaos lasts, from the replicas that have left it by now. */
 static void note_lifetime(pendres_attractor_set *c, const ensemble *v, size_t left)
 {
   double lived = 0.0;

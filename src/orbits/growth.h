@@ -50,8 +50,8 @@ typedef enum pendres_growth_verdict {
   PENDRES_GROWTH_CHAOS
 } pendres_growth_verdict;
 
-/* What the growth of a logarithm over some time says, all of it, and that in the latter half. `off`
-   is how much of it all may be an error of the steps. */
+/* The verdict from a logarithm's growth over some time, all of it, and in the latter half of the
+   time. `off` is how much of all may be an error of the steps. */
 pendres_growth_verdict pendres_growth_tell(double growth, double latter, double off);
 
 #endif

@@ -52,7 +52,7 @@ static inline size_t pendres_orbit_measure_work(size_t n)
   return 3 * n + pendres_orbit_series_memory(n);
 }
 
-/* All but the measures of the table. */
+/* Computes everything except the measures of the table. */
 pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                      double *work, pendres_orbit_measures *out);
 

@@ -11,8 +11,8 @@
 
 typedef struct pendres_orbit_row {
   pendres_orbit_quantity shown;
-  /* The value in one computation, of which everything except `of` is known; NULL: orbit_error.c
-     derives it from other measures. */
+  /* The value from one computation; every field of *m except `of` is set already. NULL:
+     orbit_error.c derives it from other measures. */
   pendres_orbit_value (*measure)(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                  const pendres_orbit_measures *m);
   int angle; /* 1: differences are taken modulo whole turns */

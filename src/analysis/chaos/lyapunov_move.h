@@ -14,11 +14,12 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p);
 
 /* How much work is done for a verdict. */
 typedef enum pendres_lyapunov_care {
-  PENDRES_CARE_FULL, /* as pendres_lyapunov_find, with two further averages, the longest ones */
+  PENDRES_CARE_FULL,  /* as pendres_lyapunov_find */
   PENDRES_CARE_LABEL, /* the same, but for how well the mean of a rotation is known: well enough to
                          tell that it is one */
   PENDRES_CARE_ONCE, /* one average; a pendulum that it does not decide about is unresolved */
-  PENDRES_CARE_CLOSE /* pendulums next to rotations that are not locked, which are told sooner */
+  PENDRES_CARE_CLOSE /* pendulums next to rotations that are not locked, which are recognised
+                        sooner */
 } pendres_lyapunov_care;
 
 /* Pendulums that are moved: arrays side by side, all the caller's. */

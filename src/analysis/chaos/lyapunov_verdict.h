@@ -2,7 +2,8 @@
  * lyapunov_verdict.h -- what each of many pendulums does in the long run: an orbit, a rotation,
  * chaos.
  *
- * Owns: how long each is followed, and the verdict on what was seen of it.
+ * Owns: the verdict on what was seen of each, and whether it is followed further (how long is in
+ * lyapunov.c).
  */
 #ifndef PENDRES_LYAPUNOV_VERDICT_H
 #define PENDRES_LYAPUNOV_VERDICT_H

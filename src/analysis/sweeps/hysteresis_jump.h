@@ -52,11 +52,13 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
                                     double v, pendres_lyapunov_care care, pendres_settled *out);
 
 /* Find where most trials go from an orbit that ends at a bifurcation; where only the place of the
-   end is known, *at has no orbit. Sets to, share and certain of the jump. */
+   end is known, at->orbit is the last orbit known before it. Sets to, share and certain of the
+   jump. */
 pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
                                 pendres_settled *to, pendres_jump *jump);
 
-/* The same of one pendulum from as many states as a jump has trials, of what jump->from says. */
+/* The same of one pendulum, which was in the state jump->from, from as many states as a jump has
+   trials. */
 pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
                                      const double *x, const double *v, pendres_settled *to,
                                      pendres_jump *jump);

@@ -34,8 +34,8 @@ void pendres_path_left_close(pendres_path_left *left);
 void pendres_path_allow(pendres_path *w);
 void pendres_path_allow_all(pendres_path *w);
 
-/* It begins to be searched for what there is beyond the end of a state; a direction of 0: it is
-   found. */
+/* Note that the search for what there is beyond a state's end has begun; a direction of 0: it is
+   over. */
 void pendres_path_search_beyond(pendres_path *w, int direction, double end);
 
 pendres_path_mark pendres_path_mark_here(const pendres_path *w);
