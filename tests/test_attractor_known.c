@@ -2,6 +2,7 @@
  * test_attractor_known.c -- published facts about forced pendulums, and chaos.
  */
 #include "attractor_fixture.h"
+#include "states_fixture.h"
 
 /* ---- published facts about the forced pendulum ---- */
 
@@ -204,16 +205,10 @@ static void slow_settling(void **state)
     .damping = 0.0782919, .drive_amplitude = 0.2, .drive_frequency = 0.616};
   const double points[4][2] = {{-0.4481041690, 0.5700733179}, {0.8402249793, 1.8247585773},
                                {-0.4624529486, 0.6167606003}, {0.5993949086, 1.7360158212}};
-  const double x = -1.0681415022205296, v = 0.0;
-  pendres_context *ctx = NULL;
   pendres_outcome outcome;
-  pendres_attractors *set = NULL;
   double nearest = INFINITY;
   (void)state;
-  check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_settle(ctx, 1, &p, &x, &v, &outcome, &set));
-  pendres_context_free(ctx);
-  assert_true(outcome.attractor >= 0);
+  pendres_attractors *set = settle_one(&p, -1.0681415022205296, 0.0, &outcome);
   const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
   assert_int_equal(a->label, PENDRES_LABEL_PERIODIC);
   assert_int_equal(a->orbit.period, 4);

@@ -110,15 +110,9 @@ static void long_period(void **state)
 {
   const pendres_pendulum p = {.damping = 0.001, .drive_amplitude = 0.2, .drive_frequency = 1.1};
   const pendres_ensemble e = pendres_ensemble_default();
-  const double x = member_x(&e, 163), v = 0.0;
-  pendres_context *ctx = NULL;
   pendres_outcome outcome;
-  pendres_attractors *set = NULL;
   (void)state;
-  check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_settle(ctx, 1, &p, &x, &v, &outcome, &set));
-  pendres_context_free(ctx);
-  assert_true(outcome.attractor >= 0);
+  pendres_attractors *set = settle_one(&p, member_x(&e, 163), 0.0, &outcome);
   const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
   assert_int_equal(a->orbit.period, 35);
   assert_true(outcome.settling_periods < 10000);
@@ -330,18 +324,12 @@ static void all_chaotic(void **state)
 static void narrow_bands(void **state)
 {
   const pendres_pendulum p = {.damping = 0.095, .drive_amplitude = 0.2, .drive_frequency = 0.606};
-  const double x = -0.59690260418206076, v = 0.0;
   pendres_outcome outcome;
-  pendres_attractors *set = NULL;
-  pendres_context *ctx = NULL;
   (void)state;
-  check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_settle(ctx, 1, &p, &x, &v, &outcome, &set));
+  pendres_attractors *set = settle_one(&p, -0.59690260418206076, 0.0, &outcome);
   assert_int_equal(outcome.label, PENDRES_LABEL_CHAOTIC);
-  assert_true(outcome.attractor >= 0);
   check_chaotic(pendres_attractors_get(set, (size_t)outcome.attractor));
   pendres_attractors_free(set);
-  pendres_context_free(ctx);
 }
 
 /* ---- parts ---- */

@@ -141,7 +141,8 @@ static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_m
 }
 
 pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_attractor_set *c,
-                                           const pendres_chaos_measures *m, pendres_cover *cover)
+                                               const pendres_chaos_measures *m,
+                                               pendres_cover *cover)
 {
   const double tau = two_pi / c->pendulum.drive_frequency;
   if (pendres_attractor_set_reserve(c, 0) != 0) {

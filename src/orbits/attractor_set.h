@@ -71,7 +71,8 @@ pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
 
 /* Add a chaotic attractor; the set takes ownership of the cover. */
 pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_attractor_set *c,
-                                           const pendres_chaos_measures *m, pendres_cover *cover);
+                                               const pendres_chaos_measures *m,
+                                               pendres_cover *cover);
 
 /*
  * The physical order of attractors: order[place] = number. Orbits come first, in the order of their

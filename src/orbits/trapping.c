@@ -353,7 +353,8 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
 }
 
 pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
-                                 pendres_trapping_effort effort, pendres_trapping_ellipse *ellipses)
+                                     pendres_trapping_effort effort,
+                                     pendres_trapping_ellipse *ellipses)
 {
   pendres_status status = PENDRES_OK;
   search *s = malloc((n + 1) * sizeof *s);

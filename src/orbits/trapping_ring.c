@@ -87,7 +87,8 @@ static void take_tangents(pendres_trapping_point *p, const pendres_trapping_poin
 
 pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
                                           pendres_trapping_ring **rings,
-                                      pendres_trapping_point *points, pendres_strobe_lane *lanes)
+                                          pendres_trapping_point *points,
+                                          pendres_strobe_lane *lanes)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {

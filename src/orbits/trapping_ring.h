@@ -56,7 +56,8 @@ double pendres_trapping_tolerance(double margin);
 /* Run rings (all points lie in `points`, ring after ring; room for as many lanes). */
 pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
                                           pendres_trapping_ring **rings,
-                                      pendres_trapping_point *points, pendres_strobe_lane *lanes);
+                                          pendres_trapping_point *points,
+                                          pendres_strobe_lane *lanes);
 
 /* Whether all points came home, side by side; `points` are those of the ring. */
 int pendres_trapping_ring_holds(const pendres_trapping_ring *r,

@@ -156,8 +156,7 @@ const pendres_branch_point *pendres_part_last(const pendres_part *s)
   return NULL;
 }
 
-pendres_status pendres_part_arrive(pendres_context *ctx, const pendres_part *s,
-                                      pendres_orbit *out)
+pendres_status pendres_part_arrive(pendres_context *ctx, const pendres_part *s, pendres_orbit *out)
 {
   pendres_status outcome = PENDRES_OK;
   const pendres_orbit *last = &pendres_part_last(s)->orbit;
@@ -264,7 +263,7 @@ static pendres_status come_from_both(pendres_context *ctx, const pendres_part *s
 }
 
 pendres_status pendres_part_orbits(pendres_context *ctx, const pendres_part *s, size_t n,
-                                      const double *value, pendres_orbit *out, int *found)
+                                   const double *value, pendres_orbit *out, int *found)
 {
   if (n == 0) return PENDRES_OK;
   const pendres_map *map = &s->branch->curve.kind.system.map;
