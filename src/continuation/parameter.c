@@ -12,6 +12,11 @@ double pendres_parameter_scale(pendres_parameter parameter)
   return pendres_arc_least_scale(PENDRES_U_OMEGA + (int)parameter);
 }
 
+double pendres_parameter_scale_at(pendres_parameter parameter, double value)
+{
+  return pendres_arc_scale(PENDRES_U_OMEGA + (int)parameter, value);
+}
+
 double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance)
 {
   const int above = pendres_parameter_of(parameter)->positive;

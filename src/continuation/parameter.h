@@ -6,8 +6,10 @@
 
 #include "model/parameter.h"
 
-/* Lengths that count as one in arclength. */
+/* Lengths that count as one in arclength: the least of them, and that at a value, which may be
+   longer at a large one. */
 double pendres_parameter_scale(pendres_parameter parameter);
+double pendres_parameter_scale_at(pendres_parameter parameter, double value);
 
 /* The value at a signed distance from another one; but what stays above 0 is at least half of the
    other. */

@@ -19,8 +19,8 @@ enum {
   ON_THE_WAY = 500 /* periods after which a pendulum on no closed orbit is on its attractor */
 };
 
-/* The distances of trials beyond a bifurcation, in the parameter's scale: one for half of them, one
-   for the others. Within each half they vary by a factor of 1.5. The time to pass a fold goes as
+/* The distances of trials beyond a bifurcation, in the parameter's scale there: one for half of
+   them, one for the others. Within each half they vary by a factor of 1.5. The time to pass a fold goes as
    one over the root of the distance, and so differs by a fifth, which is many periods. */
 static const double beyond[2] = {1e-4, 1e-5};
 static const double further = 10.0;
@@ -249,9 +249,10 @@ static pendres_pendulum beyond_by(const pendres_bifurcation *at, double distance
 static void begin(const pendres_bifurcation *at, int direction, double distance[TRIALS],
                   pendres_settled went[TRIALS])
 {
+  const double scale = pendres_parameter_scale_at(at->parameter, at->value);
   for (int i = 0; i < TRIALS; i++) {
     const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
-    distance[i] = pendres_parameter_scale(at->parameter) * beyond[i % 2] * (1.0 + 0.5 * part);
+    distance[i] = scale * beyond[i % 2] * (1.0 + 0.5 * part);
     const pendres_pendulum p = beyond_by(at, direction * distance[i]);
     const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
     went[i] = pendres_settled_nothing_at(&p, at->orbit.x + off * cos(angle),
