@@ -91,6 +91,42 @@ static void no_end_of_rest(void **state)
   pendres_hysteresis_free(h);
 }
 
+/*
+ * From one value of a path to the next may be so far that what was followed to the one ends long
+ * before the other. Up, the orbit goes on, and bends sharply where it comes close to a pair that
+ * meets in a fold; down, on the stable one of these, the fold ends it. Orbit and fold are
+ * those that scipy's Newton method (fsolve) finds on maps integrated by DOP853 at 1e-13.
+ */
+static void a_short_step_and_a_long_one(void **state)
+{
+  enum { UP = 4, DOWN = 3 };
+  static const double up[UP] = {4.0, 4.5, 21.0, 31.0}, down[DOWN] = {27.0, 26.0, 21.0};
+  static const double x = 2.6379319047, v = -12.6731961307, fold = 22.9246487058, scipy = 1e-10;
+  const pendres_pendulum p = {
+    .damping = 0.05, .drive_frequency = 1.93, .force = PENDRES_FORCE_POLYNOMIAL,
+    .force_coefficients = {0.96, 0.21, 0.53}};
+  const pendres_hysteresis_path path[2] = {{PENDRES_DRIVE_AMPLITUDE, UP, up},
+                                           {PENDRES_DRIVE_AMPLITUDE, DOWN, down}};
+  pendres_hysteresis *h[2];
+  check_ok(pendres_hysteresis_find(*state, &p, &(pendres_state){3.16, 0.70}, &path[0], &h[0]));
+  assert_int_equal(pendres_hysteresis_jump_count(h[0]), 0);
+  const pendres_orbit *o = &pendres_hysteresis_get(h[0], UP - 1)->attractor.orbit;
+  check_near(o->x, x, o->x_error + scipy);
+  check_near(o->v, v, o->v_error + scipy);
+  check_ok(pendres_hysteresis_find(*state, &p, &(pendres_state){3.41, 10.99}, &path[1], &h[1]));
+  assert_int_equal(pendres_hysteresis_jump_count(h[1]), 1);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h[1], 0);
+  assert_int_equal(j->kind, PENDRES_JUMP_FOLD);
+  assert_int_equal((int)j->step, DOWN - 1);
+  check_near(j->value, fold, j->value_error + scipy);
+  /* Beyond the fold there is the orbit of the way up. */
+  const pendres_orbit *q = &pendres_hysteresis_get(h[1], DOWN - 1)->attractor.orbit;
+  o = &pendres_hysteresis_get(h[0], 2)->attractor.orbit;
+  check_near(q->x, o->x, q->x_error + o->x_error);
+  check_near(q->v, o->v, q->v_error + o->v_error);
+  for (int k = 0; k < 2; k++) pendres_hysteresis_free(h[k]);
+}
+
 /* The larger of the reference's multipliers. */
 static double multiplier_at(const pendres_jump *j, const pendres_orbit *near)
 {
@@ -289,6 +325,7 @@ int main(void)
     cmocka_unit_test(no_end_of_the_drive_frequency),
     cmocka_unit_test(no_end_of_the_torque),
     cmocka_unit_test(no_end_of_rest),
+    cmocka_unit_test(a_short_step_and_a_long_one),
     cmocka_unit_test(only_bifurcations),
     cmocka_unit_test(doublings_of_a_short_branch),
     cmocka_unit_test(one_bifurcation_at_a_place),

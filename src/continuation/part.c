@@ -126,9 +126,10 @@ int pendres_part_choose_way(pendres_part *s)
   return 0;
 }
 
-/* Set the end at the last point of a part that neither reached its limit nor met a bifurcation.
-   told: the number of the point behind it, which is beyond the branch if that ends. */
-static void end_at_last(pendres_part *s, size_t told)
+/* Set the end of a part that neither has a point at its limit or beyond nor met a bifurcation: at
+   its last point, or the limit where the branch is known as far. told: the number of the point
+   behind the last, which is beyond the branch if that ends. */
+static void end_at_last(pendres_part *s, size_t told, double limit)
 {
   const int in_branch = pendres_part_point(s, told) != NULL;
   s->end_value = pendres_part_value(s, s->points - 1);
@@ -136,6 +137,7 @@ static void end_at_last(pendres_part *s, size_t told)
   s->end = in_branch                                          ? PENDRES_PART_UNLOCATED
            : pendres_part_branch_end(s) == PENDRES_END_RANGE ? PENDRES_PART_LIMIT
                                                               : PENDRES_PART_STOPPED;
+  if (s->end == PENDRES_PART_LIMIT) s->end_value = limit;
 }
 
 size_t pendres_part_take(pendres_part *s, double limit)
@@ -169,7 +171,7 @@ size_t pendres_part_take(pendres_part *s, double limit)
       return k;
     }
   }
-  end_at_last(s, k);
+  end_at_last(s, k, limit);
   /* What happens at a bifurcation right before the computation stopped is told by what follows. */
   if (met == NULL || (p == NULL && pendres_part_branch_end(s) == PENDRES_END_POINTS)) return k;
   s->end = turned ? PENDRES_PART_BIRTH : PENDRES_PART_BIFURCATION;

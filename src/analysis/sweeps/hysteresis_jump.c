@@ -20,8 +20,8 @@ enum {
 };
 
 /* The distances of trials beyond a bifurcation, in the parameter's scale there: one for half of
-   them, one for the others. Within each half they vary by a factor of 1.5. The time to pass a fold goes as
-   one over the root of the distance, and so differs by a fifth, which is many periods. */
+   them, one for the others. Within each half they vary by a factor of 1.5. The time to pass a fold
+   goes as one over the root of the distance, and so differs by a fifth, which is many periods. */
 static const double beyond[2] = {1e-4, 1e-5};
 static const double further = 10.0;
 /* Trials start this far from an orbit that has become unstable, where deviations grow fast. */

@@ -213,7 +213,10 @@ pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
     const double limit = turning_point(w, *i);
     const int direction = w->value[*i] >= w->at ? 1 : -1;
     pendres_status status = PENDRES_OK;
-    if (w->part.branch != NULL && w->part.direction != direction)
+    /* A part leads one way, and to its limit. */
+    if (w->part.branch != NULL &&
+        (w->part.direction != direction || (w->part.end == PENDRES_PART_LIMIT &&
+                                            !pendres_part_holds(&w->part, w->value[*i]))))
       pendres_part_free(&w->part);
     if (w->part.branch == NULL)
       status = pendres_part_from(w->ctx, &w->state.attractor.orbit, w->parameter, limit,

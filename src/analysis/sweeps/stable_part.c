@@ -9,7 +9,6 @@
 #include "continuation/parameter.h"
 #include "continuation/sets.h"
 #include "engine/context_internal.h"
-#include "model/model.h"
 
 /* A branch is not followed where errors grow by more than this in a map: it has long been
    unstable. */
@@ -170,8 +169,9 @@ pendres_status pendres_part_arrive(pendres_context *ctx, const pendres_part *s, 
 
 int pendres_part_holds(const pendres_part *s, double value)
 {
-  return s->branch != NULL &&
-         (s->end == PENDRES_PART_LIMIT || pendres_part_ahead(s, value, s->end_value) < 0.0);
+  if (s->branch == NULL) return 0;
+  const double ahead = pendres_part_ahead(s, value, s->end_value);
+  return ahead < 0.0 || (s->end == PENDRES_PART_LIMIT && ahead == 0.0);
 }
 
 /* ---- orbits at values ---- */
@@ -193,75 +193,6 @@ static pendres_orbit_guess between(const pendres_branch_point *p, const pendres_
   return pendres_branch_between(&p->orbit, &q->orbit, part, parameter, value);
 }
 
-/* The number of the last point that has another one behind it and comes before a value, from number
-   k on. */
-static size_t point_before(const pendres_part *s, size_t k, double value)
-{
-  while (k + 2 < s->points && pendres_part_ahead(s, value, pendres_part_value(s, k + 1)) > 0.0) k++;
-  return k;
-}
-
-/* Whether a search has found what it was to find: a stable orbit with period and winding of its
-   guess. */
-static int is_of_branch(pendres_status outcome, const pendres_orbit *o,
-                        const pendres_orbit_guess *guess)
-{
-  return outcome != PENDRES_NOT_CONVERGED && o->stable && o->period == guess->period &&
-         o->winding == guess->winding;
-}
-
-/* Come from a point to a value in small steps, each guessed on the line through the two orbits
-   before. */
-static pendres_status come_from(pendres_context *ctx, const pendres_branch_point *p,
-                                pendres_parameter parameter, const pendres_orbit_guess *to,
-                                pendres_orbit *out, int *found)
-{
-  enum { STEPS = 16 /* with which the guesses are some thirty times closer */ };
-  const double from = pendres_parameter_get(parameter, &p->orbit.pendulum);
-  const double width = (pendres_parameter_get(parameter, &to->pendulum) - from) / STEPS;
-  double x = p->orbit.x, v = p->orbit.v, dx = (to->x - x) / STEPS, dv = (to->v - v) / STEPS;
-  pendres_status status = PENDRES_OK;
-  *found = 1;
-  for (int k = 1; k <= STEPS && *found; k++) {
-    pendres_status outcome;
-    pendres_orbit_guess guess = *to;
-    if (k < STEPS)
-      guess.pendulum = pendres_parameter_with(&to->pendulum, parameter, from + k * width);
-    guess.x = x + dx;
-    guess.v = v + dv;
-    status = pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, out, &outcome);
-    if (status != PENDRES_OK) return status;
-    *found = is_of_branch(outcome, out, &guess);
-    dx = out->x - x;
-    dv = out->v - v;
-    x = out->x;
-    v = out->v;
-  }
-  return status;
-}
-
-/*
- * Points may be so far apart that from a guess between them Newton's method goes elsewhere. Come
- * from both of them; an orbit that both lead to is that of the branch.
- */
-static pendres_status come_from_both(pendres_context *ctx, const pendres_part *s,
-                                     pendres_parameter parameter, const pendres_orbit_guess *to,
-                                     pendres_orbit *out, int *found)
-{
-  const size_t k = point_before(s, 0, pendres_parameter_get(parameter, &to->pendulum));
-  const pendres_branch_point *behind = pendres_part_point(s, k + 1);
-  pendres_orbit other;
-  pendres_status status = come_from(ctx, pendres_part_point(s, k), parameter, to, out, found);
-  if (status != PENDRES_OK || !*found) return status;
-  *found = 0;
-  if (behind == NULL || behind->kind == PENDRES_FOLD) return status;
-  status = come_from(ctx, behind, parameter, to, &other, found);
-  if (status != PENDRES_OK || !*found) return status;
-  *found = pendres_model_distance(&out->pendulum, out->x - other.x, out->v - other.v) <=
-           out->x_error + out->v_error + other.x_error + other.v_error;
-  return status;
-}
-
 pendres_status pendres_part_orbits(pendres_context *ctx, const pendres_part *s, size_t n,
                                    const double *value, pendres_orbit *out, int *found)
 {
@@ -276,7 +207,9 @@ pendres_status pendres_part_orbits(pendres_context *ctx, const pendres_part *s, 
     goto done;
   }
   for (size_t i = 0, k = 0; i < n; i++) {
-    k = point_before(s, k, value[i]);
+    while (k + 2 < s->points &&
+           pendres_part_ahead(s, value[i], pendres_part_value(s, k + 1)) > 0.0)
+      k++;
     const pendres_branch_point *p = pendres_part_point(s, k);
     const pendres_branch_point *q = s->points > 1 ? pendres_part_point(s, k + 1) : p;
     guess[i] = between(p, q, parameter, value[i]);
@@ -286,11 +219,9 @@ pendres_status pendres_part_orbits(pendres_context *ctx, const pendres_part *s, 
     guess[i].winding = map->mirror ? 0 : map->winding;
   }
   status = pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, out, outcome);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    found[i] = is_of_branch(outcome[i], &out[i], &guess[i]);
-    if (!found[i])
-      status = come_from_both(ctx, s, parameter, &guess[i], &out[i], &found[i]);
-  }
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    found[i] = outcome[i] != PENDRES_NOT_CONVERGED && out[i].stable &&
+               out[i].period == guess[i].period && out[i].winding == guess[i].winding;
 done:
   free(guess);
   free(outcome);
