@@ -26,16 +26,16 @@ layers()
 src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/limits.h base/mix.h base/sine.h base/sized.h
   base/student.h
   model/forces.h model/model.h model/parameter.h model/units.h
-  engine/accuracy.h engine/chain.h engine/context_internal.h engine/door.h engine/coordinates.h engine/rank.h
+  engine/accuracy.h engine/chain.h engine/context_internal.h engine/door.h engine/coordinates.h engine/rank.h engine/room.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/growth.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
   orbits/orbit_reading.h orbits/orbit_series.h
   orbits/settle.h orbits/settle_lanes.h orbits/mean.h
-  noise/langevin_moving.h noise/noise_common.h continuation/equations.h continuation/parameter.h
+  noise/langevin_internal.h noise/noise_common.h continuation/equations.h continuation/parameter.h
   continuation/part.h continuation/follow.h continuation/numbers.h
   continuation/sets.h continuation/units.h
-  analysis/resonance/response_members.h analysis/chaos/lyapunov_move.h'
+  analysis/resonance/response_parts.h analysis/chaos/lyapunov_move.h'
 drivers_doors='system/bytes.h system/clock.h system/grow.h system/own_file.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h deck/explain.h scenes/scene.h scenes/check.h
   scenes/columns.h scenes/points.h'

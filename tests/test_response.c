@@ -2,7 +2,7 @@
  * test_response.c -- the mean response of an ensemble against members integrated one by one, by a
  * classical Runge-Kutta method that shares nothing with the library, and averaged sample by sample.
  */
-#include "analysis/resonance/response_members.h"
+#include "analysis/resonance/response_parts.h"
 #include "check.h"
 
 #include <stdlib.h>
@@ -10,7 +10,6 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "analysis/resonance/response_loop.h"
 #include "states_fixture.h"
 
 enum {

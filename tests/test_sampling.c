@@ -9,7 +9,7 @@
 
 #include <pendres/pendres.h>
 
-#include "analysis/resonance/response_sampling.h"
+#include "analysis/resonance/response_parts.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -18,6 +18,7 @@
 #include "continuation/units.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/attractor_set.h"
@@ -252,14 +253,12 @@ static pendres_status measure(pendres_context *ctx, const pendres_followed *kind
 {
   const size_t n = l->found;
   pendres_curve c = {.kind = *kind, .nodes = n, .node = l->node};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  c.pair = malloc((n + 1) * sizeof *c.pair);
-  c.orbit = malloc((n + 1) * sizeof *c.orbit);
-  c.error = malloc((n + 1) * sizeof *c.error);
-  if (c.pair == NULL || c.orbit == NULL || c.error == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for a backbone");
-  else
-    status = pendres_curve_polish(ctx, &c, n, NULL);
+  pendres_room room = pendres_room_open(ctx, "points of a backbone");
+  c.pair = pendres_room_take(&room, n, sizeof *c.pair);
+  c.orbit = pendres_room_take(&room, n, sizeof *c.orbit);
+  c.error = pendres_room_take(&room, n, sizeof *c.error);
+  pendres_status status = room.status;
+  if (status == PENDRES_OK) status = pendres_curve_polish(ctx, &c, n, NULL);
   if (status == PENDRES_OK) status = pendres_solution_measure(ctx, n, c.pair, c.orbit);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
     const size_t i = l->index[k];
@@ -268,10 +267,7 @@ static pendres_status measure(pendres_context *ctx, const pendres_followed *kind
     out->outcome[i] =
       c.error[k][0] <= ctx->options.tolerance ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
   }
-  free(c.pair);
-  free(c.orbit);
-  free(c.error);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status find_line(pendres_context *ctx, line *l, const results *out)
@@ -337,13 +333,12 @@ static pendres_status backbone_find(pendres_context *ctx, size_t n,
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
-  pendres_status status = PENDRES_OK;
-  line l = {.index = malloc((n + 1) * sizeof *l.index),
-            .damping = malloc((n + 1) * sizeof *l.damping),
-            .node = calloc(n + 1, sizeof *l.node),
-            .on = calloc(n + 1, sizeof *l.on)};
-  if (l.index == NULL || l.damping == NULL || l.node == NULL || l.on == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  line l = {.index = pendres_room_take(&room, n, sizeof *l.index),
+            .damping = pendres_room_take(&room, n, sizeof *l.damping),
+            .node = pendres_room_take(&room, n, sizeof *l.node),
+            .on = pendres_room_take(&room, n, sizeof *l.on)};
+  pendres_status status = room.status;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     out->outcome[i] = PENDRES_STATUS_COUNT; /* none yet */
     out->orbit[i] = pendres_orbit_none(&pendulums[i]);
@@ -355,11 +350,7 @@ static pendres_status backbone_find(pendres_context *ctx, size_t n,
     for (size_t k = 0; k < l.n; k++) out->outcome[l.index[k]] = PENDRES_NOT_FOUND;
     status = find_line(ctx, &l, out);
   }
-  free(l.index);
-  free(l.damping);
-  free(l.node);
-  free(l.on);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,

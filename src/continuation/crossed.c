@@ -10,6 +10,7 @@
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "model/model.h"
 
 /* Chords of a curve's points. */
@@ -47,15 +48,12 @@ static pendres_status branch_cross(pendres_context *ctx, const pendres_curve *b,
   *found = 0;
   const int closed = pendres_curve_closed(b);
   const size_t chords = chords_of(b);
-  pendres_orbit_guess *guess = calloc(chords + 1, sizeof *guess);
-  pendres_orbit *orbit = malloc((chords + 1) * sizeof *orbit);
-  pendres_status *outcome = malloc((chords + 1) * sizeof *outcome);
-  pendres_status status = PENDRES_OK;
+  pendres_room arrays = pendres_room_open(ctx, "orbits");
+  pendres_orbit_guess *guess = pendres_room_take(&arrays, chords, sizeof *guess);
+  pendres_orbit *orbit = pendres_room_take(&arrays, chords, sizeof *orbit);
+  pendres_status *outcome = pendres_room_take(&arrays, chords, sizeof *outcome);
   size_t n = 0;
-  if (guess == NULL || orbit == NULL || outcome == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
-    goto done;
-  }
+  if (arrays.status != PENDRES_OK) return pendres_room_close(&arrays, arrays.status);
   for (size_t i = 0; i < chords; i++) {
     const size_t k = (i + 1) % b->count;
     const double from = pendres_branch_value(b, i) - value, to = pendres_branch_value(b, k) - value;
@@ -66,17 +64,14 @@ static pendres_status branch_cross(pendres_context *ctx, const pendres_curve *b,
     guess[n++] = pendres_branch_between(&b->branch_point[i].orbit, &b->branch_point[k].orbit, part,
                                         pendres_curve_parameter(b, 0), value);
   }
-  status = pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  const pendres_status status =
+    pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     if (outcome[i] == PENDRES_NOT_CONVERGED) continue;
     if (*found < room) out[*found] = orbit[i];
     ++*found;
   }
-done:
-  free(guess);
-  free(orbit);
-  free(outcome);
-  return status;
+  return pendres_room_close(&arrays, status);
 }
 
 pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,

@@ -9,6 +9,7 @@
 
 #include "continuation/crossing.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 
 /* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
    method, where a relative error of 1e-5 costs nothing. The step is so short since second
@@ -52,29 +53,6 @@ typedef struct workspace {
   double (*u)[PENDRES_U_COUNT], (*around)[PENDRES_U_COUNT];
   pendres_image *image, *around_image;
 } workspace;
-
-static void workspace_free(workspace *w)
-{
-  free(w->u);
-  free(w->around);
-  free(w->image);
-  free(w->around_image);
-}
-
-static pendres_status workspace_create(pendres_context *ctx, size_t points, size_t around,
-                                       workspace *w)
-{
-  w->u = malloc(points * sizeof *w->u);
-  w->image = malloc(points * sizeof *w->image);
-  if (around > 0) {
-    w->around = malloc(around * sizeof *w->around);
-    w->around_image = malloc(around * sizeof *w->around_image);
-  }
-  if (w->u == NULL || w->image == NULL ||
-      (around > 0 && (w->around == NULL || w->around_image == NULL)))
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-  return PENDRES_OK;
-}
 
 static void plain_rows(const pendres_image *image, pendres_equations *e)
 {
@@ -166,7 +144,7 @@ pendres_condition_rules_of(pendres_condition condition)
 
 /* The images at all stencils of the points, each along its null vector. */
 static pendres_status look_around(pendres_context *ctx, const pendres_system *s, size_t n,
-                                  size_t each, workspace *w)
+                                  size_t each, const workspace *w)
 {
   for (size_t i = 0; i < n * each; i++) {
     double v[2], first[2];
@@ -188,16 +166,20 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
 {
   const pendres_condition_rules *rules = pendres_condition_rules_of(s->condition);
   const size_t each = rules->rows == NULL ? 1 : (size_t)s->unknowns + 1;
-  workspace w = {0};
-  pendres_status status =
-    workspace_create(ctx, n * each + 1, rules->stencils ? n * each * STENCIL + 1 : 0, &w);
-  if (status != PENDRES_OK) goto done;
+  const size_t points = n * each, around = rules->stencils ? points * STENCIL : 0;
+  pendres_room room = pendres_room_open(ctx, "points");
+  const workspace w = {.u = pendres_room_take(&room, points, sizeof *w.u),
+                       .image = pendres_room_take(&room, points, sizeof *w.image),
+                       .around = pendres_room_take(&room, around, sizeof *w.around),
+                       .around_image = pendres_room_take(&room, around, sizeof *w.around_image)};
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < each; k++) {
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
       if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += nudge;
     }
-  status = pendres_map_images(ctx, s, n * each, (const double (*)[PENDRES_U_COUNT])w.u, w.image);
+  pendres_status status =
+    pendres_map_images(ctx, s, points, (const double (*)[PENDRES_U_COUNT])w.u, w.image);
   if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_image *image = w.image + i * each;
@@ -205,9 +187,7 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
     if (rules->rows != NULL) rules->rows(s, image, along, &out[i]);
     else plain_rows(image, &out[i]);
   }
-done:
-  workspace_free(&w);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- solving ---- */

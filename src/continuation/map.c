@@ -9,6 +9,7 @@
 #include "continuation/numbers.h"
 #include "engine/chain.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
@@ -256,23 +257,20 @@ static pendres_status run_block(pendres_block *b, pendres_condition condition, c
 /* The same where their periods are the lanes. */
 static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, const points *p)
 {
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_chain_start *from = malloc(p->n * sizeof *from);
-  double *at = malloc(pendres_flow_kind_rows(kind) * p->n * sizeof *at);
+  pendres_room room = pendres_room_open(ctx, "images");
+  pendres_chain_start *from = pendres_room_take(&room, p->n, sizeof *from);
+  double *at = pendres_room_take(&room, pendres_flow_kind_rows(kind) * p->n, sizeof *at);
   const pendres_rows rows = {.at = at, .stride = p->n};
-  for (size_t i = 0; i < p->n && from != NULL; i++)
+  for (size_t i = 0; i < p->n && room.status == PENDRES_OK; i++)
     from[i] = (pendres_chain_start){pendres_map_pendulum(p->map->force, p->u[i]),
                                     p->u[i][PENDRES_U_Y], p->u[i][PENDRES_U_W]};
-  if (from == NULL || at == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu images", p->n);
-  else
+  pendres_status status = room.status;
+  if (status == PENDRES_OK)
     status = pendres_chain_run(
       ctx, &(pendres_chain){.kind = kind, .steps = p->steps, .periods = whole_periods(p->map),
                             .n = p->n, .from = from, .rows = at});
   if (status == PENDRES_OK) read_images(&rows, p);
-  free(from);
-  free(at);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* How many derivatives, in the order of u, blocks of a kind give. */

@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_reading.h"
 
@@ -80,13 +81,10 @@ static pendres_status read_all(pendres_context *ctx, size_t n, const pendres_sol
 {
   const pendres_orbit_reader reader = {
     .want = PENDRES_ORBIT_PLAIN, .bends = !fine, .take = take, .arg = out};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_newton_candidate *c = calloc(n + 1, sizeof *c);
-  pendres_orbit_guess *guess = calloc(n + 1, sizeof *guess);
-  if (c == NULL || guess == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_newton_candidate *c = pendres_room_take(&room, n, sizeof *c);
+  pendres_orbit_guess *guess = pendres_room_take(&room, n, sizeof *guess);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) {
     const pendres_solution *p = &pairs[i];
     const double *u = fine ? p->fine : p->coarse;
@@ -101,11 +99,7 @@ static pendres_status read_all(pendres_context *ctx, size_t n, const pendres_sol
                                       .steps = fine ? p->fine_steps : p->coarse_steps,
                                       .state = PENDRES_NEWTON_CONVERGED};
   }
-  status = pendres_orbit_read(ctx, &reader, n, c);
-done:
-  free(c);
-  free(guess);
-  return status;
+  return pendres_room_close(&room, pendres_orbit_read(ctx, &reader, n, c));
 }
 
 /*
@@ -160,15 +154,13 @@ pendres_status pendres_solution_measure(pendres_context *ctx, size_t n,
                                         const pendres_solution *pairs, pendres_orbit *out)
 {
   const double step = pendres_newton_rounding(ctx->options.table);
-  reading *coarse = malloc((n + 1) * sizeof *coarse), *fine = malloc((n + 1) * sizeof *fine);
-  pendres_status status = PENDRES_OK;
-  if (coarse == NULL || fine == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  reading *coarse = pendres_room_take(&room, n, sizeof *coarse);
+  reading *fine = pendres_room_take(&room, n, sizeof *fine);
+  pendres_status status = room.status;
   if (status == PENDRES_OK) status = read_all(ctx, n, pairs, 0, coarse);
   if (status == PENDRES_OK) status = read_all(ctx, n, pairs, 1, fine);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     fill(&pairs[i], &coarse[i], &fine[i], step, &out[i]);
-  free(coarse);
-  free(fine);
-  return status;
+  return pendres_room_close(&room, status);
 }

@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "orbits/attractor_set.h"
@@ -170,13 +171,11 @@ pendres_status pendres_curve_polish(pendres_context *ctx, pendres_curve *c, size
                                     const size_t *index)
 {
   enum { MOST_TRIES = 4 };
-  polish w = {.left = n, .index = malloc((n + 1) * sizeof *w.index),
-              .point = calloc(n + 1, sizeof *w.point)};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (w.index == NULL || w.point == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for a branch");
-  else
-    status = begin(ctx, c, index, &w);
+  pendres_room room = pendres_room_open(ctx, "points");
+  polish w = {.left = n, .index = pendres_room_take(&room, n, sizeof *w.index),
+              .point = pendres_room_take(&room, n, sizeof *w.point)};
+  pendres_status status = room.status;
+  if (status == PENDRES_OK) status = begin(ctx, c, index, &w);
   for (int attempt = 0; attempt < MOST_TRIES && w.left > 0 && status == PENDRES_OK; attempt++) {
     status = correct(ctx, c, &w, 0);
     if (status == PENDRES_OK) status = correct(ctx, c, &w, 1);
@@ -186,9 +185,7 @@ pendres_status pendres_curve_polish(pendres_context *ctx, pendres_curve *c, size
     const size_t i = index != NULL ? index[k] : k;
     if (across(c, i)) to_one_parameter(&c->kind.system, &c->node[i], &c->pair[i]);
   }
-  free(w.index);
-  free(w.point);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- all points ---- */

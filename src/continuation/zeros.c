@@ -8,6 +8,7 @@
 #include "base/grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "continuation/crossing.h"
 
 /* A minimum above this share of its neighbours' values is no zero that the points missed. */
@@ -172,14 +173,13 @@ pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_cur
 {
   const size_t n = t->nodes;
   const pendres_map *map = &t->kind.system.map;
-  pendres_status status = PENDRES_OK;
-  *count = 0;
-  if (!t->kind.apart || n < 2) return status;
-  double(*u)[PENDRES_U_COUNT] = malloc(n * sizeof *u);
-  pendres_map_miss *miss = malloc(n * sizeof *miss);
   int steps = 0;
-  if (u == NULL || miss == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  *count = 0;
+  if (!t->kind.apart || n < 2) return PENDRES_OK;
+  pendres_room room = pendres_room_open(ctx, "points of a curve");
+  double(*u)[PENDRES_U_COUNT] = pendres_room_take(&room, n, sizeof *u);
+  pendres_map_miss *miss = pendres_room_take(&room, n, sizeof *miss);
+  pendres_status status = room.status;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     int here = 0;
     memcpy(u[i], t->node[i].u, sizeof u[i]);
@@ -193,9 +193,7 @@ pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_cur
     status = pendres_map_closes(ctx, &half, steps, n, (const double (*)[PENDRES_U_COUNT])u, miss);
     if (status == PENDRES_OK) turns_round(t, which, miss, zeros, count);
   }
-  free(u);
-  free(miss);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- zeros that the points missed ---- */

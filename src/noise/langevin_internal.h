@@ -38,6 +38,31 @@ pendres_langevin_answer pendres_langevin_show(pendres_context *ctx,
 pendres_status pendres_langevin_check_ends(pendres_context *ctx, const pendres_langevin_block *b,
                                            size_t first);
 
+/* ---- trajectories of a pendulum whose parameters move, with noise or without. The integrator's
+   order is four without noise as well; the drive's phase goes on steadily whichever parameter
+   moves. ---- */
+
+/* Trajectories that start alike, in periods 0 to periods - 1. */
+typedef struct pendres_langevin_moving {
+  pendres_langevin_motion *motion;
+  void *arg;         /* of motion() */
+  size_t n;          /* trajectories */
+  uint64_t first_id; /* trajectory i has id first_id + i */
+  long periods;
+  int steps;         /* a period */
+  double x, v;       /* where they start */
+  int may_leave;     /* nonzero: it is no failure if some go to infinity; the observer sees it */
+  const pendres_langevin_observer *observer; /* never answers ENOUGH */
+} pendres_langevin_moving;
+
+/* Advance all trajectories, and show them to the observer. The pendulums must have been accepted
+   (pendres_langevin_moving_accept). */
+pendres_status pendres_langevin_move(pendres_context *ctx, const pendres_langevin_moving *run);
+
+/* Check the pendulum at one time. */
+pendres_status pendres_langevin_moving_accept(pendres_context *ctx,
+                                              const pendres_langevin_moving *run, double time);
+
 /* How the caller's functions see trajectories that are behind the door. */
 
 /* Between a function of the caller's and the trajectories of a run of pendulums. */

@@ -1,6 +1,4 @@
-/* langevin_moving.c -- trajectories while parameters move; see langevin_moving.h. */
-#include "noise/langevin_moving.h"
-
+/* langevin_moving.c -- trajectories while parameters move; see langevin_internal.h. */
 #include "noise/langevin_internal.h"
 
 pendres_status pendres_langevin_moving_accept(pendres_context *ctx,

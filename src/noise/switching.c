@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/door.h"
 #include "orbits/attractor_internal.h"
 #include "model/model.h"
@@ -149,27 +150,14 @@ static const char *refuse(const pendres_switching_request *q)
   return pendres_pendulum_leaves(&q->pendulum) ? NULL : pendres_noise_refuses(&q->pendulum);
 }
 
-/* Memory for n trajectories; clear it in any case. */
-static pendres_status make_counting(counting *c, size_t n)
+/* Take what n trajectories need. */
+static void take_room(pendres_room *room, size_t n, counting *c)
 {
-  c->tracks = malloc((n + 1) * sizeof *c->tracks);
-  c->numbers = calloc(n * c->states * c->row + 1, sizeof *c->numbers);
-  c->x = malloc((2 * n + 1) * sizeof *c->x);
-  c->ids = malloc((n + 1) * sizeof *c->ids);
-  c->pendulums = malloc((n + 1) * sizeof *c->pendulums);
-  if (c->tracks == NULL || c->numbers == NULL || c->x == NULL || c->ids == NULL ||
-      c->pendulums == NULL)
-    return PENDRES_OUT_OF_MEMORY;
-  return PENDRES_OK;
-}
-
-static void clear_counting(counting *c)
-{
-  free(c->tracks);
-  free(c->numbers);
-  free(c->x);
-  free(c->ids);
-  free(c->pendulums);
+  c->tracks = pendres_room_take(room, n, sizeof *c->tracks);
+  c->numbers = pendres_room_take(room, n * c->states * c->row, sizeof *c->numbers);
+  c->x = pendres_room_take(room, 2 * n, sizeof *c->x);
+  c->ids = pendres_room_take(room, n, sizeof *c->ids);
+  c->pendulums = pendres_room_take(room, n, sizeof *c->pendulums);
 }
 
 /* Put every trajectory of a request at its attractor's strobe point. */
@@ -194,23 +182,21 @@ static pendres_status look_at_ends(pendres_context *ctx, const pendres_switching
                                    const counting *c, pendres_switching_tally *tally)
 {
   const size_t all = q->trajectories;
-  pendres_outcome *outcome = malloc((all + 1) * sizeof *outcome);
-  double *x = malloc((2 * all + 1) * sizeof *x), *v = x != NULL ? x + all : NULL;
   size_t n = 0;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (outcome == NULL || x == NULL) goto done;
+  pendres_room room = pendres_room_open(ctx, "trajectories");
+  pendres_outcome *outcome = pendres_room_take(&room, all, sizeof *outcome);
+  double *x = pendres_room_take(&room, all, sizeof *x);
+  double *v = pendres_room_take(&room, all, sizeof *v);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < all; i++) {
     if (c->tracks[i].state == GONE || !(fabs(c->x[i]) <= PENDRES_CORES_FARTHEST)) continue;
     x[n] = c->x[i];
     v[n++] = c->x[all + i];
   }
-  status = pendres_attractors_settle(ctx, q->set, n, x, v, outcome);
+  const pendres_status status = pendres_attractors_settle(ctx, q->set, n, x, v, outcome);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     if (outcome[i].attractor >= 0) tally->ends[outcome[i].attractor] += 1.0;
-done:
-  free(outcome);
-  free(x);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status count(pendres_context *ctx, const pendres_switching_request *request,
@@ -226,11 +212,9 @@ static pendres_status count(pendres_context *ctx, const pendres_switching_reques
   pendres_status status = pendres_cores_make(ctx, request->set, request->pendulum.temperature,
                                              request->core, &c.cores);
   if (status != PENDRES_OK) return status;
-  status = make_counting(&c, n);
-  if (status != PENDRES_OK) {
-    status = pendres_context_fail(ctx, status, "out of memory for %zu trajectories", n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "trajectories");
+  take_room(&room, n, &c);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   start(request, &c);
   const pendres_langevin_observer observer = {.see = see, .arg = &c};
   const pendres_langevin_run run = {.n = n, .pendulums = c.pendulums, .ids = c.ids,
@@ -238,17 +222,14 @@ static pendres_status count(pendres_context *ctx, const pendres_switching_reques
                                     .steps_per_period = request->steps_per_period,
                                     .unbounded = !isnan(c.bottom)};
   status = pendres_langevin_advance(ctx, &run, c.x, c.x + n);
-  if (status != PENDRES_OK) goto done;
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   tally->states = c.states;
   tally->period = two_pi / request->pendulum.drive_frequency;
   tally->trajectories = (double)n;
   sum_up(&c, n, tally);
   memcpy(tally->passage, c.passage, sizeof c.passage);
   memcpy(tally->absence2, c.absence2, sizeof c.absence2);
-  status = look_at_ends(ctx, request, &c, tally);
-done:
-  clear_counting(&c);
-  return status;
+  return pendres_room_close(&room, look_at_ends(ctx, request, &c, tally));
 }
 
 pendres_status pendres_switching_count(pendres_context *ctx,

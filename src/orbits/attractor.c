@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/door.h"
 #include "orbits/settle.h"
 #include "engine/coordinates.h"
@@ -143,29 +144,15 @@ static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p
   if (status != PENDRES_OK) return status;
 
   pendres_attractors *set = create_sets(1);
-  size_t *zero = calloc(n, sizeof *zero);
-  pendres_outcome *outcome = malloc(n * sizeof *outcome);
-  if (set == NULL || zero == NULL || outcome == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-    goto done;
-  }
+  if (set == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   set->units[0] = d->scales.unit;
   set->attractor_sets[0].pendulum = *p;
   /* A caller that asks for attractors only will probably label many pendulums with them. */
   set->attractor_sets[0].effort = PENDRES_TRAPPING_MANY;
-  const pendres_settle_starts starts = {
-    .n = n, .set = zero, .x = x, .v = v, .only_attractors = 1};
-  status = pendres_settle_batch(ctx, 1, set->attractor_sets, &starts, outcome);
-  if (status == PENDRES_OK && index_sets(set) != 0)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  if (status == PENDRES_OK) {
-    *out = set;
-    set = NULL;
-  }
-done:
-  pendres_attractors_free(set);
-  free(zero);
-  free(outcome);
+  status = pendres_attractors_extend(ctx, set, n, x, v);
+  if (status == PENDRES_OK) *out = set;
+  else pendres_attractors_free(set);
   return status;
 }
 
@@ -257,20 +244,17 @@ double pendres_attractors_weakest_multiplier(const pendres_attractors *set)
 pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractors *set, size_t n,
                                          const double *x, const double *v)
 {
-  size_t *zero = calloc(n + 1, sizeof *zero);
-  pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
+  pendres_room room = pendres_room_open(ctx, "attractors");
+  size_t *zero = pendres_room_take(&room, n, sizeof *zero);
+  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
   const pendres_settle_starts starts = {
     .n = n, .set = zero, .x = x, .v = v, .only_attractors = 1};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (zero == NULL || outcome == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for attractors");
-  else
+  pendres_status status = room.status;
+  if (status == PENDRES_OK)
     status = pendres_settle_batch(ctx, 1, set->attractor_sets, &starts, outcome);
   if (status == PENDRES_OK && index_sets(set) != 0)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  free(zero);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Number of runs of equal parameters. */

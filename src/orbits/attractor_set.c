@@ -9,6 +9,7 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/label.h"
@@ -43,6 +44,38 @@ int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_s
   return c->owner[t - c->ellipse];
 }
 
+/* ---- the cells that a chaotic attractor visits ---- */
+
+static int cell_of(const pendres_cover *cover, double y, double w, int *row, int *column)
+{
+  const double span = cover->span > 0.0 ? cover->span : two_pi;
+  const double a = y / span + 0.5, b = 0.5 * (w / cover->w_most + 1.0);
+  /* Neither NaN nor what no int holds. */
+  if (!(isfinite(a) && b >= 0.0 && b < 1.0)) return 0;
+  if (cover->span > 0.0 && !(a >= 0.0 && a < 1.0)) return 0;
+  *row = (int)floor((a - floor(a)) * PENDRES_COVER_CELLS);
+  *column = (int)floor(b * PENDRES_COVER_CELLS);
+  if (*row == PENDRES_COVER_CELLS) *row = 0;
+  return 1;
+}
+
+int pendres_cover_holds(const pendres_cover *cover, double y, double w)
+{
+  int row, column;
+  return cell_of(cover, y, w, &row, &column) && cover->cell[row][column];
+}
+
+void pendres_cover_add(pendres_cover *cover, double y, double w)
+{
+  int row, column;
+  if (!cell_of(cover, y, w, &row, &column)) return;
+  for (int i = -1; i <= 1; i++)
+    for (int j = -1; j <= 1; j++) {
+      const int r = (row + i + PENDRES_COVER_CELLS) % PENDRES_COVER_CELLS, s = column + j;
+      if (s >= 0 && s < PENDRES_COVER_CELLS) cover->cell[r][s] = 1;
+    }
+}
+
 /* ---- numbering and labels ---- */
 
 static void label_all(pendres_attractor_set *c)
@@ -60,14 +93,14 @@ static void label_all(pendres_attractor_set *c)
 pendres_status pendres_attractor_set_order(pendres_context *ctx, pendres_attractor_set *c,
                                            int *rank)
 {
-  pendres_attractor *old = malloc((c->count + 1) * sizeof *old);
-  int *order = malloc((c->count + 1) * sizeof *order);
-  int *moved = malloc((c->count + 1) * sizeof *moved);
-  pendres_status status = PENDRES_OK;
-  if (old == NULL || order == NULL || moved == NULL || pendres_attractor_set_sort(c, order) != 0) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "attractors");
+  pendres_attractor *old = pendres_room_take(&room, c->count, sizeof *old);
+  int *order = pendres_room_take(&room, c->count, sizeof *order);
+  int *moved = pendres_room_take(&room, c->count, sizeof *moved);
+  if (room.status == PENDRES_OK && pendres_attractor_set_sort(c, order) != 0)
+    room.status =
+      pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   if (c->count > 0) memcpy(old, c->attractors, c->count * sizeof *old);
   for (size_t i = 0; i < c->count; i++) {
     c->attractors[i] = old[order[i]];
@@ -78,11 +111,7 @@ pendres_status pendres_attractor_set_order(pendres_context *ctx, pendres_attract
   if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
   pendres_attractor_set_compare_images(c);
-done:
-  free(old);
-  free(order);
-  free(moved);
-  return status;
+  return pendres_room_close(&room, PENDRES_OK);
 }
 
 /* ---- what is added ---- */

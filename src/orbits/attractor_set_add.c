@@ -10,6 +10,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_prime.h"
@@ -111,29 +112,22 @@ typedef struct long_orbits {
   const pendres_orbit **orbit;
   size_t *first;        /* point of each */
   char *complete;       /* of each orbit: whether all of its points have been found */
+  pendres_room room;    /* of the points and ellipses, anew for each round of orbits */
   pendres_orbit *point; /* the first of each is the one that was given */
   pendres_trapping_ellipse *ellipse; /* of each point */
 } long_orbits;
-
-static void free_long(long_orbits *l)
-{
-  free(l->orbit);
-  free(l->first);
-  free(l->complete);
-  free(l->point);
-  free(l->ellipse);
-}
 
 /* Guess where the orbits are at their other strobes, by integration. */
 static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
                                    pendres_orbit_guess *guess)
 {
-  pendres_status status = PENDRES_OK;
-  pendres_pendulum *p = malloc(l->count * sizeof *p);
-  double *x = malloc(2 * l->count * sizeof *x), *v = x != NULL ? x + l->count : NULL;
-  size_t *who = malloc(l->count * sizeof *who), left = l->count;
-  if (p == NULL || x == NULL || who == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  size_t left = l->count;
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_pendulum *p = pendres_room_take(&room, left, sizeof *p);
+  double *x = pendres_room_take(&room, left, sizeof *x);
+  double *v = pendres_room_take(&room, left, sizeof *v);
+  size_t *who = pendres_room_take(&room, left, sizeof *who);
+  pendres_status status = room.status;
   for (size_t i = 0; i < l->count && status == PENDRES_OK; i++) {
     p[i] = l->orbit[i]->pendulum;
     x[i] = l->orbit[i]->x;
@@ -157,10 +151,7 @@ static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
         .pendulum = p[k], .x = x[k], .v = v[k], .period = o->period, .winding = o->winding};
     }
   }
-  free(p);
-  free(x);
-  free(who);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Whether an orbit is back at its first point before its period is over, by where its other points
@@ -179,11 +170,11 @@ static int returns_earlier(const pendres_orbit *o, const pendres_orbit_guess *gu
    of an orbit of period 1 would take ten thousand periods each time. */
 static pendres_status find_points(pendres_context *ctx, long_orbits *l)
 {
-  pendres_orbit_guess *guess = malloc(l->points * sizeof *guess);
-  pendres_status *outcome = malloc(l->points * sizeof *outcome), status = PENDRES_OK;
   size_t n = 0;
-  if (guess == NULL || outcome == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  pendres_room room = pendres_room_open(ctx, "points of orbits");
+  pendres_orbit_guess *guess = pendres_room_take(&room, l->points, sizeof *guess);
+  pendres_status *outcome = pendres_room_take(&room, l->points, sizeof *outcome);
+  pendres_status status = room.status;
   if (status == PENDRES_OK) status = guess_points(ctx, l, guess);
   /* The first point of each orbit is known already: close the gaps that it leaves among guesses. */
   for (size_t i = 0; i < l->count && status == PENDRES_OK; i++) {
@@ -208,9 +199,7 @@ static pendres_status find_points(pendres_context *ctx, long_orbits *l)
         l->complete[i] = 0;
     if (l->complete[i] && closes_earlier(point, q)) l->complete[i] = 0;
   }
-  free(guess);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Drop the points of orbits that are not complete, and find the trapping ellipses of the others. */
@@ -228,14 +217,6 @@ static pendres_status find_ellipses(pendres_context *ctx, long_orbits *l,
   return pendres_trapping_find(ctx, kept, l->point, effort, l->ellipse);
 }
 
-static int allocate_long(long_orbits *l, size_t n)
-{
-  l->orbit = malloc(n * sizeof *l->orbit);
-  l->first = malloc(n * sizeof *l->first);
-  l->complete = malloc(n);
-  return l->orbit != NULL && l->first != NULL && l->complete != NULL;
-}
-
 /* Find the points and the ellipses of the orbits in the list. */
 static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
                                     pendres_trapping_effort effort)
@@ -245,12 +226,10 @@ static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
     l->first[i] = l->points;
     l->points += (size_t)l->orbit[i]->period;
   }
-  free(l->point);
-  free(l->ellipse);
-  l->point = malloc(l->points * sizeof *l->point);
-  l->ellipse = malloc(l->points * sizeof *l->ellipse);
-  if (l->point == NULL || l->ellipse == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  (void)pendres_room_close(&l->room, PENDRES_OK);
+  l->point = pendres_room_take(&l->room, l->points, sizeof *l->point);
+  l->ellipse = pendres_room_take(&l->room, l->points, sizeof *l->ellipse);
+  if (l->room.status != PENDRES_OK) return l->room.status;
   const pendres_status status = find_points(ctx, l);
   return status == PENDRES_OK ? find_ellipses(ctx, l, effort) : status;
 }
@@ -293,10 +272,12 @@ static pendres_status add_up_to_long(pendres_context *ctx, pendres_attractor_set
 static pendres_status add_orbits(pendres_context *ctx, pendres_attractor_set *attractor_sets,
                                  const candidates *k)
 {
-  long_orbits l = {0};
-  pendres_status status = PENDRES_OK;
-  if (!allocate_long(&l, k->count + 1))
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  long_orbits l = {.orbit = pendres_room_take(&room, k->count, sizeof *l.orbit),
+                   .first = pendres_room_take(&room, k->count, sizeof *l.first),
+                   .complete = pendres_room_take(&room, k->count, sizeof *l.complete),
+                   .room = pendres_room_open(ctx, "points of orbits")};
+  pendres_status status = room.status;
   for (int more = 1; more && status == PENDRES_OK;) {
     l.count = 0;
     for (size_t first = 0, next; first < k->count && status == PENDRES_OK; first = next) {
@@ -314,8 +295,8 @@ static pendres_status add_orbits(pendres_context *ctx, pendres_attractor_set *at
         status = append(ctx, &attractor_sets[k->set[number]], l.point + at, l.ellipse + at);
     }
   }
-  free_long(&l);
-  return status;
+  (void)pendres_room_close(&l.room, status);
+  return pendres_room_close(&room, status);
 }
 
 /* ---- from guesses to orbits ---- */
@@ -408,22 +389,18 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *a
                                   size_t n, const pendres_initial_guess *guesses,
                                   pendres_initial_guess *mirrors, size_t *more)
 {
-  pendres_status status = PENDRES_OK;
-  pendres_orbit_guess *g = calloc(n, sizeof *g);
-  pendres_orbit *orbits = malloc(n * sizeof *orbits);
-  pendres_status *outcome = malloc(n * sizeof *outcome);
-  pendres_trapping_ellipse *ellipses = malloc(n * sizeof *ellipses);
-  size_t *set = malloc(n * sizeof *set);
-  char *marks = calloc(2 * n, 1);
+  pendres_room room = pendres_room_open(ctx, "guesses");
+  pendres_orbit_guess *g = pendres_room_take(&room, n, sizeof *g);
+  pendres_orbit *orbits = pendres_room_take(&room, n, sizeof *orbits);
+  pendres_status *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  pendres_trapping_ellipse *ellipses = pendres_room_take(&room, n, sizeof *ellipses);
+  size_t *set = pendres_room_take(&room, n, sizeof *set);
+  char *marks = pendres_room_take(&room, 2 * n, sizeof *marks);
   *more = 0;
-  if (g == NULL || orbits == NULL || outcome == NULL || ellipses == NULL || set == NULL ||
-      marks == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
-    goto done;
-  }
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   size_t count = distinct_guesses(n, guesses, attractor_sets, g, set);
-  status = pendres_orbit_find(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
-  if (status != PENDRES_OK) goto done;
+  pendres_status status = pendres_orbit_find(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   count = distinct_orbits(count, orbits, set, outcome, attractor_sets);
   status = find_short(ctx, count, orbits, attractor_sets[0].effort, ellipses);
   const candidates k = {.count = count, .orbit = orbits, .set = set, .ellipse = ellipses,
@@ -432,14 +409,7 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *a
   for (size_t i = 0; i < count && status == PENDRES_OK; i++)
     if (k.added[i] && !orbits[i].symmetric && pendres_pendulum_symmetric(&orbits[i].pendulum))
       status = mirror_guess(ctx, set[i], &orbits[i], &mirrors[(*more)++]);
-done:
-  free(g);
-  free(orbits);
-  free(outcome);
-  free(ellipses);
-  free(set);
-  free(marks);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_attractor_set_add(pendres_context *ctx,

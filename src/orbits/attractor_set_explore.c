@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/steps.h"
 #include "model/model.h"
 
@@ -52,16 +53,13 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
                                              pendres_attractor_set *attractor_sets, size_t n,
                                              pendres_initial_guess *guesses)
 {
-  pendres_status status = PENDRES_OK;
-  if (n == 0) return status;
-  pendres_strobe_lane *lanes = malloc(n * sizeof *lanes);
-  long *periods = malloc((sets + 1) * sizeof *periods);
-  double *angle = malloc(n * sizeof *angle);
-  if (lanes == NULL || periods == NULL || angle == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY,
-                                  "out of memory for %zu initial guesses", n);
-    goto done;
-  }
+  if (n == 0) return PENDRES_OK;
+  pendres_room room = pendres_room_open(ctx, "initial guesses");
+  pendres_strobe_lane *lanes = pendres_room_take(&room, n, sizeof *lanes);
+  long *periods = pendres_room_take(&room, sets, sizeof *periods);
+  double *angle = pendres_room_take(&room, n, sizeof *angle);
+  pendres_status status = room.status;
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   for (size_t i = 0; i < sets; i++) periods[i] = guess_periods(&attractor_sets[i].pendulum);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum *p = &attractor_sets[guesses[i].set].pendulum;
@@ -75,11 +73,7 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
   guess_run s = {.guesses = guesses, .angle = angle, .periods = periods};
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, guess_look, &s);
   if (status == PENDRES_OK) status = pendres_attractor_set_add(ctx, attractor_sets, n, guesses);
-done:
-  free(lanes);
-  free(periods);
-  free(angle);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- Where to start ------------------------------------------------------------------------- */

@@ -3,7 +3,7 @@
  *
  * Owns: the largest Lyapunov exponent of a chaotic attractor, the test whether its motion ends, and
  * its means over time. How tangent vectors grow, and what that says, is in growth.h. The cells of
- * the Poincaré plane that it visits, its cover, are in chaos_cover.h.
+ * the Poincaré plane that it visits, its cover, are in attractor_set.h.
  *
  * Replicas are pendulums that started close together and have separated; they are followed side by
  * side. Chaos that ends is not an attractor: a replica has left it if it falls into a trapping

@@ -15,6 +15,7 @@
 #include "base/limits.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/tables.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
@@ -177,28 +178,23 @@ static pendres_status find_adaptively(pendres_context *ctx, swings *s)
 static pendres_status find_all(pendres_context *ctx, size_t n, const double *amplitude,
                                double *frequency, double *error)
 {
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
   const int asked = (ctx->options.steps_per_period + 3) / 4;
-  swings s = {.n = n, .one = malloc(n * sizeof *s.one), .lane = malloc(n * sizeof *s.lane),
-              .which = malloc(n * sizeof *s.which)};
-  if (s.one == NULL || s.lane == NULL || s.which == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu amplitudes", n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "amplitudes");
+  swings s = {.n = n, .one = pendres_room_take(&room, n, sizeof *s.one),
+              .lane = pendres_room_take(&room, n, sizeof *s.lane),
+              .which = pendres_room_take(&room, n, sizeof *s.which)};
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++)
     s.one[i] = (swing){ .amplitude = amplitude[i], .steps = asked > 0 ? asked : FIRST_STEPS,
                         .pendulum.drive_frequency = 4.0 * guess(amplitude[i]), .error = NAN };
-  status = pendres_method_of(ctx)->fixed_steps ? settle_clocks(ctx, ctx->options.tolerance, &s)
-                                               : find_adaptively(ctx, &s);
+  const pendres_status status = pendres_method_of(ctx)->fixed_steps
+                                  ? settle_clocks(ctx, ctx->options.tolerance, &s)
+                                  : find_adaptively(ctx, &s);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     frequency[i] = 0.25 * s.one[i].pendulum.drive_frequency;
     error[i] = s.one[i].error * frequency[i];
   }
-done:
-  free(s.one);
-  free(s.lane);
-  free(s.which);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status free_frequency_integrate(pendres_context *ctx, size_t n,

@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "model/model.h"
 
 /*
@@ -43,15 +44,12 @@ static pendres_status refine(pendres_context *ctx, size_t n, const pendres_pendu
                              int multipliers, pendres_linear *out)
 {
   size_t count = 0;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_orbit_guess *guess = calloc(n + 1, sizeof *guess);
-  pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
-  pendres_status *outcome = malloc((n + 1) * sizeof *outcome);
-  pendres_linear **of = malloc((n + 1) * sizeof *of);
-  if (guess == NULL || orbit == NULL || outcome == NULL || of == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_orbit_guess *guess = pendres_room_take(&room, n, sizeof *guess);
+  pendres_orbit *orbit = pendres_room_take(&room, n, sizeof *orbit);
+  pendres_status *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  pendres_linear **of = pendres_room_take(&room, n, sizeof *of);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) {
     if (multipliers ? !pendres_model_is_linear(&p[i]) : out[i].fate != PENDRES_LINEAR_DECAYS)
       continue;
@@ -60,16 +58,12 @@ static pendres_status refine(pendres_context *ctx, size_t n, const pendres_pendu
                                : (pendres_orbit_guess){.pendulum = p[i], .period = 1};
     count++;
   }
-  status = pendres_orbit_find(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  const pendres_status status =
+    pendres_orbit_find(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
   for (size_t k = 0; k < count && status == PENDRES_OK; k++)
     if (outcome[k] != PENDRES_NOT_CONVERGED) take_over(&orbit[k], multipliers, of[k]);
     else of[k]->fate = PENDRES_LINEAR_NOT;
-done:
-  free(guess);
-  free(orbit);
-  free(outcome);
-  free(of);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_linear_find(pendres_context *ctx, size_t n, const pendres_pendulum *p,

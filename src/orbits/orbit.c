@@ -9,6 +9,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
@@ -385,16 +386,13 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
                                 "what is wanted of orbits is no value of pendres_orbit_want");
   if (n == 0) return PENDRES_OK;
 
-  pendres_status status = PENDRES_OK;
-  pendres_newton_candidate *c = malloc(n * sizeof *c);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_newton_candidate *c = pendres_room_take(&room, n, sizeof *c);
   const two_runs runs = {.want = want,
-                         .coarse = malloc(n * sizeof *runs.coarse),
-                         .fine = malloc(n * sizeof *runs.fine)};
-  if (c == NULL || runs.coarse == NULL || runs.fine == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
-    goto done;
-  }
-  status = start(ctx, n, guess, c);
+                         .coarse = pendres_room_take(&room, n, sizeof *runs.coarse),
+                         .fine = pendres_room_take(&room, n, sizeof *runs.fine)};
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  pendres_status status = start(ctx, n, guess, c);
   size_t left = n;
   for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
     status = refine_once(ctx, left, c, &runs, to);
@@ -408,11 +406,7 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
     left = again;
   }
   if (status == PENDRES_OK) set_coarser(n, &runs, to);
-done:
-  free(c);
-  free(runs.coarse);
-  free(runs.fine);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_orbit_find(pendres_context *ctx, size_t n,

@@ -8,6 +8,7 @@
 #include "base/grow.h"
 #include "engine/chain.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/strobe_noise.h"
@@ -107,14 +108,12 @@ static void read_lane(const pendres_rows *rows, int sensitive, pendres_newton_ca
 static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, size_t lanes,
                                 pendres_newton_candidate *c)
 {
-  pendres_chain_start *from = malloc(lanes * sizeof *from);
-  double *at = malloc(pendres_flow_kind_rows(kind) * lanes * sizeof *at);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_chain_start *from = pendres_room_take(&room, lanes, sizeof *from);
+  double *at = pendres_room_take(&room, pendres_flow_kind_rows(kind) * lanes, sizeof *at);
   const pendres_chain chain = {.kind = kind, .steps = c[0].steps, .periods = c[0].guess->period,
                                .n = lanes, .from = from, .rows = at};
-  pendres_status status = PENDRES_OK;
-  if (from == NULL || at == NULL)
-    status =
-      pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", lanes);
+  pendres_status status = room.status;
   for (size_t i = 0; i < lanes && status == PENDRES_OK; i++) {
     from[i] = (pendres_chain_start){c[i].guess->pendulum, c[i].y, c[i].w};
     c[i].lane = i;
@@ -123,9 +122,7 @@ static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, si
   const pendres_rows rows = {.at = at, .stride = lanes};
   for (size_t i = 0; i < lanes && status == PENDRES_OK; i++)
     read_lane(&rows, kind == PENDRES_FLOW_SENSITIVITY, &c[i]);
-  free(from);
-  free(at);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "engine/coordinates.h"
+#include "engine/room.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
 
@@ -79,21 +80,18 @@ static pendres_status close_early(pendres_context *ctx, job *j, size_t *n)
    others stay in the list, to be tried with longer periods. */
 static pendres_status refine(pendres_context *ctx, job *j, size_t *n)
 {
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_orbit_guess *guess = calloc(*n, sizeof *guess);
-  pendres_orbit *shorter = calloc(*n, sizeof *shorter);
-  pendres_status *outcome = calloc(*n, sizeof *outcome);
-  if (guess == NULL || shorter == NULL || outcome == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", *n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_orbit_guess *guess = pendres_room_take(&room, *n, sizeof *guess);
+  pendres_orbit *shorter = pendres_room_take(&room, *n, sizeof *shorter);
+  pendres_status *outcome = pendres_room_take(&room, *n, sizeof *outcome);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < *n; i++) {
     const closing *c = &j->found[i];
     const pendres_orbit *o = &j->orbit[c->which];
     guess[i] = (pendres_orbit_guess){.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                      .period = c->period, .winding = c->winding};
   }
-  status = pendres_orbit_find(ctx, *n, guess, PENDRES_ORBIT_PLAIN, shorter, outcome);
+  pendres_status status = pendres_orbit_find(ctx, *n, guess, PENDRES_ORBIT_PLAIN, shorter, outcome);
   size_t kept = 0;
   for (size_t i = 0; i < *n && status == PENDRES_OK; i++) {
     closing c = j->found[i];
@@ -107,11 +105,7 @@ static pendres_status refine(pendres_context *ctx, job *j, size_t *n)
     }
   }
   *n = kept;
-done:
-  free(guess);
-  free(shorter);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_orbits_to_prime(pendres_context *ctx, size_t n, pendres_orbit *orbit)

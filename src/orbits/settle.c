@@ -10,6 +10,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/steps.h"
 #include "model/model.h"
 #include "orbits/linear.h"
@@ -49,19 +50,15 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
 static pendres_status tell_growing(pendres_context *ctx, size_t sets,
                                    pendres_attractor_set *attractor_sets)
 {
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_pendulum *p = malloc((sets + 1) * sizeof *p);
-  pendres_linear *linear = malloc((sets + 1) * sizeof *linear);
-  for (size_t s = 0; s < sets && p != NULL; s++) p[s] = attractor_sets[s].pendulum;
-  if (p == NULL || linear == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu parameter sets", sets);
-  else
-    status = pendres_linear_find(ctx, sets, p, linear);
+  pendres_room room = pendres_room_open(ctx, "parameter sets");
+  pendres_pendulum *p = pendres_room_take(&room, sets, sizeof *p);
+  pendres_linear *linear = pendres_room_take(&room, sets, sizeof *linear);
+  for (size_t s = 0; s < sets && room.status == PENDRES_OK; s++) p[s] = attractor_sets[s].pendulum;
+  pendres_status status = room.status;
+  if (status == PENDRES_OK) status = pendres_linear_find(ctx, sets, p, linear);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
     attractor_sets[s].grows = linear[s].fate == PENDRES_LINEAR_GROWS;
-  free(p);
-  free(linear);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Put attractors into their physical order, and renumber outcomes accordingly. */
@@ -93,17 +90,15 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_attractor_set *attractor_sets,
                                     const pendres_settle_starts *from, pendres_outcome *outcome)
 {
-  pendres_status status = PENDRES_OK;
   const size_t n = from->n, *set = from->set;
   const double *x = from->x, *v = from->v;
   const double accuracy = pendres_accuracy_to_settle(ctx);
-  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
-  double *error_ratio = malloc((n + 1) * sizeof *error_ratio);
-  long *budget = malloc((sets + 1) * sizeof *budget);
-  if (lanes == NULL || error_ratio == NULL || budget == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  pendres_strobe_lane *lanes = pendres_room_take(&room, n, sizeof *lanes);
+  double *error_ratio = pendres_room_take(&room, n, sizeof *error_ratio);
+  long *budget = pendres_room_take(&room, sets, sizeof *budget);
+  pendres_status status = room.status;
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   double speed = NAN, last; /* of starts as fast as their neighbours the steps are the same */
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum *p = &attractor_sets[set[i]].pendulum;
@@ -139,11 +134,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     status = pendres_settle_certain(ctx, &labelled);
   if (status == PENDRES_OK) status = order_all(ctx, sets, attractor_sets, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
-done:
-  free(lanes);
-  free(error_ratio);
-  free(budget);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- many pendulums of one parameter set ---- */
@@ -237,16 +228,13 @@ pendres_status pendres_settle_known(pendres_context *ctx,
                                     pendres_settle_budget budget, pendres_outcome *outcome)
 {
   const size_t n = starts->n;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  size_t *order = malloc((n + 1) * sizeof *order);
-  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
-  double *error_ratio = malloc((n + 1) * sizeof *error_ratio);
-  if (order == NULL || lanes == NULL || error_ratio == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
-    goto done;
-  }
-  status = load_all(ctx, &attractor_set->pendulum, starts, accuracy, budget, lanes);
-  if (status != PENDRES_OK) goto done;
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  size_t *order = pendres_room_take(&room, n, sizeof *order);
+  pendres_strobe_lane *lanes = pendres_room_take(&room, n, sizeof *lanes);
+  double *error_ratio = pendres_room_take(&room, n, sizeof *error_ratio);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  pendres_status status = load_all(ctx, &attractor_set->pendulum, starts, accuracy, budget, lanes);
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   order_by_steps(n, lanes, order);
   for (size_t i = 0; i < n; i++) {
     outcome[i] = pendres_settle_unresolved;
@@ -262,9 +250,5 @@ pendres_status pendres_settle_known(pendres_context *ctx,
                                             .accuracy = accuracy};
   if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
   ctx->cost.settled_pendulums += (double)n;
-done:
-  free(order);
-  free(lanes);
-  free(error_ratio);
-  return status;
+  return pendres_room_close(&room, status);
 }

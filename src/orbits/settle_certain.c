@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 
 /* The error a period of the most exact run: rounding in some hundred steps is as large. */
 static const double most_exact = 1e-14;
@@ -21,30 +22,6 @@ typedef struct uncertain_labels {
   pendres_outcome *outcome;
   double *error_ratio, *accuracy; /* of the latest run */
 } uncertain_labels;
-
-static void free_uncertain(uncertain_labels *d)
-{
-  free(d->index);
-  free(d->set);
-  free(d->lanes);
-  free(d->outcome);
-  free(d->error_ratio);
-  free(d->accuracy);
-}
-
-static pendres_status allocate_uncertain(pendres_context *ctx, uncertain_labels *d, size_t n)
-{
-  d->index = malloc(n * sizeof *d->index);
-  d->set = malloc(n * sizeof *d->set);
-  d->lanes = malloc(n * sizeof *d->lanes);
-  d->outcome = malloc(n * sizeof *d->outcome);
-  d->error_ratio = malloc(n * sizeof *d->error_ratio);
-  d->accuracy = malloc(n * sizeof *d->accuracy);
-  if (d->index == NULL || d->set == NULL || d->lanes == NULL ||
-      d->outcome == NULL || d->error_ratio == NULL || d->accuracy == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-  return PENDRES_OK;
-}
 
 static int is_uncertain(const pendres_outcome *o)
 {
@@ -66,15 +43,20 @@ static void excuse(const pendres_settle_labelled *l)
   }
 }
 
-static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled *l,
+static pendres_status gather(const pendres_settle_labelled *l, pendres_room *room,
                              uncertain_labels *d)
 {
   size_t n = 0;
   excuse(l);
   for (size_t i = 0; i < l->n; i++) n += is_uncertain(&l->job->outcome[i]);
   if (n == 0) return PENDRES_OK;
-  const pendres_status status = allocate_uncertain(ctx, d, n);
-  if (status != PENDRES_OK) return status;
+  d->index = pendres_room_take(room, n, sizeof *d->index);
+  d->set = pendres_room_take(room, n, sizeof *d->set);
+  d->lanes = pendres_room_take(room, n, sizeof *d->lanes);
+  d->outcome = pendres_room_take(room, n, sizeof *d->outcome);
+  d->error_ratio = pendres_room_take(room, n, sizeof *d->error_ratio);
+  d->accuracy = pendres_room_take(room, n, sizeof *d->accuracy);
+  if (room->status != PENDRES_OK) return room->status;
   for (size_t i = 0; i < l->n; i++) {
     if (!is_uncertain(&l->job->outcome[i])) continue;
     d->index[d->count] = i;
@@ -82,7 +64,7 @@ static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled
     d->error_ratio[d->count] = l->job->error_ratio[i];
     d->accuracy[d->count++] = l->accuracy;
   }
-  return status;
+  return PENDRES_OK;
 }
 
 /* The error a period that should leave no label uncertain: a power of ten, so that many pendulums
@@ -221,7 +203,8 @@ static pendres_status compare(pendres_context *ctx, const pendres_settle_labelle
 pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l)
 {
   uncertain_labels d = {0};
-  pendres_status status = gather(ctx, l, &d);
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  pendres_status status = gather(l, &room, &d);
   if (!pendres_settle_carries(ctx) && status == PENDRES_OK && d.count > 0) {
     const pendres_options asked = ctx->options;
     ctx->options.method = PENDRES_BLOCK_FIXED;
@@ -234,6 +217,5 @@ pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle
     status = run(ctx, l, &d);
     if (status == PENDRES_OK) take_over(l, &d);
   }
-  free_uncertain(&d);
-  return status;
+  return pendres_room_close(&room, status);
 }

@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/steps.h"
 #include "model/model.h"
 #include "orbits/escape.h"
@@ -275,25 +276,22 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
                                     pendres_settle_labelling *l)
 {
   int covers = 0, open = 0;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_room room = pendres_room_open(ctx, "pendulums");
   l->most_steps = ctx->options.period_budget > 0 ? INFINITY : most_steps;
-  size_t *which = calloc(n + 1, sizeof *which);
-  if (which == NULL) goto no_memory;
+  size_t *which = pendres_room_take(&room, n, sizeof *which);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   const size_t left = list_unsettled(n, lanes, l, which, &covers, &open);
   if (covers) {
-    l->streak = calloc(n, sizeof *l->streak);
-    l->entry = calloc(n, sizeof *l->entry);
-    if (l->streak == NULL || l->entry == NULL) goto no_memory;
+    l->streak = pendres_room_take(&room, n, sizeof *l->streak);
+    l->entry = pendres_room_take(&room, n, sizeof *l->entry);
   }
-  if (open) {
-    l->before = malloc((n + 1) * sizeof *l->before);
-    if (l->before == NULL) goto no_memory;
-    for (size_t k = 0; k < left; k++) {
-      const pendres_strobe_lane *from = &lanes[which[k]];
-      l->before[which[k]] = (pendres_settle_place){from->y, from->w, from->worst};
-    }
+  if (open) l->before = pendres_room_take(&room, n, sizeof *l->before);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t k = 0; k < left && open; k++) {
+    const pendres_strobe_lane *from = &lanes[which[k]];
+    l->before[which[k]] = (pendres_settle_place){from->y, from->w, from->worst};
   }
-  status = pendres_strobe_run_some(ctx, left, which, lanes, settle_look, l);
+  pendres_status status = pendres_strobe_run_some(ctx, left, which, lanes, settle_look, l);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
     const size_t i = which[k];
     pendres_outcome *o = &l->outcome[i];
@@ -302,16 +300,8 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
     if (open && pendres_escape_lost(lanes[i].y, lanes[i].w))
       status = look_back(ctx, l, i, &lanes[i]);
   }
-  goto done;
-no_memory:
-  (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
-done:
-  free(l->streak);
-  free(l->entry);
-  free(l->before);
   l->streak = NULL;
   l->entry = NULL;
   l->before = NULL;
-  free(which);
-  return status;
+  return pendres_room_close(&room, status);
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "model/model.h"
 #include "orbits/chaos.h"
 #include "orbits/recurrence.h"
@@ -49,40 +50,20 @@ typedef struct lost_lanes {
   unsigned char *over;  /* of each set: its budget had been spent before the latest round */
 } lost_lanes;
 
-static void free_lost(lost_lanes *l)
-{
-  free(l->index);
-  free(l->set);
-  free(l->lanes);
-  free(l->outcome);
-  free(l->histories);
-  free(l->guesses);
-  free(l->suspects);
-  free(l->known);
-  free(l->watched);
-  free(l->found);
-  free(l->over);
-}
-
-static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t sets)
+static void take_room(pendres_room *room, size_t sets, lost_lanes *l)
 {
   const size_t n = l->count;
-  l->index = malloc(n * sizeof *l->index);
-  l->set = malloc(n * sizeof *l->set);
-  l->lanes = malloc(n * sizeof *l->lanes);
-  l->outcome = malloc(n * sizeof *l->outcome);
-  l->histories = calloc(n, sizeof *l->histories);
-  l->guesses = malloc(n * sizeof *l->guesses);
-  l->suspects = malloc(n * sizeof *l->suspects);
-  l->known = malloc(sets * sizeof *l->known);
-  l->watched = malloc(sets * sizeof *l->watched);
-  l->found = calloc(sets, sizeof *l->found);
-  l->over = calloc(sets, sizeof *l->over);
-  if (l->index == NULL || l->set == NULL || l->lanes == NULL || l->outcome == NULL ||
-      l->histories == NULL || l->guesses == NULL || l->suspects == NULL || l->known == NULL ||
-      l->watched == NULL || l->found == NULL || l->over == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
-  return PENDRES_OK;
+  l->index = pendres_room_take(room, n, sizeof *l->index);
+  l->set = pendres_room_take(room, n, sizeof *l->set);
+  l->lanes = pendres_room_take(room, n, sizeof *l->lanes);
+  l->outcome = pendres_room_take(room, n, sizeof *l->outcome);
+  l->histories = pendres_room_take(room, n, sizeof *l->histories);
+  l->guesses = pendres_room_take(room, n, sizeof *l->guesses);
+  l->suspects = pendres_room_take(room, n, sizeof *l->suspects);
+  l->known = pendres_room_take(room, sets, sizeof *l->known);
+  l->watched = pendres_room_take(room, sets, sizeof *l->watched);
+  l->found = pendres_room_take(room, sets, sizeof *l->found);
+  l->over = pendres_room_take(room, sets, sizeof *l->over);
 }
 
 /* Whether a lane is lost while the budget of its set is not yet spent. */
@@ -201,8 +182,9 @@ pendres_status pendres_settle_search(pendres_context *ctx, const pendres_settle_
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < q->n; i++) l.count += !pendres_settle_ended(&q->outcome[i]);
   if (l.count == 0) return status;
-  status = allocate_lost(ctx, &l, q->sets);
-  if (status != PENDRES_OK) goto done;
+  pendres_room room = pendres_room_open(ctx, "lanes");
+  take_room(&room, q->sets, &l);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0, k = 0; i < q->n; i++) {
     if (pendres_settle_ended(&q->outcome[i])) continue;
     l.index[k] = i;
@@ -229,7 +211,5 @@ pendres_status pendres_settle_search(pendres_context *ctx, const pendres_settle_
   if (status == PENDRES_OK && q->times) status = repeat(ctx, &l, q, &job);
   if (status == PENDRES_OK && q->times)
     for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
-done:
-  free_lost(&l);
-  return status;
+  return pendres_room_close(&room, status);
 }

@@ -9,6 +9,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
@@ -167,24 +168,17 @@ static int compare(void *arg, size_t index, const pendres_strobe_lane *lane)
 }
 
 /* Prepare a comparison of n lanes. */
-static pendres_status stretch_open(pendres_context *ctx, size_t n, long periods, stretch *s)
+static stretch stretch_open(pendres_room *room, size_t n, long periods)
 {
-  const long room = (long)(((size_t)1 << 20) / n); /* 24 MB */
-  const long most = room < 1 ? 1 : room < MOST_COMPARED ? room : MOST_COMPARED;
-  *s = (stretch){.periods = periods, .length = periods, .every = 1};
-  if (pendres_method_of(ctx)->fixed_steps) s->length = periods < most ? periods : most;
-  else s->every = (periods + MOST_COMPARED - 1) / MOST_COMPARED;
-  s->slots = (size_t)((s->length + s->every - 1) / s->every);
-  s->at = malloc(n * s->slots * sizeof *s->at);
-  s->apart = calloc(n, sizeof *s->apart);
-  if (s->at != NULL && s->apart != NULL) return PENDRES_OK;
-  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-}
-
-static void stretch_close(stretch *s)
-{
-  free(s->at);
-  free(s->apart);
+  const long fit = (long)(((size_t)1 << 20) / n); /* 24 MB */
+  const long most = fit < 1 ? 1 : fit < MOST_COMPARED ? fit : MOST_COMPARED;
+  stretch s = {.periods = periods, .length = periods, .every = 1};
+  if (pendres_method_of(room->ctx)->fixed_steps) s.length = periods < most ? periods : most;
+  else s.every = (periods + MOST_COMPARED - 1) / MOST_COMPARED;
+  s.slots = (size_t)((s.length + s.every - 1) / s.every);
+  s.at = pendres_room_take(room, n * s.slots, sizeof *s.at);
+  s.apart = pendres_room_take(room, n, sizeof *s.apart);
+  return s;
 }
 
 /*
@@ -249,20 +243,17 @@ static pendres_status run_with_less_tolerance(pendres_context *ctx, size_t n, st
 static pendres_status run_with_errors(pendres_context *ctx, size_t n, long periods,
                                       pendres_strobe_lane *lanes, double *error)
 {
-  stretch s;
-  pendres_strobe_lane *finer = malloc(n * sizeof *finer);
-  pendres_status status = stretch_open(ctx, n, periods, &s);
-  if (status == PENDRES_OK && finer == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  pendres_strobe_lane *finer = pendres_room_take(&room, n, sizeof *finer);
+  stretch s = stretch_open(&room, n, periods);
+  pendres_status status = room.status;
   if (status == PENDRES_OK)
     status = pendres_method_of(ctx)->fixed_steps
                ? run_with_twice_the_steps(ctx, n, &s, lanes, finer, error)
                : run_with_less_tolerance(ctx, n, &s, lanes, finer, error);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     error[i] = error_of(s.apart[i], error[i], &lanes[i]);
-  stretch_close(&s);
-  free(finer);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status strobe_advance(pendres_context *ctx, size_t n,

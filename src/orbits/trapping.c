@@ -1,14 +1,14 @@
-/* trapping.c -- trapping ellipses around attracting periodic orbits; see trapping.h. */
-#include "orbits/trapping.h"
+/* trapping.c -- trapping ellipses around attracting periodic orbits; see trapping_ellipse.h. */
+#include "orbits/trapping_ellipse.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
-#include "orbits/trapping_level.h"
 #include "orbits/trapping_ring.h"
 
 enum {
@@ -314,19 +314,19 @@ static void judge(search *s, const pendres_trapping_point *points, const pendres
   }
 }
 
-/* Room for the points of all rings of a pass, and for the lanes that they are integrated in. */
-typedef struct room {
+/* The points of all rings of a pass, and the lanes that they are integrated in. */
+typedef struct ring_points {
   pendres_trapping_point *points;
   pendres_strobe_lane *lanes;
-} room;
+} ring_points;
 
 /* Integrate the rings of all searches at once, and close the arcs of those that come home. */
 static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
                                 const pendres_orbit *orbits, pendres_trapping_effort effort,
-                                const room *room)
+                                const ring_points *of)
 {
   const int many = effort == PENDRES_TRAPPING_MANY;
-  pendres_trapping_point *points = room->points;
+  pendres_trapping_point *points = of->points;
   size_t count = 0;
   pendres_trapping_ring **rings = malloc((n * RINGS + 1) * sizeof *rings);
   pendres_status status = PENDRES_OK;
@@ -345,7 +345,7 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
                                     pendres_trapping_tolerance(r->margin), &r->steps);
     }
   if (status == PENDRES_OK) status = pendres_trapping_rings_run(ctx, count, rings, points,
-                                                                room->lanes);
+                                                                of->lanes);
   if (status == PENDRES_OK)
     status = pendres_trapping_rings_close(ctx, count, rings, points, many ? MANY_MORE : FEW_MORE);
   free(rings);
@@ -356,11 +356,10 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
                                      pendres_trapping_effort effort,
                                      pendres_trapping_ellipse *ellipses)
 {
-  pendres_status status = PENDRES_OK;
-  search *s = malloc((n + 1) * sizeof *s);
-  room room = {NULL, NULL};
+  pendres_room room = pendres_room_open(ctx, "trapping rings");
+  search *s = pendres_room_take(&room, n, sizeof *s);
   size_t left = 0;
-  if (s == NULL) goto no_memory;
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit *o = &orbits[i];
     const pendres_coordinates at = pendres_coordinates_in_whole(&o->pendulum, o->x, o->v);
@@ -378,16 +377,15 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
                          .looks = patience(o, effort)};
   }
   const size_t most = left * RINGS * (effort == PENDRES_TRAPPING_MANY ? MANY_POINTS : FEW_POINTS);
-  room.points = malloc((most + 1) * sizeof *room.points);
-  room.lanes = malloc((most + 1) * sizeof *room.lanes);
-  if (room.points == NULL || room.lanes == NULL) goto no_memory;
-
+  const ring_points all = {pendres_room_take(&room, most, sizeof *all.points),
+                           pendres_room_take(&room, most, sizeof *all.lanes)};
+  pendres_status status = room.status;
   while (left > 0 && status == PENDRES_OK) {
     for (size_t i = 0; i < left; i++) choose_rings(&s[i], &ellipses[s[i].orbit]);
-    status = run_rings(ctx, left, s, orbits, effort, &room);
+    status = run_rings(ctx, left, s, orbits, effort, &all);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-      judge(&s[i], room.points, &orbits[s[i].orbit], effort);
+      judge(&s[i], all.points, &orbits[s[i].orbit], effort);
       ellipses[s[i].orbit].radius = (1.0 - pendres_trapping_margin) * s[i].proven;
       ellipses[s[i].orbit].room = pendres_trapping_margin * ellipses[s[i].orbit].radius;
       if (s[i].stage != STAGE_DONE) s[again++] = s[i];
@@ -395,12 +393,5 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
     left = again;
   }
   if (status == PENDRES_OK) status = pendres_trapping_levels_find(ctx, n, orbits, ellipses);
-  goto done;
-no_memory:
-  status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
-done:
-  free(s);
-  free(room.points);
-  free(room.lanes);
-  return status;
+  return pendres_room_close(&room, status);
 }

@@ -1,18 +1,25 @@
 /*
- * trapping_ellipse.h -- an ellipse around a Poincaré point, inside which all states settle on the
- * orbit, and how far inside it a state is.
+ * trapping_ellipse.h -- trapping ellipses around Poincaré points of attracting orbits, inside which
+ * all states settle on the orbit.
+ *
+ * Owns: the metric of an orbit, the largest ellipse found to lie in its basin (trapping.c), and how
+ * far inside it a state is. It is checked by rings of pendulums on its edge, and not proved (see
+ * attractor.h for the argument).
  *
  * Metric: P - M' P M = I with M the derivative of the q-th iterate of the map at the point, so
  * that the linear map contracts in it. Close to a fold it is that of components along the unit
  * eigenvectors of M instead. Scaled so that the unit ellipse's longest semi-axis is 1.
  *
  * Around an orbit of weak damping a larger region is known as well, bounded by a level line of a
- * polynomial (trapping_level.h); the ellipse lies inside it.
+ * polynomial (trapping_level.c); the ellipse lies inside it.
  */
 #ifndef PENDRES_TRAPPING_ELLIPSE_H
 #define PENDRES_TRAPPING_ELLIPSE_H
 
 #include <math.h>
+
+#include <pendres/context.h>
+#include <pendres/orbit.h>
 
 #include "base/angles.h"
 
@@ -84,5 +91,26 @@ static inline int pendres_trapping_holds(const pendres_trapping_ellipse *t, doub
   if (norm2 <= t->radius * t->radius) return 1;
   return norm2 < t->reach * t->reach && pendres_trapping_polynomial(t, y, w) <= t->level;
 }
+
+/* How hard to look for large ellipses. */
+typedef enum pendres_trapping_effort {
+  PENDRES_TRAPPING_FEW = 0, /* for ensembles of hundreds: the radius within a factor of 1.4 */
+  PENDRES_TRAPPING_MANY = 1 /* for grids of millions: within a tenth */
+} pendres_trapping_effort;
+
+/*
+ * Find the ellipses of n orbits, one at each Poincaré point: an orbit of period q comes as q
+ * entries, each refined at its own point.
+ */
+pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                     pendres_trapping_effort effort,
+                                     pendres_trapping_ellipse *ellipses);
+
+/* Give regions to those of n orbits that are weakly damped and whose ellipse has been found, where
+   the region is larger than that. Metric, radius and room are then those of the largest ellipse
+   inside the region. */
+pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,
+                                            const pendres_orbit *orbits,
+                                            pendres_trapping_ellipse *ellipses);
 
 #endif

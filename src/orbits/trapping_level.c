@@ -1,5 +1,20 @@
-/* trapping_level.c -- regions bounded by level lines of a polynomial; see trapping_level.h. */
-#include "orbits/trapping_level.h"
+/*
+ * trapping_level.c -- regions around weakly damped orbits, bounded by level lines of a polynomial.
+ *
+ * Where damping is weak, an ellipse of the linear metric comes home only if it is so small that the
+ * nonlinearity moves its points by less than a period's damping does. A polynomial V can be found
+ * that follows the nonlinearity: with z the distance from the Poincaré point in the metric that the
+ * linear map M shrinks evenly, V = |z|^2 + terms of the third to the sixth degree, such that
+ * V(image of z) = |det M| V(z) up to terms of the seventh degree. It is the square of the distance
+ * from the orbit in coordinates in which the map is M itself (a Birkhoff normal form). Where V
+ * falls from each strobe to the next in all of a region V <= level, states in it come to the orbit.
+ *
+ * V is found by least squares on a disk of states that are followed over the orbit's period, and so
+ * is the region in which it is seen to fall. On every second ray of the disk V is fitted, on the
+ * others it is only looked at. It has to fall by at least half of what damping gives on all rays:
+ * checked, not proved, as with ellipses.
+ */
+#include "orbits/trapping_ellipse.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,6 +23,7 @@
 #include <gsl/gsl_linalg.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
@@ -353,16 +369,15 @@ pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,
                                             const pendres_orbit *orbits,
                                             pendres_trapping_ellipse *ellipses)
 {
-  pendres_status status = PENDRES_OK;
   size_t left = 0;
   for (size_t i = 0; i < n; i++) left += (size_t)is_weak(&orbits[i], &ellipses[i]);
-  if (left == 0) return status;
-  disk *disks = malloc(left * sizeof *disks), **at = malloc(left * sizeof *at);
-  pendres_strobe_lane *lanes = malloc(left * POINTS * sizeof *lanes);
-  if (disks == NULL || at == NULL || lanes == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping levels");
-    left = 0;
-  }
+  if (left == 0) return PENDRES_OK;
+  pendres_room room = pendres_room_open(ctx, "trapping levels");
+  disk *disks = pendres_room_take(&room, left, sizeof *disks);
+  disk **at = pendres_room_take(&room, left, sizeof *at);
+  pendres_strobe_lane *lanes = pendres_room_take(&room, left * POINTS, sizeof *lanes);
+  pendres_status status = room.status;
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   for (size_t i = 0, k = 0; i < n && k < left; i++) {
     if (!is_weak(&orbits[i], &ellipses[i])) continue;
     at[k] = &disks[k];
@@ -377,8 +392,5 @@ pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,
     }
     left = again;
   }
-  free(disks);
-  free(at);
-  free(lanes);
-  return status;
+  return pendres_room_close(&room, status);
 }

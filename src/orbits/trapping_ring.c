@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 
 /* Neighbours on a ring may drift apart by this many radii. Further apart they do not tell what
    happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
@@ -238,23 +239,15 @@ pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
     hold++;
   }
   if (hold == 0) return PENDRES_OK;
-  pendres_status status = PENDRES_OK;
-  const size_t room = arcs + 2 * hold * (size_t)most;
-  closing c = {.most = most};
-  c.arcs = malloc(room * sizeof *c.arcs);
-  c.next = malloc(room * sizeof *c.next);
-  c.points = malloc(room * sizeof *c.points);
-  c.lanes = malloc(room * sizeof *c.lanes);
-  if (c.arcs == NULL || c.next == NULL || c.points == NULL || c.lanes == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping arcs");
-  } else {
-    status = first_arcs(ctx, n, rings, points, &c);
-    c.used = arcs;
-    while (c.open > 0 && status == PENDRES_OK) status = bisect(ctx, &c);
-  }
-  free(c.arcs);
-  free(c.next);
-  free(c.points);
-  free(c.lanes);
-  return status;
+  const size_t all = arcs + 2 * hold * (size_t)most;
+  pendres_room room = pendres_room_open(ctx, "trapping arcs");
+  closing c = {.most = most, .arcs = pendres_room_take(&room, all, sizeof *c.arcs),
+               .next = pendres_room_take(&room, all, sizeof *c.next),
+               .points = pendres_room_take(&room, all, sizeof *c.points),
+               .lanes = pendres_room_take(&room, all, sizeof *c.lanes)};
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  pendres_status status = first_arcs(ctx, n, rings, points, &c);
+  c.used = arcs;
+  while (c.open > 0 && status == PENDRES_OK) status = bisect(ctx, &c);
+  return pendres_room_close(&room, status);
 }

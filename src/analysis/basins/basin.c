@@ -10,6 +10,7 @@
 #include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/door.h"
 #include "orbits/settle.h"
 
@@ -106,26 +107,21 @@ static pendres_status settle_states(const picture *of, size_t n, const size_t *i
                                     pendres_settle_budget budget, pendres_basin_state *state)
 {
   const pendres_basin_grid *grid = of->grid;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  double *x = calloc(n + 1, sizeof *x), *v = calloc(n + 1, sizeof *v);
-  pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
-  if (x == NULL || v == NULL || outcome == NULL) {
-    (void)pendres_context_fail(of->ctx, status, "out of memory for %zu states", n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(of->ctx, "states");
+  double *x = pendres_room_take(&room, n, sizeof *x);
+  double *v = pendres_room_take(&room, n, sizeof *v);
+  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t k = 0; k < n; k++) {
     x[k] = grid->x[index[k] / grid->nv];
     v[k] = grid->v[index[k] % grid->nv];
   }
   const pendres_settle_starts starts = {.n = n, .x = x, .v = v};
-  status = pendres_settle_known(of->ctx, of->set->attractor_sets, &starts,
-                                pendres_basin_accuracy(of->ctx, grid), budget, outcome);
+  const pendres_status status =
+    pendres_settle_known(of->ctx, of->set->attractor_sets, &starts,
+                         pendres_basin_accuracy(of->ctx, grid), budget, outcome);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) compact(&outcome[k], &state[k]);
-done:
-  free(x);
-  free(v);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status basin_states(pendres_context *ctx, const pendres_attractors *set,
@@ -157,29 +153,22 @@ static pendres_status defer(const picture *of, size_t offset, size_t n,
                             pendres_basin_state *state)
 {
   size_t left = 0;
-  pendres_status status = PENDRES_OK;
   for (size_t k = 0; k < n; k++) left += state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN;
   if (left < WORTH_WAITING) {
     for (size_t k = 0; k < n; k++)
       if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) state[k].how = PENDRES_BASIN_DEFERRED;
-    return status;
+    return PENDRES_OK;
   }
-  size_t *index = malloc(left * sizeof *index);
-  pendres_basin_state *rest = malloc(left * sizeof *rest);
-  if (index == NULL || rest == NULL) {
-    status =
-      pendres_context_fail(of->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", left);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(of->ctx, "states");
+  size_t *index = pendres_room_take(&room, left, sizeof *index);
+  pendres_basin_state *rest = pendres_room_take(&room, left, sizeof *rest);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   left = 0;
   for (size_t k = 0; k < n; k++)
     if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) index[left++] = offset + k;
-  status = settle_states(of, left, index, PENDRES_SETTLE_FULL, rest);
+  pendres_status status = settle_states(of, left, index, PENDRES_SETTLE_FULL, rest);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) state[index[k] - offset] = rest[k];
-done:
-  free(index);
-  free(rest);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status basin_rows(pendres_context *ctx, const pendres_attractors *set,

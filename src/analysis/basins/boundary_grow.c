@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
@@ -145,14 +146,12 @@ static void take_back(const pendres_strobe_lane *lane, double *y, double *w)
 static pendres_status map_seeds(pendres_context *ctx, const pendres_boundary_seed *seed, size_t n,
                                 const pendres_boundary_node *nodes, double *y, double *w)
 {
-  pendres_strobe_lane *lane = malloc((n + 1) * sizeof *lane);
-  long *periods = malloc((n + 1) * sizeof *periods);
-  size_t *index = malloc((n + 1) * sizeof *index), moving = 0;
-  pendres_status status = PENDRES_OK;
-  if (lane == NULL || periods == NULL || index == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
-    goto done;
-  }
+  size_t moving = 0;
+  pendres_room room = pendres_room_open(ctx, "points of a boundary");
+  pendres_strobe_lane *lane = pendres_room_take(&room, n, sizeof *lane);
+  long *periods = pendres_room_take(&room, n, sizeof *periods);
+  size_t *index = pendres_room_take(&room, n, sizeof *index);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) {
     place(seed, nodes[i].s, nodes[i].side, &y[i], &w[i]);
     w[i] = -w[i];
@@ -162,14 +161,10 @@ static pendres_status map_seeds(pendres_context *ctx, const pendres_boundary_see
     periods[moving] = (long)nodes[i].generation * seed->iterates;
     index[moving++] = i;
   }
-  status = pendres_strobe_run(ctx, moving, lane, mapped, periods);
+  const pendres_status status = pendres_strobe_run(ctx, moving, lane, mapped, periods);
   for (size_t i = 0; i < moving && status == PENDRES_OK; i++)
     take_back(&lane[i], &y[index[i]], &w[index[i]]);
-done:
-  free(lane);
-  free(periods);
-  free(index);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- refining ---- */
@@ -247,29 +242,28 @@ static int joined(const front *f, size_t i)
 }
 
 /* Put a node into the middle of every chord that is too long or too bent; *added counts them. */
-static pendres_status refine_once(pendres_context *ctx, front *f, size_t room, size_t *added)
+static pendres_status refine_once(pendres_context *ctx, front *f, size_t most, size_t *added)
 {
   size_t coarse = 0;
-  pendres_status status = PENDRES_OK;
   for (size_t i = 0; i + 1 < f->count; i++) coarse += (size_t)(too_coarse(f, i) && divisible(f, i));
-  if (coarse > room) coarse = room;
+  if (coarse > most) coarse = most;
   *added = coarse;
-  if (coarse == 0) return status;
-  pendres_boundary_node *more = malloc(coarse * sizeof *more);
-  double *y = malloc(coarse * sizeof *y), *w = malloc(coarse * sizeof *w);
-  if (more == NULL || y == NULL || w == NULL ||
-      reserve(&f->node, &f->capacity, f->count + coarse) != 0) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
-    goto done;
-  }
+  if (coarse == 0) return PENDRES_OK;
+  if (reserve(&f->node, &f->capacity, f->count + coarse) != 0)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  pendres_room room = pendres_room_open(ctx, "points of a boundary");
+  pendres_boundary_node *more = pendres_room_take(&room, coarse, sizeof *more);
+  double *y = pendres_room_take(&room, coarse, sizeof *y);
+  double *w = pendres_room_take(&room, coarse, sizeof *w);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   size_t k = 0;
   for (size_t i = 0; i + 1 < f->count && k < coarse; i++)
     if (too_coarse(f, i) && divisible(f, i)) {
       more[k] = f->node[i];
       more[k++].s = 0.5 * (f->node[i].s + f->node[i + 1].s);
     }
-  status = map_seeds(ctx, f->seed, coarse, more, y, w);
-  if (status != PENDRES_OK) goto done;
+  const pendres_status status = map_seeds(ctx, f->seed, coarse, more, y, w);
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   for (size_t i = 0; i < coarse; i++) {
     more[i].y = y[i];
     more[i].w = w[i];
@@ -280,11 +274,7 @@ static pendres_status refine_once(pendres_context *ctx, front *f, size_t room, s
     f->node[to] = k > 0 && (from == 0 || more[k - 1].s > f->node[from - 1].s) ? more[--k]
                                                                               : f->node[--from];
   f->count += coarse;
-done:
-  free(more);
-  free(y);
-  free(w);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- generations ---- */
@@ -292,13 +282,10 @@ done:
 /* Map all nodes of the front back once more. */
 static pendres_status next_generation(pendres_context *ctx, front *f)
 {
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_strobe_lane *lane = malloc((f->count + 1) * sizeof *lane);
-  long *periods = malloc((f->count + 1) * sizeof *periods);
-  if (lane == NULL || periods == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for a boundary");
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "points of a boundary");
+  pendres_strobe_lane *lane = pendres_room_take(&room, f->count, sizeof *lane);
+  long *periods = pendres_room_take(&room, f->count, sizeof *periods);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < f->count; i++) {
     lane[i] = (pendres_strobe_lane){.pendulum = &f->seed->backward,
                                     .y = f->node[i].y,
@@ -307,15 +294,12 @@ static pendres_status next_generation(pendres_context *ctx, front *f)
     pendres_coordinates_wrap(lane[i].pendulum, &lane[i].y, &lane[i].turns);
     periods[i] = f->seed->iterates;
   }
-  status = pendres_strobe_run(ctx, f->count, lane, mapped, periods);
+  pendres_status status = pendres_strobe_run(ctx, f->count, lane, mapped, periods);
   for (size_t i = 0; i < f->count && status == PENDRES_OK; i++) {
     f->node[i].generation++;
     take_back(&lane[i], &f->node[i].y, &f->node[i].w);
   }
-done:
-  free(lane);
-  free(periods);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Append the front to the curve. A new piece begins where neighbours are not joined; the first
@@ -380,9 +364,9 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
     status = next_generation(ctx, f);
     for (int round = 0; round < MOST_ROUNDS && added > 0 && status == PENDRES_OK; round++) {
       const size_t taken = curve->count + f->count;
-      const size_t room = taken < f->options->most_points ? f->options->most_points - taken : 0;
-      if (room == 0) break;
-      status = refine_once(ctx, f, room, &added);
+      const size_t most = taken < f->options->most_points ? f->options->most_points - taken : 0;
+      if (most == 0) break;
+      status = refine_once(ctx, f, most, &added);
     }
     if (status == PENDRES_OK) status = deliver(ctx, f, curve);
     prune(f);

@@ -11,6 +11,7 @@
 #include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/door.h"
 #include "orbits/settle.h"
 
@@ -160,21 +161,16 @@ static pendres_status compute_sample(pendres_context *ctx, sample *a, size_t n, 
                                      pendres_basin_statistics *out)
 {
   const size_t at_a_time = n < SAMPLES_AT_A_TIME ? n : SAMPLES_AT_A_TIME;
-  const size_t room = at_a_time * (1 + 2 * (size_t)out->scales);
+  const size_t most_states = at_a_time * (1 + 2 * (size_t)out->scales);
   pendres_scatter counts = {0};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  a->x = calloc(room, sizeof *a->x);
-  a->v = calloc(room, sizeof *a->v);
-  a->outcome = malloc(room * sizeof *a->outcome);
-  if (a->x == NULL || a->v == NULL || a->outcome == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for random states");
-  else
-    status = settle_sample(ctx, a, n, most, &counts, out);
+  pendres_room room = pendres_room_open(ctx, "random states");
+  a->x = pendres_room_take(&room, most_states, sizeof *a->x);
+  a->v = pendres_room_take(&room, most_states, sizeof *a->v);
+  a->outcome = pendres_room_take(&room, most_states, sizeof *a->outcome);
+  pendres_status status = room.status;
+  if (status == PENDRES_OK) status = settle_sample(ctx, a, n, most, &counts, out);
   if (status == PENDRES_OK) conclude(&counts, out);
-  free(a->x);
-  free(a->v);
-  free(a->outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double most,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 
 enum {
   BINS = PENDRES_CORRELATION_SCALES,
@@ -208,19 +209,14 @@ static pendres_status correlation_measure(pendres_context *ctx, const pendres_se
   for (size_t i = 0; i < n; i++)
     if (!isfinite(x[i]) || !isfinite(v[i]))
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "point %zu is no number", i);
-  survey *s = calloc(1, sizeof *s);
-  double *points = n < SIZE_MAX / 2 / sizeof *points ? malloc(2 * n * sizeof *points) : NULL;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (s != NULL && points != NULL) {
-    s->n = n;
-    place(s, x, v, turn, points, points + n);
-    status = measure(ctx, s, resolution, out);
-  } else {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu points", n);
-  }
-  free(points);
-  free(s);
-  return status;
+  pendres_room room = pendres_room_open(ctx, "points");
+  survey *s = pendres_room_take(&room, 1, sizeof *s);
+  double *x_in_units = pendres_room_take(&room, n, sizeof *x_in_units);
+  double *v_in_units = pendres_room_take(&room, n, sizeof *v_in_units);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  s->n = n;
+  place(s, x, v, turn, x_in_units, v_in_units);
+  return pendres_room_close(&room, measure(ctx, s, resolution, out));
 }
 
 pendres_status pendres_correlation_find(pendres_context *ctx, const pendres_section *section,

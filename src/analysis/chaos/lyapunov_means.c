@@ -1,5 +1,5 @@
-/* lyapunov_means.c -- rotations without a lock, by their means; see lyapunov_means.h. */
-#include "analysis/chaos/lyapunov_means.h"
+/* lyapunov_means.c -- rotations without a lock, by their means; see lyapunov_runner.h. */
+#include "analysis/chaos/lyapunov_runner.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,9 +15,6 @@ enum {
   LONGEST_ORBIT = 128  /* ... and of one that is looked for */
 };
 
-/* Mean turns a period are known to this, and the mean square of the velocity to ten times this
-   share of it: in chaos that would take 1e10 periods. */
-static const double least = 1e-6;
 /* A rotation that slips once in n periods is known to a few slips in n periods. */
 static const double few_slips = 5.0;
 /* In less than that of a slip nothing is seen of how the rotation becomes slower and faster. */
@@ -28,16 +25,6 @@ static const double more_steps = 1.4, order = 4.0;
 static const double rounding = 2.2e-14;
 /* A mean this many errors from a fraction is taken for it. By chance one in a thousand is. */
 static const double as_near = 10.0;
-
-double pendres_means_least(void)
-{
-  return least;
-}
-
-double pendres_means_wanted(const pendres_context *ctx)
-{
-  return pendres_accuracy_of_means(ctx);
-}
 
 /* The fraction p/q nearest to a mean, relative to its denominator of `most` at most: one of its
    continued fraction's convergents. Returns by how much q times the mean misses p. */
@@ -66,7 +53,7 @@ int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_l
   int q = 0, p = 0;
   const double turned = pendres_mean_take(&r->turns, &off);
   const double square = pendres_mean_take(&r->squares, &square_off);
-  if (!(off < enough && square_off < 10.0 * least * square)) return 0;
+  if (!(off < enough && square_off < 10.0 * pendres_means_least * square)) return 0;
   /* What has come back to where there is no stable orbit is slow there: what it does between slips
      is not its mean. Elsewhere it may be a little slower in one place than in another. */
   const double slips = fabs(turned * r->period - r->winding) * (double)periods;
@@ -115,7 +102,7 @@ static void compare(pendres_runner *r, const pendres_runner *finer, pendres_lyap
   r->lane.steps = r->steps;
   out->rotation = turned;
   out->rotation_error = off + closer_by * apart + rounding * (1.0 + fabs(turned));
-  if (off + apart < 10.0 * least) return;
+  if (off + apart < 10.0 * pendres_means_least) return;
   out->label = PENDRES_LABEL_UNRESOLVED;
   r->state = PENDRES_RUNNER_MOVING;
 }

@@ -7,7 +7,7 @@
 #ifndef PENDRES_LYAPUNOV_RUNNER_H
 #define PENDRES_LYAPUNOV_RUNNER_H
 
-#include <pendres/context.h>
+#include <pendres/lyapunov.h>
 
 #include "engine/strobe_run.h"
 #include "orbits/growth.h"
@@ -79,5 +79,28 @@ pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_r
 /* Correct r->growth[0] by that with steps twice as long. Returns the correction for one period,
    which exceeds the error that is left; 0 for runners without tangent vectors. */
 double pendres_runner_extrapolate(pendres_runner *r, long batch);
+
+/* ---- lyapunov_means.c: rotations that are not locked to the drive, by how many digits of their
+   means over time are known (orbits/mean.h), and what errors of the integration do to them ---- */
+
+/* Mean turns a period are known to this at least, and the mean square of the velocity to ten times
+   this share of it: in chaos that would take 1e10 periods. */
+static const double pendres_means_least = 1e-6;
+
+/* Whether a runner that has been averaged over this many periods is on such a rotation: its mean
+   turns are known to `enough`. One whose mean is a fraction of small numbers is caught: it may be
+   on its slow way to an orbit. */
+int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_lyapunov *out);
+
+/* Whether one that may be next to such a rotation is certainly on none: it is on chaos. */
+int pendres_means_scatter(const pendres_runner *r, long periods);
+
+/*
+ * Average all of n runners that are `rough` again, over the same time with more steps. These means
+ * take the place of the former ones, and their distance tells the error. A runner whose means do
+ * not agree is unresolved, and moves on.
+ */
+pendres_status pendres_means_refine(pendres_context *ctx, size_t n, pendres_runner *runners,
+                                    long batch, pendres_lyapunov *out);
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
@@ -16,7 +17,6 @@
 #include "orbits/linear.h"
 #include "orbits/orbit_prime.h"
 #include "orbits/settle_lanes.h"
-#include "analysis/chaos/lyapunov_means.h"
 
 enum {
   BATCHES = PENDRES_GROWTH_BATCHES,
@@ -154,14 +154,12 @@ static pendres_status settle_caught(pendres_context *ctx, const job *j)
   size_t count = 0, k = 0, good = 0;
   for (size_t i = 0; i < j->n; i++) count += j->runner[i].state == PENDRES_RUNNER_CAUGHT;
   if (count == 0) return PENDRES_OK;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_orbit_guess *guess = malloc(count * sizeof *guess);
-  pendres_orbit *orbit = malloc(count * sizeof *orbit);
-  pendres_status *outcome = malloc(count * sizeof *outcome);
-  if (guess == NULL || orbit == NULL || outcome == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", count);
-  else
-    status = orbits_of_caught(ctx, j, count, guess, orbit, outcome);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_orbit_guess *guess = pendres_room_take(&room, count, sizeof *guess);
+  pendres_orbit *orbit = pendres_room_take(&room, count, sizeof *orbit);
+  pendres_status *outcome = pendres_room_take(&room, count, sizeof *outcome);
+  pendres_status status = room.status;
+  if (status == PENDRES_OK) status = orbits_of_caught(ctx, j, count, guess, orbit, outcome);
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_CAUGHT) continue;
@@ -174,10 +172,7 @@ static pendres_status settle_caught(pendres_context *ctx, const job *j)
     if (j->orbit != NULL) j->orbit[i] = orbit[good];
     good++;
   }
-  free(guess);
-  free(orbit);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* ---- escapes ---- */
@@ -325,24 +320,21 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
 static pendres_status run_lanes(pendres_context *ctx, const job *j)
 {
   size_t moving = 0;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_strobe_lane *lanes = malloc((j->n + 1) * sizeof *lanes);
-  size_t *which = malloc((j->n + 1) * sizeof *which);
-  for (size_t i = 0; i < j->n && lanes != NULL && which != NULL; i++) {
+  pendres_room room = pendres_room_open(ctx, "lanes");
+  pendres_strobe_lane *lanes = pendres_room_take(&room, j->n, sizeof *lanes);
+  size_t *which = pendres_room_take(&room, j->n, sizeof *which);
+  for (size_t i = 0; i < j->n && room.status == PENDRES_OK; i++) {
     lanes[i] = j->runner[i].lane;
     if (j->runner[i].state == PENDRES_RUNNER_MOVING) which[moving++] = i;
   }
-  if (lanes == NULL || which == NULL)
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu lanes", j->n);
-  else
+  pendres_status status = room.status;
+  if (status == PENDRES_OK)
     status = pendres_strobe_run_some(ctx, moving, which, lanes, visit, (void *)j);
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     j->runner[i].lane = lanes[i];
     j->runner[i].lane.steps = j->runner[i].steps;
   }
-  free(lanes);
-  free(which);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* In averages errors are not carried along, but what they grow by is known. */
@@ -433,8 +425,8 @@ static pendres_status look_at_rotations(pendres_context *ctx, const job *j, long
 
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
 {
-  const double least = pendres_means_least();
-  const double wanted = j->care == PENDRES_CARE_LABEL ? least : pendres_means_wanted(ctx);
+  const double least = pendres_means_least;
+  const double wanted = j->care == PENDRES_CARE_LABEL ? least : pendres_accuracy_of_means(ctx);
   long batch = (j->periods + BATCHES - 1) / BATCHES;
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) status = load(ctx, j, i);

@@ -5,10 +5,11 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "continuation/units.h"
 #include "engine/door.h"
 #include "model/model.h"
-#include "analysis/resonance/response_members.h"
+#include "analysis/resonance/response_parts.h"
 #include "base/sized.h"
 #include "continuation/parameter.h"
 #include "continuation/sets.h"
@@ -268,24 +269,17 @@ static pendres_status compute_line(pendres_context *ctx, size_t n,
                                    const pendres_phase_options *options, pendres_phase_point *out,
                                    pendres_branches **branches)
 {
-  pendres_status status;
-  pendres_response *r = malloc(n * sizeof *r);
-  line *l = malloc(sizeof *l);
-  if (r == NULL || l == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
-    goto done;
-  }
-  status = pendres_response_find(ctx, n, pendulums, &options->ensemble, r);
+  pendres_room room = pendres_room_open(ctx, "points");
+  pendres_response *r = pendres_room_take(&room, n, sizeof *r);
+  line *l = pendres_room_take(&room, 1, sizeof *l);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  pendres_status status = pendres_response_find(ctx, n, pendulums, &options->ensemble, r);
   if (status == PENDRES_OK && *branches == NULL)
     status = find_branches(ctx, n, r, options, branches);
-  if (status != PENDRES_OK) goto done;
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   *l = (line){.ctx = ctx, .options = options, .branches = *branches,
               .end = pendres_phase_small_end(*branches)};
-  status = judge_line(l, n, r, out);
-done:
-  free(r);
-  free(l);
-  return status;
+  return pendres_room_close(&room, judge_line(l, n, r, out));
 }
 
 static pendres_status phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,

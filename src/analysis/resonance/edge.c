@@ -8,8 +8,9 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "model/model.h"
-#include "analysis/resonance/gap.h"
+#include "analysis/resonance/search.h"
 
 /*
  * A state of `here` that has no counterpart in `there`: it ends in between. NULL if all go on (then
@@ -116,17 +117,14 @@ static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum
 {
   const size_t n = s->n;
   const double length = pendres_model_units_of(p).length;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_pendulum *pendulums = malloc(n * sizeof *pendulums);
-  pendres_outcome *outcome = malloc(n * sizeof *outcome);
+  pendres_room room = pendres_room_open(ctx, "members");
+  pendres_pendulum *pendulums = pendres_room_take(&room, n, sizeof *pendulums);
+  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
   pendres_attractors *set = NULL;
   s->n = 0;
-  if (pendulums == NULL || outcome == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu members", n);
-    goto done;
-  }
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) pendulums[i] = *p;
-  status = pendres_settle(ctx, n, pendulums, s->x, s->v, outcome, &set);
+  pendres_status status = pendres_settle(ctx, n, pendulums, s->x, s->v, outcome, &set);
   if (status != PENDRES_OK) goto done;
   size_t on = 0;
   for (int pass = 0; pass < 2; pass++) {
@@ -148,9 +146,7 @@ static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum
   }
 done:
   pendres_attractors_free(set);
-  free(pendulums);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /*
@@ -166,11 +162,11 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
   static const double off[2] = {1e-3, 1e-6};
   const size_t most[2] = {DECIDERS, e->members};
   const double rate = pendres_model_units_of(&fold->orbit.pendulum).rate;
-  starts s = {.x = malloc(e->members * sizeof *s.x), .v = malloc(e->members * sizeof *s.v)};
-  pendres_status status = PENDRES_OK;
+  pendres_room room = pendres_room_open(ctx, "members");
+  starts s = {.x = pendres_room_take(&room, e->members, sizeof *s.x),
+              .v = pendres_room_take(&room, e->members, sizeof *s.v)};
+  pendres_status status = room.status;
   *decides = 0;
-  if (s.x == NULL || s.v == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an ensemble");
   for (int pass = 0; pass < 2 && !*decides && status == PENDRES_OK; pass++) {
     s.n = e->members;
     for (size_t k = 1; k <= s.n; k++) pendres_ensemble_start(e, k, &s.x[k - 1], &s.v[k - 1]);
@@ -181,9 +177,7 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
     }
     *decides = s.n > 0;
   }
-  free(s.x);
-  free(s.v);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* A state that one of two points has, and the other does not. */

@@ -1,5 +1,5 @@
-/* gap.c -- what may happen between two frequencies of a search; see gap.h. */
-#include "analysis/resonance/gap.h"
+/* gap.c -- what may happen between two frequencies of a search; see search.h. */
+#include "analysis/resonance/search.h"
 
 #include <math.h>
 #include <string.h>

@@ -14,7 +14,7 @@
 
 #include "model/model.h"
 #include "orbits/attractor_set.h"
-#include "analysis/resonance/response_loop.h"
+#include "analysis/resonance/response_parts.h"
 #include "continuation/sets.h"
 
 /* Whether orbit b may branch off from a by a loss of symmetry. */

@@ -8,11 +8,11 @@
 #include <gsl/gsl_roots.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"
-#include "analysis/resonance/response_loop.h"
-#include "analysis/resonance/response_members.h"
+#include "analysis/resonance/response_parts.h"
 
 /* ---- evaluating frequencies ---- */
 
@@ -24,15 +24,12 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
                                  pendres_orbit_coarser *coarser)
 {
   size_t count = 0, k = 0;
-  pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < n; i++) count += points[i].response.states;
-  pendres_orbit_guess *guess = calloc(count + 1, sizeof *guess);
-  pendres_orbit *orbit = malloc((count + 1) * sizeof *orbit);
-  pendres_status *outcome = malloc((count + 1) * sizeof *outcome);
-  if (guess == NULL || orbit == NULL || outcome == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for slopes");
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "slopes");
+  pendres_orbit_guess *guess = pendres_room_take(&room, count, sizeof *guess);
+  pendres_orbit *orbit = pendres_room_take(&room, count, sizeof *orbit);
+  pendres_status *outcome = pendres_room_take(&room, count, sizeof *outcome);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < points[i].response.states; j++) {
       const pendres_orbit *o = &points[i].response.state[j].orbit;
@@ -43,7 +40,7 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
                                            .period = o->period,
                                            .winding = o->winding};
     }
-  status = pendres_orbit_refine_pair(ctx, k, guess, orbit, coarser, outcome);
+  pendres_status status = pendres_orbit_refine_pair(ctx, k, guess, orbit, coarser, outcome);
   k = 0;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     for (size_t j = 0; j < points[i].response.states; j++) {
@@ -52,11 +49,7 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
       if (outcome[k] != PENDRES_NOT_CONVERGED) *o = orbit[k];
       k++;
     }
-done:
-  free(guess);
-  free(orbit);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static void average_slope(pendres_scan_point *p)

@@ -10,8 +10,7 @@
 #include "engine/door.h"
 #include "engine/strobe_run.h"
 #include "analysis/resonance/work.h"
-#include "analysis/resonance/response_members.h"
-#include "analysis/resonance/response_sampling.h"
+#include "analysis/resonance/response_parts.h"
 
 /*
  * What one search may cost. Several that go side by side may cost as much together: it is not known

@@ -7,15 +7,14 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/door.h"
 #include "model/model.h"
 #include "orbits/attractor_internal.h"
 #include "orbits/orbit_measure.h"
-#include "analysis/resonance/response_loop.h"
-#include "analysis/resonance/response_members.h"
+#include "analysis/resonance/response_parts.h"
 #include "orbits/settle.h"
 #include "engine/coordinates.h"
-#include "analysis/resonance/response_sampling.h"
 
 /* An ensemble's members by attractor; attractors without members count for nothing. */
 typedef struct parted {
@@ -254,20 +253,15 @@ pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_at
                                           size_t n, const pendres_outcome *outcome,
                                           signed char *where, pendres_response *r)
 {
-  pendres_status status = PENDRES_OK;
-  size_t *members = malloc((c->count + 1) * sizeof *members);
-  char *listed = malloc(c->count + 1);
-  if (members != NULL && listed != NULL)
-    count_states(c, n, outcome, members, listed, r);
-  else
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu attractors",
-                                  c->count);
-  if (status == PENDRES_OK)
-    status = pendres_response_refine_loop(ctx, c->count, c->attractors, members, r);
+  pendres_room room = pendres_room_open(ctx, "attractors");
+  size_t *members = pendres_room_take(&room, c->count, sizeof *members);
+  char *listed = pendres_room_take(&room, c->count, sizeof *listed);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  count_states(c, n, outcome, members, listed, r);
+  const pendres_status status =
+    pendres_response_refine_loop(ctx, c->count, c->attractors, members, r);
   if (status == PENDRES_OK && where != NULL) locate_members(n, outcome, listed, where);
-  free(members);
-  free(listed);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status compute_batch(pendres_context *ctx, size_t sets,
@@ -275,15 +269,13 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
                                     signed char *where, pendres_response *out)
 {
   const size_t n = sets * e->members;
-  pendres_status status = PENDRES_OK;
   pendres_attractor_set attractor_sets[PENDRES_RESPONSE_BATCH] = {0};
-  double *x = malloc(n * sizeof *x), *v = malloc(n * sizeof *v);
-  size_t *set = malloc(n * sizeof *set);
-  pendres_outcome *outcome = malloc(n * sizeof *outcome);
-  if (x == NULL || v == NULL || set == NULL || outcome == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu members", n);
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "members");
+  double *x = pendres_room_take(&room, n, sizeof *x);
+  double *v = pendres_room_take(&room, n, sizeof *v);
+  size_t *set = pendres_room_take(&room, n, sizeof *set);
+  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t s = 0; s < sets; s++) {
     attractor_sets[s].pendulum = pendulums[s];
     attractor_sets[s].any_well = 1;
@@ -294,18 +286,13 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
     }
   }
   const pendres_settle_starts starts = {.n = n, .set = set, .x = x, .v = v};
-  status = pendres_settle_batch(ctx, sets, attractor_sets, &starts, outcome);
+  pendres_status status = pendres_settle_batch(ctx, sets, attractor_sets, &starts, outcome);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
     status = pendres_response_summarize(ctx, &attractor_sets[s], e->members,
                                         outcome + s * e->members,
                                         where != NULL ? where + s * e->members : NULL, &out[s]);
-done:
   for (size_t s = 0; s < sets; s++) pendres_attractor_set_clear(&attractor_sets[s]);
-  free(x);
-  free(v);
-  free(set);
-  free(outcome);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_ensemble *e)

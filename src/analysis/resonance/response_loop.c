@@ -1,5 +1,5 @@
-/* response_loop.c -- averaged loops of many harmonics; see response_loop.h. */
-#include "analysis/resonance/response_loop.h"
+/* response_loop.c -- averaged loops of many harmonics; see response_parts.h. */
+#include "analysis/resonance/response_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* response_name.c -- names of states that are alone; see response_name.h. */
-#include "analysis/resonance/response_name.h"
+/* response_name.c -- names of states that are alone; see response_parts.h. */
+#include "analysis/resonance/response_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

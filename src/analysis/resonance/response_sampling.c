@@ -1,17 +1,16 @@
 /*
- * response_sampling.c -- the sampling error of an ensemble; see response_sampling.h.
+ * response_sampling.c -- the sampling error of an ensemble; see response_parts.h.
  *
  * Shares of states are off by their sampling errors; half of the sum of these is the share of
  * members that would have to change their state. What such members do to a mean is bounded by the
  * states that differ most, as for members that are uncertain.
  */
-#include "analysis/resonance/response_sampling.h"
 
 #include <math.h>
 
 #include "base/angles.h"
 #include "base/student.h"
-#include "analysis/resonance/response_loop.h"
+#include "analysis/resonance/response_parts.h"
 
 /* Standard errors that are claimed: as for the shares of basins. */
 static const double claimed = 2.0;

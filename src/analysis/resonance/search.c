@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "analysis/resonance/response_members.h"
+#include "analysis/resonance/response_parts.h"
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "model/model.h"
 
 /* The work of one evaluation of a pendulum's equation, and of one step of Newton's method: about
@@ -96,19 +97,16 @@ typedef struct wanted {
  * Gather one request of each search, then the next of each, as far as they have room. Neighbours in
  * this order are similar, take the same number of steps a period, and so share blocks.
  */
-static pendres_status gather(size_t n, pendres_search *const *s, wanted *out)
+static void gather(pendres_room *room, size_t n, pendres_search *const *s, wanted *out)
 {
   size_t all = 0, most = 0;
   for (size_t i = 0; i < n; i++) {
     all += s[i]->requests;
     most = s[i]->requests > most ? s[i]->requests : most;
   }
-  *out = (wanted){.pendulum = malloc((all + 1) * sizeof *out->pendulum),
-                  .by = malloc((all + 1) * sizeof *out->by)};
-  if (out->pendulum == NULL || out->by == NULL)
-    return pendres_context_fail(s[0]->ctx, PENDRES_OUT_OF_MEMORY,
-                                "out of memory for %zu frequencies", all);
-  for (size_t k = 0; k < most; k++)
+  *out = (wanted){.pendulum = pendres_room_take(room, all, sizeof *out->pendulum),
+                  .by = pendres_room_take(room, all, sizeof *out->by)};
+  for (size_t k = 0; k < most && room->status == PENDRES_OK; k++)
     for (size_t i = 0; i < n; i++) {
       if (k >= s[i]->requests || s[i]->crowded) continue;
       if (s[i]->count + k >= PENDRES_SEARCH_POINTS) {
@@ -119,12 +117,6 @@ static pendres_status gather(size_t n, pendres_search *const *s, wanted *out)
       out->pendulum[out->n].drive_frequency = s[i]->request[k];
       out->by[out->n++] = s[i];
     }
-  return PENDRES_OK;
-}
-
-static pendres_status out_of_memory(pendres_context *ctx)
-{
-  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
 }
 
 /* Evaluate n of what is wanted, from number `first` on. */
@@ -133,28 +125,24 @@ static pendres_status add_batch(const wanted *w, size_t first, size_t n)
   pendres_search *const *by = w->by + first;
   const pendres_pendulum *p = w->pendulum + first;
   const pendres_ensemble *e = by[0]->ensemble;
-  pendres_status status = PENDRES_OK;
-  signed char *where = malloc(n * e->members);
-  pendres_scan_point *new = malloc(n * sizeof *new);
-  if (where == NULL || new == NULL)
-    status = out_of_memory(by[0]->ctx);
-  else
-    status = pendres_scan_evaluate(by[0]->ctx, n, p, e, where, new);
+  pendres_room room = pendres_room_open(by[0]->ctx, "members");
+  signed char *where = pendres_room_take(&room, n * e->members, sizeof *where);
+  pendres_scan_point *new = pendres_room_take(&room, n, sizeof *new);
+  pendres_status status = room.status;
+  if (status == PENDRES_OK) status = pendres_scan_evaluate(by[0]->ctx, n, p, e, where, new);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     pendres_scan_point *to = &by[i]->points[by[i]->count];
     *to = new[i];
     to->where = malloc(e->members);
     if (to->where == NULL) {
-      status = out_of_memory(by[0]->ctx);
+      status = pendres_context_fail(by[0]->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
       break;
     }
     memcpy(to->where, where + i * e->members, e->members);
     by[i]->count++;
   }
-  free(where);
-  free(new);
   pendres_search_account(by[n / 2], p[n / 2].drive_frequency);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /*
@@ -171,7 +159,9 @@ static double expected_work(const pendres_search *s, double omega)
 pendres_status pendres_search_add(size_t n, pendres_search *const *s)
 {
   wanted w;
-  pendres_status status = gather(n, s, &w);
+  pendres_room room = pendres_room_open(s[0]->ctx, "frequencies");
+  gather(&room, n, s, &w);
+  pendres_status status = room.status;
   const pendres_search_budget *b = s[0]->budget;
   double cost = status == PENDRES_OK && w.n > 0
                   ? expected_work(w.by[0], w.pendulum[0].drive_frequency) : 0.0;
@@ -186,9 +176,7 @@ pendres_status pendres_search_add(size_t n, pendres_search *const *s)
     qsort(s[i]->points, s[i]->count, sizeof *s[i]->points, by_frequency);
     s[i]->requests = 0;
   }
-  free(w.pendulum);
-  free(w.by);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point *point,

@@ -1,9 +1,10 @@
 /*
  * search.h -- the frequencies that a search for a resonance has evaluated.
  *
- * Owns: the points of a search in ascending frequency, the first scan of the range, and the budget
- * of work, which bounds the cost of a search whatever its parameters. Searches may share a budget;
- * the frequencies that they need are then evaluated side by side.
+ * Owns: the points of a search in ascending frequency, the first scan of the range, the gaps
+ * between neighbouring points, and the budget of work, which bounds the cost of a search whatever
+ * its parameters. Searches may share a budget; the frequencies that they need are then evaluated
+ * side by side.
  */
 #ifndef PENDRES_RESONANCE_SEARCH_H
 #define PENDRES_RESONANCE_SEARCH_H
@@ -80,5 +81,27 @@ double pendres_search_width(const pendres_pendulum *p, double omega);
 /* Request the next frequencies of the first scan, which is coarse at first and finally as fine as
    the damping requires. If it requests none, it is complete. */
 pendres_status pendres_search_scan(pendres_search *s);
+
+/* ---- gap.c: what may happen between two neighbouring points: which states continue from one to
+   the other, which members change their state, how large the mean area can be in between ---- */
+
+typedef enum pendres_gap_kind {
+  PENDRES_GAP_PLAIN, /* the members keep their states, and the mean rises or falls */
+  PENDRES_GAP_PEAK,  /* they keep them, and it first rises and then falls */
+  PENDRES_GAP_JUMP   /* a state appears or ends, or a member changes its state */
+} pendres_gap_kind;
+
+typedef struct pendres_gap {
+  pendres_gap_kind kind;
+  double width;
+  double bound;  /* no mean area within exceeds this */
+  int loose;     /* the bound allows for members near a basin boundary that appear to keep their
+                    states */
+  int mixed;     /* members change to larger areas and to smaller ones */
+} pendres_gap;
+
+/* The gap between two neighbours, `members` on each. */
+void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, size_t members,
+                      pendres_gap *out);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "analysis/resonance/response_name.h"
+#include "analysis/resonance/response_parts.h"
 
 enum { SECTIONS = 4 /* a gap is cut into */ };
 

@@ -8,7 +8,6 @@
 #ifndef PENDRES_RESONANCE_WORK_H
 #define PENDRES_RESONANCE_WORK_H
 
-#include "analysis/resonance/gap.h"
 #include "analysis/resonance/search.h"
 
 /* A gap that was examined, with its points, which are identified by their members. */

@@ -10,7 +10,7 @@
 #include "engine/door.h"
 #include "engine/strobe_run.h"
 #include "model/parameter.h"
-#include "noise/langevin_moving.h"
+#include "noise/langevin_internal.h"
 #include "orbits/escape.h"
 #include "analysis/sweeps/ramp_watch.h"
 
