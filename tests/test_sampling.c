@@ -11,8 +11,6 @@
 
 #include "analysis/resonance/response_parts.h"
 
-static const double pi = 3.14159265358979323846;
-
 static pendres_ensemble area_of(pendres_ensemble_shape shape, size_t members, size_t rows)
 {
   return (pendres_ensemble){ .members = members, .x_first = -1.0, .x_last = 3.0, .v = -0.5,
