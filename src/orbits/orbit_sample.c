@@ -85,18 +85,37 @@ static void point_at(const pendres_orbit *o, const curve *c, double share, doubl
   out[1] = o->pendulum.drive_frequency * (f[1] + o->winding) / o->period;
 }
 
-/* The largest errors of x and of v anywhere on the finer of two curves. */
-static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *fine,
-                      double error[2])
+/* By how much two curves, or their derivatives by phase, differ at most. */
+static pendres_status farthest(pendres_context *ctx, const curve *coarse, const curve *fine,
+                               int derivative, double *apart)
 {
-  const size_t points = coarse->series.samples;
+  const size_t n = coarse->series.samples;
+  pendres_orbit_tables tables = {0};
+  double *a = malloc(2 * n * sizeof *a);
+  if (a == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
+  double *b = a + n;
+  pendres_status status = pendres_orbit_series_spread(&tables, &coarse->series, derivative, n, a);
+  if (status == PENDRES_OK)
+    status = pendres_orbit_series_spread(&tables, &fine->series, derivative, n, b);
+  if (status != PENDRES_OK)
+    status = pendres_context_fail(ctx, status, "the samples of an orbit could not be compared");
+  *apart = 0.0;
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) *apart = fmax(*apart, fabs(a[k] - b[k]));
+  pendres_orbit_tables_free(&tables);
+  free(a);
+  return status;
+}
+
+/* The largest errors of x and of v anywhere on the finer of two curves. */
+static pendres_status errors_of(pendres_context *ctx, const pendres_orbit *o, const curve *coarse,
+                                const curve *fine, double error[2])
+{
   double apart[2] = {0.0, 0.0};
-  for (size_t k = 0; k < points; k++) {
-    double a[2], b[2];
-    point_at(o, coarse, (double)k / (double)points, a);
-    point_at(o, fine, (double)k / (double)points, b);
-    for (int i = 0; i < 2; i++) apart[i] = fmax(apart[i], fabs(a[i] - b[i]));
-  }
+  pendres_status status = farthest(ctx, coarse, fine, 0, &apart[0]);
+  if (status == PENDRES_OK) status = farthest(ctx, coarse, fine, 1, &apart[1]);
+  if (status != PENDRES_OK) return status;
+  apart[1] *= o->pendulum.drive_frequency / o->period;
   const double omega = o->pendulum.drive_frequency;
   const double tail = pendres_orbit_series_tail(&fine->series);
   const double modes = (double)fine->series.modes / o->period;
@@ -106,6 +125,7 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
   error[0] = 0.5 * apart[0] + tail + 3.0 * fine->rounding +
              0.5 * DBL_EPSILON * (fabs(o->x) + two_pi * fabs((double)o->winding));
   error[1] = 0.5 * apart[1] + omega * tail * modes + 3.0 * fmax(1.0, omega) * fine->rounding;
+  return PENDRES_OK;
 }
 
 /* Why such samples cannot be taken; NULL: they can. */
@@ -139,7 +159,7 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
       fine = older;
       steps = pendres_steps_finer(steps);
       status = trace(ctx, orbit, steps, &fine);
-      if (status == PENDRES_OK) errors_of(orbit, &coarse, &fine, error);
+      if (status == PENDRES_OK) status = errors_of(ctx, orbit, &coarse, &fine, error);
       if (!(fmax(error[0], error[1]) > ctx->options.tolerance)) break;
     }
   }

@@ -134,17 +134,24 @@ void pendres_orbit_series_at(const pendres_orbit_series *s, double phase, double
   }
 }
 
-/* The series at `points` equally spaced phases; points >= 2 modes - 1. */
-static pendres_status spread(pendres_orbit_tables *t, const pendres_orbit_series *s, size_t points,
-                             double *out)
+pendres_status pendres_orbit_series_spread(pendres_orbit_tables *t, const pendres_orbit_series *s,
+                                           int derivative, size_t points, double *out)
 {
   const pendres_status status = provide_backward(t, points);
   if (status != PENDRES_OK) return status;
   memset(out, 0, points * sizeof *out);
-  out[0] = s->re[0];
+  if (!derivative) out[0] = s->re[0];
   for (size_t m = 1; m < s->modes; m++) {
-    out[2 * m - 1] = s->re[m];
-    if (2 * m < points) out[2 * m] = s->im[m];
+    const double re = derivative ? -(double)m * s->im[m] : s->re[m];
+    const double im = derivative ? (double)m * s->re[m] : s->im[m];
+    /* Harmonics that points cannot tell apart have the same values there. */
+    const size_t rest = m % points, k = 2 * rest > points ? points - rest : rest;
+    if (k == 0 || 2 * k == points) {
+      out[k > 0 ? points - 1 : 0] += 2.0 * re;
+      continue;
+    }
+    out[2 * k - 1] += re;
+    out[2 * k] += k == rest ? im : -im;
   }
   return gsl_fft_halfcomplex_backward(out, 1, points, t->backward, t->dense_work) == GSL_SUCCESS
            ? PENDRES_OK
@@ -200,7 +207,7 @@ pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
 {
   const size_t points = 3 * s->samples;
   double *dense = s->im + s->modes;
-  const pendres_status status = spread(tables, s, points, dense);
+  const pendres_status status = pendres_orbit_series_spread(tables, s, 0, points, dense);
   if (status != PENDRES_OK) return status;
   *highest = largest(s, points, dense, 1.0);
   *lowest = -largest(s, points, dense, -1.0);

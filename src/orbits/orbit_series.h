@@ -51,6 +51,11 @@ pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n
 /* Value and first two derivatives at a phase. */
 void pendres_orbit_series_at(const pendres_orbit_series *s, double phase, double out[3]);
 
+/* The series, or its derivative by phase, at `points` >= 1 equally spaced phases from 0 on. */
+pendres_status pendres_orbit_series_spread(pendres_orbit_tables *tables,
+                                           const pendres_orbit_series *s, int derivative,
+                                           size_t points, double *out);
+
 /* Largest and smallest value. */
 pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
                                              const pendres_orbit_series *s, double *highest,
