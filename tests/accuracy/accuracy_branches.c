@@ -240,17 +240,19 @@ static int solve(long double a[3][4])
 }
 
 /* The fold or doubling next to one that was found: what of it is noted. Places are doubles, and
-   what is left of the last step is not. */
+   what is left of the last step is not. A step that leads far away has lost it, and an integration
+   from there might take for ever. */
 static int exact_bifurcation(const pendres_bifurcation *b, place *out)
 {
   enum { STEPS = 6 };
+  static const long double farthest = 0.1L;
   const double s = b->kind == PENDRES_FOLD ? 1.0 : -1.0;
   long double u[3] = {b->orbit.x - origin_of(&b->orbit), b->orbit.v, b->value}, a[3][4];
   long double last = INFINITY;
   for (int k = 0; k < STEPS; k++) {
     if (!equations(b, s, u, a) || !solve(a)) return 0;
     last = fmaxl(fmaxl(fabsl(a[0][3]), fabsl(a[1][3])), fabsl(a[2][3]));
-    if (k + 1 == STEPS) break;
+    if (k + 1 == STEPS || !(last < farthest)) break;
     u[0] += a[0][3];
     u[1] += a[1][3];
     u[2] = (double)(u[2] + a[2][3]);
@@ -265,8 +267,10 @@ static int exact_of(place *at)
 {
   const pendres_bifurcation *b = &at->bifurcation;
   const pendres_orbit *o = &b->orbit;
-  if (b->kind != PENDRES_SYMMETRY_BREAKING) return exact_bifurcation(b, at);
-  if (b->parameter != PENDRES_DRIVE_FREQUENCY || o->period != 1 || o->winding != 0 ||
+  if (b->kind == PENDRES_FOLD || b->kind == PENDRES_PERIOD_DOUBLING)
+    return exact_bifurcation(b, at);
+  if (b->kind != PENDRES_SYMMETRY_BREAKING || b->parameter != PENDRES_DRIVE_FREQUENCY ||
+      o->period != 1 || o->winding != 0 ||
       pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &o->pendulum,
                              &(pendres_reference_guess){b->value, o->x - origin_of(o), o->v, 0.0L},
                              &at->exact) != PENDRES_OK)
@@ -416,6 +420,15 @@ static void note_bifurcation(accuracy *a, const place *at, const char *how)
   accuracy_note_error(a, kind, accuracy_multipliers_apart(o, &e), o->multiplier_error, how);
 }
 
+/* Without a symmetry branches do not cross, other than by chance. One that is followed in several
+   periods may be of orbits that close in fewer, and crosses where the period of these doubles. */
+static int is_false(const place *at)
+{
+  const pendres_orbit *o = &at->bifurcation.orbit;
+  return at->bifurcation.kind == PENDRES_BRANCH_POINT && o->period == 1 &&
+         o->pendulum.drive_amplitude != 0.0 && !pendres_pendulum_symmetric(&o->pendulum);
+}
+
 static void note(accuracy *a, const void *of, long number, void *tally)
 {
   const item *t = of;
@@ -425,7 +438,7 @@ static void note(accuracy *a, const void *of, long number, void *tally)
   for (int k = 0; k < POINTS + BIFURCATIONS; k++) {
     const place *at = k < POINTS ? &t->points[k] : &t->bifurcations[k - POINTS];
     const pendres_orbit *o = k < POINTS ? &at->point.orbit : &at->bifurcation.orbit;
-    if (!at->there) continue;
+    if (!at->there && !is_false(at)) continue;
     snprintf(how, sizeof how,
              "item %ld: F0 %.17g, damping %.17g, frequency %.17g, torque %.17g, parametric %.17g, "
              "force %d: %.17g, %.17g, %.17g, from x %.17g, v %.17g, q %d, winding %d, along %s "
@@ -435,7 +448,8 @@ static void note(accuracy *a, const void *of, long number, void *tally)
              p->force_coefficients[2], t->guess.x, t->guess.v, t->guess.period, t->guess.winding,
              pendres_name_get(PENDRES_NAMES_PARAMETER, t->parameter), t->low, t->high, t->tolerance,
              pendres_parameter_get(t->parameter, &o->pendulum), t->units.length, t->units.time);
-    if (k < POINTS) note_point(a, at, how);
+    if (is_false(at)) accuracy_complain(a, "branches that cross without a symmetry", how);
+    else if (k < POINTS) note_point(a, at, how);
     else note_bifurcation(a, at, how);
   }
 }
