@@ -37,6 +37,7 @@ typedef struct result {
 /* What is asked of the runs, and where their results go, by the candidates' indices. */
 typedef struct reading {
   pendres_orbit_want want;
+  int points;
   result *results;
 } reading;
 
@@ -89,6 +90,8 @@ static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c
   out->dy = out->dw = out->slope = out->slope_apart = out->derivative = NAN;
   if (r->want == PENDRES_ORBIT_FREQUENCY_SLOPE && !take_slope(c, taken, out)) return NULL;
   if (!taken->bends) out->noise = pendres_newton_noise_of(c, taken);
+  /* Without samples an orbit is taken to be as large as it is at phase 0. */
+  if (r->points) out->measures = (pendres_orbit_measures){.amplitude = hypot(out->y, out->w)};
   return &out->measures;
 }
 
@@ -228,12 +231,21 @@ static int accurate(const pendres_orbit *o, double tolerance)
          !(o->phase_lag_error * fmin(1.0, o->first_harmonic_amplitude) > tolerance);
 }
 
+/* What is measured with n and with 1.4 n steps, for each guess. */
+typedef struct two_runs {
+  pendres_orbit_want want;
+  int points; /* and multipliers alone */
+  result *coarse, *fine;
+} two_runs;
+
 /* Measure all converged candidates with their present steps. */
 static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
-                                  pendres_orbit_want want, int bends, result *results)
+                                  const two_runs *runs, int bends)
 {
-  reading r = {.want = want, .results = results};
-  const pendres_orbit_reader reader = {.want = want, .bends = bends, .take = take, .arg = &r};
+  reading r = {.want = runs->want, .points = runs->points,
+               .results = bends ? runs->coarse : runs->fine};
+  const pendres_orbit_reader reader = {
+    .want = runs->want, .bends = bends, .points = runs->points, .take = take, .arg = &r};
   return pendres_orbit_read(ctx, &reader, n, c);
 }
 
@@ -290,12 +302,6 @@ typedef struct outputs {
   pendres_orbit_coarser *coarser;
 } outputs;
 
-/* What is measured with n and with 1.4 n steps, for each guess. */
-typedef struct two_runs {
-  pendres_orbit_want want;
-  result *coarse, *fine;
-} two_runs;
-
 /*
  * Converge, and measure with n and with 1.4 n steps; candidates are sorted in place. A ghost, or
  * what is too close to one to tell, has the outcome PENDRES_NOT_CONVERGED, but a state that is
@@ -309,7 +315,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
   result *coarse = runs->coarse, *fine = runs->fine;
   pendres_status *outcome = to->outcome;
   pendres_status status = pendres_newton_converge(ctx, n, c);
-  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 1, coarse);
+  if (status == PENDRES_OK) status = measure_all(ctx, n, c, runs, 1);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < n; i++) {
     if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
@@ -318,7 +324,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
     c[i].steps = pendres_steps_finer(c[i].steps);
   }
   if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) status = move_to_finer_point(ctx, n, c, coarse);
-  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 0, fine);
+  if (status == PENDRES_OK) status = measure_all(ctx, n, c, runs, 0);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const size_t k = c[i].index;
     if (c[i].state != PENDRES_NEWTON_CONVERGED) {
@@ -375,7 +381,7 @@ static void set_coarser(size_t n, const two_runs *runs, const outputs *to)
 }
 
 static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres_orbit_guess *guess,
-                                   pendres_orbit_want want, const outputs *to)
+                                   pendres_orbit_want want, int points, const outputs *to)
 {
   enum { MOST_TRIES = 4 };
   pendres_status *outcome = to->outcome;
@@ -388,7 +394,7 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
 
   pendres_room room = pendres_room_open(ctx, "orbits");
   pendres_newton_candidate *c = pendres_room_take(&room, n, sizeof *c);
-  const two_runs runs = {.want = want,
+  const two_runs runs = {.want = want, .points = points,
                          .coarse = pendres_room_take(&room, n, sizeof *runs.coarse),
                          .fine = pendres_room_take(&room, n, sizeof *runs.fine)};
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
@@ -418,7 +424,7 @@ pendres_status pendres_orbit_find(pendres_context *ctx, size_t n,
     const pendres_orbit_guess *in = pendres_door_in_run(&d, &pendres_dim_guess, guess);
     const outputs to = {.orbit = pendres_door_out_run(&d, &pendres_dim_orbit, out),
                         .outcome = PENDRES_DOOR_AT(outcome, d.first)};
-    PENDRES_DOOR_CALL(&d, orbit_refine(ctx, d.count, in, want, &to));
+    PENDRES_DOOR_CALL(&d, orbit_refine(ctx, d.count, in, want, 0, &to));
   }
   return pendres_door_close(&d);
 }
@@ -428,5 +434,14 @@ pendres_status pendres_orbit_refine_pair(pendres_context *ctx, size_t n,
                                          pendres_orbit_coarser *coarser, pendres_status *outcome)
 {
   const outputs to = {.orbit = out, .outcome = outcome, .coarser = coarser};
-  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, &to));
+  return PENDRES_CONTEXT_CALL(ctx,
+                              orbit_refine(ctx, n, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, 0, &to));
+}
+
+pendres_status pendres_orbit_find_points(pendres_context *ctx, size_t n,
+                                         const pendres_orbit_guess *guess, pendres_orbit *out,
+                                         pendres_status *outcome)
+{
+  const outputs to = {.orbit = out, .outcome = outcome};
+  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, 1, &to));
 }

@@ -104,24 +104,37 @@ static void read_lane(const pendres_rows *rows, int sensitive, pendres_newton_ca
   if (sensitive) pendres_rows_pair(rows, PENDRES_ROW_BY_OMEGA, c->lane, c->by_omega);
 }
 
+static void read_lanes(const pendres_rows *rows, size_t lanes, pendres_flow_kind kind,
+                       int companions, pendres_newton_candidate *c)
+{
+  for (size_t i = 0; i < lanes; i++) {
+    read_lane(rows, kind == PENDRES_FLOW_SENSITIVITY, &c[i]);
+    if (companions) read_companions(rows, lanes, &c[i]);
+  }
+}
+
 /* The end of all their periods, where no samples of them are taken. */
 static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, size_t lanes,
-                                pendres_newton_candidate *c)
+                                int companions, pendres_newton_candidate *c)
 {
+  const size_t all = lanes * (size_t)(1 + companions);
   pendres_room room = pendres_room_open(ctx, "orbits");
-  pendres_chain_start *from = pendres_room_take(&room, lanes, sizeof *from);
-  double *at = pendres_room_take(&room, pendres_flow_kind_rows(kind) * lanes, sizeof *at);
+  pendres_chain_start *from = pendres_room_take(&room, all, sizeof *from);
+  double *at = pendres_room_take(&room, pendres_flow_kind_rows(kind) * all, sizeof *at);
   const pendres_chain chain = {.kind = kind, .steps = c[0].steps, .periods = c[0].guess->period,
-                               .n = lanes, .from = from, .rows = at};
+                               .n = all, .from = from, .rows = at};
   pendres_status status = room.status;
   for (size_t i = 0; i < lanes && status == PENDRES_OK; i++) {
-    from[i] = (pendres_chain_start){c[i].guess->pendulum, c[i].y, c[i].w};
+    const pendres_pendulum *p = &c[i].guess->pendulum;
     c[i].lane = i;
+    from[i] = (pendres_chain_start){*p, c[i].y, c[i].w};
+    if (companions == 0) continue;
+    from[lanes + i] = (pendres_chain_start){*p, c[i].y + pendres_newton_aside, c[i].w};
+    from[2 * lanes + i] = (pendres_chain_start){*p, c[i].y, c[i].w + pendres_newton_aside};
   }
   if (status == PENDRES_OK) status = pendres_chain_run(ctx, &chain);
-  const pendres_rows rows = {.at = at, .stride = lanes};
-  for (size_t i = 0; i < lanes && status == PENDRES_OK; i++)
-    read_lane(&rows, kind == PENDRES_FLOW_SENSITIVITY, &c[i]);
+  const pendres_rows rows = {.at = at, .stride = all};
+  if (status == PENDRES_OK) read_lanes(&rows, lanes, kind, companions, c);
   return pendres_room_close(&room, status);
 }
 
@@ -138,36 +151,33 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
 
   const pendres_model_terms model = pendres_model_kind(&c[0].guess->pendulum);
   const int companions = taken != NULL && taken->bends ? 2 : 0;
+  const int sampled = taken != NULL && !taken->none;
   const size_t most = pendres_block_capacity(&b) / (size_t)(1 + companions);
   size_t lanes = 0;
   while (lanes < n && lanes < most && c[lanes].steps == steps && c[lanes].guess->period == q &&
          pendres_model_kind(&c[lanes].guess->pendulum) == model)
     lanes++;
   *count = lanes;
-  if (taken == NULL && pendres_chain_worth(q)) {
-    status = run_chain(ctx, kind, lanes, c);
+  if (!sampled && pendres_chain_worth(q)) {
+    status = run_chain(ctx, kind, lanes, companions, c);
     if (status == PENDRES_OK) ctx->cost.newton_steps += (double)lanes;
     return status;
   }
 
   const size_t kept = pendres_flow_kind_rows(kind);
-  if (taken != NULL && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
+  if (sampled && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
   load_lanes(&b, lanes, companions, c);
   recorder r = {.taken = taken};
   const pendres_rows rows = pendres_block_rows(&b);
-  if (taken != NULL) record(&r, 0, &rows);
+  if (sampled) record(&r, 0, &rows);
   for (int k = 0; k < q && status == PENDRES_OK; k++) {
     r.offset = (size_t)k * (size_t)steps;
-    status = taken != NULL ? pendres_block_period_sampled(&b, record, &r)
-                           : pendres_block_period(&b);
+    status = sampled ? pendres_block_period_sampled(&b, record, &r) : pendres_block_period(&b);
   }
   if (status != PENDRES_OK) return status;
   ctx->cost.newton_steps += (double)lanes;
-  for (size_t i = 0; i < lanes; i++) {
-    read_lane(&rows, sensitive, &c[i]);
-    if (companions) read_companions(&rows, lanes, &c[i]);
-  }
+  read_lanes(&rows, lanes, kind, companions, c);
   return PENDRES_OK;
 }
 
@@ -257,9 +267,10 @@ pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
   double z[2], stretch = 1.0, to_end, to_any;
 
   (void)pendres_newton_solve(c->m, unit, z, &stretch);
+  const double plain = sqrt(c->steps * (double)c->guess->period) * fmax(1.0, stretch);
+  if (taken->none) return (pendres_newton_noise){.start = plain, .along = plain, .swell = 1.0};
   growth(c, taken, &to_end, &to_any);
   const double share = pendres_newton_share(c->m);
-  const double plain = sqrt((double)taken->count) * fmax(1.0, stretch);
   const double start = share * sqrt(to_end), along = share * sqrt(to_any);
   const double swell = sqrt(to_any / to_end);
   /* A tangent too small for a double tells nothing. */

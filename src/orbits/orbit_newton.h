@@ -37,6 +37,7 @@ extern const double pendres_newton_aside;
 /* Samples 0 .. samples-1 of a pass, all lanes. */
 typedef struct pendres_newton_samples {
   int bends; /* set by the caller: find m_by as well, from two more lanes a candidate */
+  int none;  /* set by the caller: take no samples */
   size_t count, lanes, rows, size;
   double *data; /* [sample][lane][row] */
 } pendres_newton_samples;
@@ -100,7 +101,8 @@ double pendres_newton_rounding(pendres_table table);
    larger since sums have more terms and twice as many roundings. */
 extern const double pendres_newton_matrix;
 
-/* For a candidate whose samples were taken with their tangents. */
+/* For a candidate whose samples were taken with their tangents; without samples that of errors that
+   do not grow on the way. */
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
                                              const pendres_newton_samples *taken);
 

@@ -25,6 +25,7 @@ static pendres_status read_one(const pendres_orbit_reader *reader,
     c->state = PENDRES_NEWTON_FAILED;
     return PENDRES_OK;
   }
+  if (reader->points) return PENDRES_OK;
   const pendres_orbit_samples samples = {
     .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
     .tables = &r->tables};
@@ -44,7 +45,7 @@ static pendres_status provide(pendres_context *ctx, size_t samples, room *r)
 pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_reader *reader,
                                   size_t n, pendres_newton_candidate *c)
 {
-  pendres_newton_samples taken = {.bends = reader->bends};
+  pendres_newton_samples taken = {.bends = reader->bends, .none = reader->points};
   room r = {.work = NULL};
   pendres_status status = PENDRES_OK;
   pendres_newton_order(n, c);

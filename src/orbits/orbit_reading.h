@@ -22,6 +22,7 @@ typedef pendres_orbit_measures *pendres_orbit_taker(void *arg, const pendres_new
 typedef struct pendres_orbit_reader {
   pendres_orbit_want want;
   int bends; /* whether candidates get m_by as well */
+  int points; /* without samples and measures */
   pendres_orbit_taker *take;
   void *arg;
 } pendres_orbit_reader;

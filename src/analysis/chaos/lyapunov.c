@@ -11,6 +11,7 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"
+#include "orbits/attractor_set.h"
 #include "orbits/settle_lanes.h"
 #include "analysis/chaos/lyapunov_move.h"
 #include "analysis/chaos/lyapunov_verdict.h"
@@ -86,6 +87,7 @@ typedef struct family {
   size_t n;
   const size_t *which;
   size_t first, copies;
+  pendres_orbit *orbit; /* that the pendulums are on: of copies they are known, else this is room */
 } family;
 
 /* Judge all of a family: out[n * copies]. The doubts of the pendulums themselves are theirs from
@@ -113,8 +115,12 @@ static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
   j.pendulum = p;
   j.x = x;
   j.v = x + all;
-  j.orbit = NULL;
   j.out = out;
+  j.orbit = f->first > 0 ? NULL : f->orbit;
+  if (f->first > 0) {
+    j.copies = f->copies;
+    j.known = f->orbit;
+  }
   pendres_status status = pendres_lyapunov_judge(ctx, &j);
   for (size_t i = 0; i < f->n && f->first == 0 && status == PENDRES_OK; i++)
     f->job->runner[f->which[i]].doubt = j.runner[i * f->copies].doubt;
@@ -128,15 +134,16 @@ static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *
 {
   static const size_t begin[] = {1, 1 + FEW, 1 + COPIES};
   size_t which[AT_A_TIME]; /* that agree so far */
-  verdict *copy = malloc((n * COPIES + 1) * sizeof *copy);
-  pendres_status status = PENDRES_OK;
-  if (copy == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for copies");
+  pendres_room room = pendres_room_open(ctx, "copies of pendulums");
+  verdict *copy = pendres_room_take(&room, n * COPIES, sizeof *copy);
+  pendres_orbit *orbit = pendres_room_take(&room, n, sizeof *orbit);
+  pendres_status status = room.status;
   memcpy(which, those, n * sizeof *which);
   for (int part = 0; part < 2 && n > 0 && status == PENDRES_OK; part++) {
     const size_t copies = begin[part + 1] - begin[part];
     size_t left = 0;
-    status = judge(ctx, &(family){job, n, which, begin[part], copies}, copy);
+    for (size_t i = 0; i < n; i++) orbit[i] = job->orbit[which[i]];
+    status = judge(ctx, &(family){job, n, which, begin[part], copies, orbit}, copy);
     for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
       verdict *l = &job->out[which[i]];
       const verdict before = *l;
@@ -151,22 +158,25 @@ static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *
     }
     n = left;
   }
-  free(copy);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Start pendulums again, with the job's accuracy. What they do counts, unless it is not known. */
 static pendres_status repeat(pendres_context *ctx, const pendres_lyapunov_job *job, size_t n,
                              const size_t *which)
 {
-  verdict *again = malloc((n + 1) * sizeof *again);
-  if (again == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu verdicts", n);
-  const pendres_status status = judge(ctx, &(family){job, n, which, 0, 1}, again);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    if (again[i].label != PENDRES_LABEL_UNRESOLVED) job->out[which[i]] = again[i];
-  free(again);
-  return status;
+  pendres_room room = pendres_room_open(ctx, "verdicts");
+  verdict *again = pendres_room_take(&room, n, sizeof *again);
+  pendres_orbit *orbit = pendres_room_take(&room, n, sizeof *orbit);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0; i < n; i++) orbit[i] = pendres_orbit_none(&job->pendulum[which[i]]);
+  const pendres_status status = judge(ctx, &(family){job, n, which, 0, 1, orbit}, again);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (again[i].label == PENDRES_LABEL_UNRESOLVED) continue;
+    job->out[which[i]] = again[i];
+    job->orbit[which[i]] = orbit[i];
+  }
+  return pendres_room_close(&room, status);
 }
 
 /* Put those of n pendulums first that are in doubt, of them only those with hope if it is asked
@@ -199,7 +209,7 @@ static pendres_status make_certain(pendres_context *ctx, const pendres_lyapunov_
 }
 
 /* Go through verdicts that are not certain. The job's runners are where its judgement has left
-   them; its orbits are not looked at. */
+   them; it has orbits. */
 static pendres_status make_all_certain(pendres_context *ctx, const pendres_lyapunov_job *job)
 {
   pendres_status status = PENDRES_OK;
@@ -266,18 +276,20 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
+  pendres_room room = pendres_room_open(ctx, "pendulums");
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = p, .x = x, .v = v, .out = out,
     .accuracy = pendres_accuracy_to_average(ctx), .transient = o->transient,
     .periods = o->periods > 0 ? o->periods : PERIODS, .asked = o->periods > 0, .rounds = ROUNDS,
     .longer = o->periods > 0 ? 0 : LONGER,
-    .care = PENDRES_CARE_FULL, .runner = malloc((n + 1) * sizeof *j.runner)};
-  if (j.runner == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+    .care = PENDRES_CARE_FULL, .points = 1,
+    .runner = pendres_room_take(&room, n, sizeof *j.runner),
+    .orbit = pendres_room_take(&room, n, sizeof *j.orbit)};
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0; i < n; i++) j.orbit[i] = pendres_orbit_none(&p[i]);
   pendres_status status = pendres_lyapunov_judge(ctx, &j);
   if (status == PENDRES_OK) status = make_all_certain(ctx, &j);
-  free(j.runner);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_lyapunov_find(pendres_context *ctx, size_t n,

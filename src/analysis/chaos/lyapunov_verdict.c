@@ -15,20 +15,17 @@
 #include "orbits/attractor_set.h"
 #include "orbits/escape.h"
 #include "orbits/linear.h"
-#include "orbits/orbit_prime.h"
 #include "orbits/settle_lanes.h"
+#include "analysis/chaos/lyapunov_caught.h"
 
 enum {
   BATCHES = PENDRES_GROWTH_BATCHES,
   TRANSIENT = 200 /* drive periods, where damping is not weak */
 };
 
-/* A pendulum whose strobe point comes back this closely is taken to be next to an orbit: at first.
-   Each time that the orbit has turned out not to attract it, as the unstable one beside a fold does
-   not, it must come closer, by this factor. */
-static const double close_by = 1e-4, closer = 0.1;
-/* An orbit found further from the point that came back is another one. */
-static const double same_orbit = 0.02;
+/* A pendulum whose strobe point comes back this closely is taken to be next to an orbit, at first.
+   */
+static const double close_by = 1e-4;
 /* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more:
    half a minute's where it is alone. */
 static const double most_steps = 5e7;
@@ -86,95 +83,6 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
   return lane->period >= r->until || !(isfinite(lane->y) && isfinite(lane->w));
 }
 
-/* ---- orbits -------------------------------------------------------------------------------- */
-
-static void take_orbit(const pendres_orbit *o, pendres_lyapunov *out)
-{
-  const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
-  const double time = two_pi * o->period / o->pendulum.drive_frequency;
-  *out = (pendres_lyapunov){
-    .label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC,
-    .exponent = log(modulus) / time,
-    .exponent_error = o->multiplier_error / (modulus * time),
-    .rotation = (double)o->winding / o->period,
-    .rotation_error = 2.2e-16 * fabs((double)o->winding / o->period),
-    .period = o->period,
-    .winding = o->winding};
-}
-
-static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
-{
-  const double dx = pendres_less_turns(o->x - (l->y + pendres_model_origin(l->pendulum)),
-                                       pendres_model_turn(l->pendulum));
-  return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
-}
-
-/* Among the bands of chaos points come back next to orbits of many periods whose multipliers may
-   not be known well enough to say that they attract. */
-static int is_surely_stable(const pendres_orbit *o)
-{
-  return hypot(o->multiplier_re[0], o->multiplier_im[0]) + o->multiplier_error < 1.0;
-}
-
-/* Refine the orbits that caught runners are near, with their shortest periods. outcome[k] is
-   PENDRES_OK where the k-th of them is next to a stable orbit, and orbit[] has these alone. */
-static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_t count,
-                                       pendres_orbit_guess *guess, pendres_orbit *orbit,
-                                       pendres_status *outcome)
-{
-  size_t k = 0, good = 0;
-  for (size_t i = 0; i < j->n; i++) {
-    const pendres_runner *r = &j->runner[i];
-    if (r->state != PENDRES_RUNNER_CAUGHT) continue;
-    pendres_orbit_guess *g = &guess[k++];
-    const pendres_coordinates at = {.y = r->lane.y, .w = r->lane.w};
-    *g = (pendres_orbit_guess){
-      .pendulum = *r->lane.pendulum, .period = r->period, .winding = r->winding};
-    pendres_coordinates_out(r->lane.pendulum, &at, &g->x, &g->v);
-  }
-  const pendres_status status =
-    pendres_orbit_find(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
-  if (status != PENDRES_OK) return status;
-  k = 0;
-  for (size_t i = 0; i < j->n; i++) {
-    const pendres_runner *r = &j->runner[i];
-    if (r->state != PENDRES_RUNNER_CAUGHT) continue;
-    const pendres_orbit *o = &orbit[k];
-    const int is = outcome[k] != PENDRES_NOT_CONVERGED && o->stable && is_near(o, &r->lane);
-    outcome[k++] = is ? PENDRES_OK : PENDRES_NOT_CONVERGED;
-    if (is) orbit[good++] = *o;
-  }
-  return pendres_orbits_to_prime(ctx, good, orbit);
-}
-
-/* Take the orbits that runners were caught near; a runner goes on where there is no stable orbit
-   near it. */
-static pendres_status settle_caught(pendres_context *ctx, const job *j)
-{
-  size_t count = 0, k = 0, good = 0;
-  for (size_t i = 0; i < j->n; i++) count += j->runner[i].state == PENDRES_RUNNER_CAUGHT;
-  if (count == 0) return PENDRES_OK;
-  pendres_room room = pendres_room_open(ctx, "orbits");
-  pendres_orbit_guess *guess = pendres_room_take(&room, count, sizeof *guess);
-  pendres_orbit *orbit = pendres_room_take(&room, count, sizeof *orbit);
-  pendres_status *outcome = pendres_room_take(&room, count, sizeof *outcome);
-  pendres_status status = room.status;
-  if (status == PENDRES_OK) status = orbits_of_caught(ctx, j, count, guess, orbit, outcome);
-  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
-    pendres_runner *r = &j->runner[i];
-    if (r->state != PENDRES_RUNNER_CAUGHT) continue;
-    const int is = outcome[k++] == PENDRES_OK;
-    r->state = is ? PENDRES_RUNNER_DONE : PENDRES_RUNNER_MOVING;
-    if (!is) r->near *= closer;
-    if (!is) continue;
-    if (!is_surely_stable(&orbit[good])) r->doubt = INFINITY;
-    take_orbit(&orbit[good], &j->out[i]);
-    if (j->orbit != NULL) j->orbit[i] = orbit[good];
-    good++;
-  }
-  return pendres_room_close(&room, status);
-}
-
 /* ---- escapes ---- */
 
 /* Those that are on their way to infinity, and those of which nothing more can be known. */
@@ -203,7 +111,7 @@ static void take_linear(const pendres_linear *l, pendres_runner *r, pendres_lyap
   r->doubt = 0.0;
   if (l->fate == PENDRES_LINEAR_DECAYS) {
     r->lane = pendres_strobe_lane_at(r->lane.pendulum, l->orbit.x, l->orbit.v);
-    take_orbit(&l->orbit, out);
+    pendres_lyapunov_take_orbit(&l->orbit, out);
     return;
   }
   *out = (pendres_lyapunov){
@@ -264,7 +172,9 @@ static void judge(const job *j, long batch, double enough)
     if (r->beside == PENDRES_BESIDE_NOTHING) j->out[i].exponent = j->out[i].exponent_error = NAN;
     const long periods = batch * BATCHES;
     if (!chaotic && r->rotates) r->rough = pendres_means_tell(r, periods, enough, &j->out[i]);
-    if (chaotic || r->rough || told == PENDRES_GROWTH_ORDER ||
+    const int coarse = r->beside == PENDRES_BESIDE_TANGENTS && !j->asked;
+    const int ordered = told == PENDRES_GROWTH_ORDER && !coarse;
+    if (chaotic || r->rough || ordered ||
         (j->care == PENDRES_CARE_CLOSE && pendres_means_scatter(r, periods)))
       r->state = PENDRES_RUNNER_DONE;
     /* Those that are left run beside a neighbour from here on. */
@@ -389,19 +299,36 @@ static pendres_status follow(pendres_context *ctx, const job *j)
   }
   if (status == PENDRES_OK) status = run_lanes(ctx, j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
-  return status == PENDRES_OK ? settle_caught(ctx, j) : status;
+  return status == PENDRES_OK ? pendres_lyapunov_settle_caught(ctx, j) : status;
+}
+
+/* First averages need be no more exact than what is followed: their scatter hides the errors. They
+   tell chaos alone, and what they do not tell is averaged again by finer steps. */
+static pendres_status coarsen(pendres_context *ctx, const job *j)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < j->n && !j->asked && status == PENDRES_OK; i++) {
+    pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_MOVING || r->beside != PENDRES_BESIDE_TANGENTS) continue;
+    status = pendres_steps_choose(ctx, r->lane.pendulum, speed_of(&r->lane),
+                                  pendres_accuracy_to_follow(ctx), &r->lane.steps);
+    r->lane.steps += r->lane.steps % 2; /* for tangents by steps twice as long */
+  }
+  return status;
 }
 
 /* Average all that move over `batch` periods a batch, and judge them. */
 static pendres_status look(pendres_context *ctx, const job *j, long batch, double enough)
 {
-  pendres_status status = pendres_runners_average(ctx, j->n, j->runner, batch);
+  pendres_status status = coarsen(ctx, j);
+  if (status == PENDRES_OK) status = pendres_runners_average(ctx, j->n, j->runner, batch);
+  for (size_t i = 0; i < j->n; i++) j->runner[i].lane.steps = j->runner[i].steps;
   grow_errors(j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
-  if (status == PENDRES_OK) status = settle_caught(ctx, j);
+  if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
   /* Runners whose orbit was not stable have averages of this round, and no result yet. */
   if (status == PENDRES_OK) judge(j, batch, enough);
-  if (status == PENDRES_OK) status = settle_caught(ctx, j);
+  if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
   if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE && j->care != PENDRES_CARE_LABEL)
     status = pendres_means_refine(ctx, j->n, j->runner, batch, j->out);
   return status;
@@ -433,7 +360,7 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
   if (status == PENDRES_OK) status = tell_linear(ctx, j);
   if (status == PENDRES_OK) status = run_lanes(ctx, j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
-  if (status == PENDRES_OK) status = settle_caught(ctx, j);
+  if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
   give_up(j, batch, 1);
   if (status == PENDRES_OK && j->care <= PENDRES_CARE_LABEL)
     status = look_at_rotations(ctx, j, batch, wanted);
