@@ -327,7 +327,8 @@ static void left_out(void **state)
  * Chaos of the driven pendulum that becomes larger in an interior crisis is told both ways. Runge
  * and Kutta's method with 300 steps a period stays in the smaller set for 200,000 periods at
  * `inside`, and leaves it at `outside`. In a Duffing oscillator's chaos nothing happens between
- * 0.41 and 0.42.
+ * 0.41 and 0.42; that of a pendulum becomes smaller gradually, by a quarter, over a change of the
+ * frequency by 0.4 %.
  */
 static void interior_crises(void **state)
 {
@@ -349,15 +350,22 @@ static void interior_crises(void **state)
   }
   pendres_hysteresis_free(h);
 
-  static const double amplitude[] = {0.41, 0.42};
+  static const double amplitude[] = {0.41, 0.42}, frequency[] = {0.78913, 0.79245};
   const pendres_pendulum wells = {.damping = 0.25, .drive_frequency = 1.0,
                                   .force = PENDRES_FORCE_POLYNOMIAL,
                                   .force_coefficients = {-1.0, 0.0, 1.0}};
-  const pendres_hysteresis_path quiet = {PENDRES_DRIVE_AMPLITUDE, 2, amplitude};
-  check_ok(pendres_hysteresis_find(*state, &wells, &(pendres_state){1.0, 0.0}, &quiet, &h));
-  assert_int_equal(pendres_hysteresis_get(h, 1)->attractor.label, PENDRES_LABEL_CHAOTIC);
-  assert_int_equal(pendres_hysteresis_jump_count(h), 0);
-  pendres_hysteresis_free(h);
+  const pendres_pendulum shrinks = {.damping = 0.270732, .drive_amplitude = 1.49021};
+  for (int k = 0; k < 2; k++) {
+    const pendres_hysteresis_path quiet =
+      k == 0 ? (pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 2, amplitude}
+             : (pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2, frequency};
+    check_ok(pendres_hysteresis_find(*state, k == 0 ? &wells : &shrinks,
+                                     &(pendres_state){1.0 + k, 0.0}, &quiet, &h));
+    for (size_t i = 0; i < 2; i++)
+      assert_int_equal(pendres_hysteresis_get(h, i)->attractor.label, PENDRES_LABEL_CHAOTIC);
+    assert_int_equal(pendres_hysteresis_jump_count(h), 0);
+    pendres_hysteresis_free(h);
+  }
 }
 
 /* To find what there is beyond the end of SA at 0.8416 takes more than a value may take here. That

@@ -27,6 +27,7 @@ enum {
   PERIODS = 256,  /* ... and are watched */
   CELLS = 32,     /* of a region, a side. It reaches beyond what it was made of by one to two of
                      them, of 1.5 times its size together: 5 to 10 %, the least change seen */
+  MOST_CELLS = 128, /* a side with those that only the larger chaos visits */
   HALVINGS = 12,  /* of the interval: what changes gradually does so by its size within 1/4096 */
   ROUNDS = 4,     /* of halvings, each from where the one before has led */
   MOST_LIVES = 64 * PERIODS, /* periods that pendulums may take to leave a region */
@@ -47,11 +48,13 @@ static const double short_life = 0.1;
    case in twenty: e^-3. */
 static const double lives_watched = 3.0;
 
-/* Cells of the Poincare plane that chaos visits, or that touch such a cell. */
+/* Cells of the Poincare plane that chaos visits, or that touch such a cell. There are cells
+   wherever the larger chaos goes: what grows gradually would seem to leave at a nearer edge. */
 typedef struct region {
   double y, w, across, up; /* of a corner; the size of a cell */
+  int rows, columns;       /* along the angle, and along its velocity */
   int round;               /* the angle comes round after all cells */
-  unsigned char cell[CELLS][CELLS];
+  unsigned char cell[MOST_CELLS][MOST_CELLS];
 } region;
 
 /* Strobe points of pendulums on one chaos, side by side. */
@@ -80,7 +83,7 @@ typedef struct search {
 static int cell_of(const region *r, double y, double w, int *row, int *column)
 {
   const double a = floor((y - r->y) / r->across), b = floor((w - r->w) / r->up);
-  if (!(a >= 0.0 && a < CELLS && b >= 0.0 && b < CELLS)) return 0;
+  if (!(a >= 0.0 && a < r->rows && b >= 0.0 && b < r->columns)) return 0;
   *row = (int)a;
   *column = (int)b;
   return 1;
@@ -98,8 +101,8 @@ static void add(region *r, double y, double w)
   if (!cell_of(r, y, w, &row, &column)) return;
   for (int i = row - 1; i <= row + 1; i++)
     for (int k = column - 1; k <= column + 1; k++) {
-      const int at = r->round ? (i + CELLS) % CELLS : i;
-      if (at >= 0 && at < CELLS && k >= 0 && k < CELLS) r->cell[at][k] = 1;
+      const int at = r->round ? (i + r->rows) % r->rows : i;
+      if (at >= 0 && at < r->rows && k >= 0 && k < r->columns) r->cell[at][k] = 1;
     }
 }
 
@@ -108,26 +111,52 @@ static void add_all(region *r, const sample *s)
   for (int i = 0; i < LANES * PERIODS; i++) add(r, s->y[i], s->w[i]);
 }
 
-/* The region of a sample. Cells are as large as all of its points and half as much beside them ask
-   for; where these go round, all the turn is divided. */
-static void make_region(const pendres_pendulum *p, const sample *s, region *r)
+/* The corners of all that samples have visited. */
+static void corners_of(const sample *s, double low[2], double high[2])
 {
-  const double turn = pendres_model_turn(p);
-  double low[2] = {s->y[0], s->w[0]}, high[2] = {s->y[0], s->w[0]};
-  memset(r, 0, sizeof *r);
+  low[0] = high[0] = s->y[0];
+  low[1] = high[1] = s->w[0];
   for (int i = 1; i < LANES * PERIODS; i++) {
     low[0] = fmin(low[0], s->y[i]);
     high[0] = fmax(high[0], s->y[i]);
     low[1] = fmin(low[1], s->w[i]);
     high[1] = fmax(high[1], s->w[i]);
   }
+}
+
+/* How many more cells are needed from one place to another; beyond most of them there is none. */
+static int cells_to(double way, double size, int most)
+{
+  const double cells = ceil(fmax(0.0, way) / size);
+  return cells < most ? (int)cells : most;
+}
+
+/* The region of a sample. Cells are as large as all of its points and half as much beside them ask
+   for, and reach as far as those of another; where they go round, all the turn is divided. */
+static void make_region(const pendres_pendulum *p, const sample *s, const sample *other, region *r)
+{
+  const double turn = pendres_model_turn(p);
+  const int most = (MOST_CELLS - CELLS) / 2;
+  double low[2], high[2], least[2], largest[2];
+  memset(r, 0, sizeof *r);
+  corners_of(s, low, high);
+  corners_of(other, least, largest);
   r->across = 1.5 * (high[0] - low[0]) / CELLS;
   r->up = 1.5 * (high[1] - low[1]) / CELLS;
   r->y = 0.5 * (low[0] + high[0]) - 0.5 * CELLS * r->across;
   r->w = 0.5 * (low[1] + high[1]) - 0.5 * CELLS * r->up;
-  r->round = CELLS * r->across >= turn;
+  r->rows = r->columns = CELLS;
+  r->columns += cells_to(largest[1] - r->w - CELLS * r->up, r->up, most);
+  const int left = cells_to(r->y - least[0], r->across, most);
+  const int below = cells_to(r->w - least[1], r->up, most);
+  r->rows += left + cells_to(largest[0] - r->y - CELLS * r->across, r->across, most);
+  r->columns += below;
+  r->y -= left * r->across;
+  r->w -= below * r->up;
+  r->round = r->rows * r->across >= turn;
   if (r->round) {
-    r->across = turn / CELLS;
+    r->rows = r->rows > CELLS ? (int)ceil(turn / r->across) : CELLS;
+    r->across = turn / r->rows;
     r->y = -0.5 * turn;
   }
   add_all(r, s);
@@ -244,7 +273,8 @@ static pendres_status halve(search *w)
   const double other = w->large;
   pendres_status status = PENDRES_OK;
   int left = 0;
-  for (int round = 0; round < ROUNDS && !left && status == PENDRES_OK; round++) {
+  for (int round = 0; round < ROUNDS && !left && w->small != other && status == PENDRES_OK;
+       round++) {
     w->large = other;
     for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
       const double middle = 0.5 * (w->small + w->large);
@@ -319,8 +349,8 @@ static pendres_status compare(search *w, const pendres_settled *old, const pendr
   if (status == PENDRES_OK) status = spread(w->ctx, there, &in[1]);
   if (status == PENDRES_OK) status = take_sample(w->ctx, &there->pendulum, &in[1], &w->points);
   if (status == PENDRES_OK) {
-    make_region(&old->pendulum, first, &before);
-    make_region(&there->pendulum, &w->points, &after);
+    make_region(&old->pendulum, first, &w->points, &before);
+    make_region(&there->pendulum, &w->points, first, &after);
     if (share_outside(&before, &w->points) > least_share) *larger = 1;
     else if (share_outside(&after, first) > least_share) *larger = -1;
     w->where = *larger < 0 ? after : before;
