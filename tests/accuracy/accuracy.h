@@ -123,6 +123,22 @@ typedef struct accuracy_own {
 void accuracy_own_period(const accuracy_own *own, long number, accuracy_random *noise, double s[2],
                          double harmonic[2]);
 
+/* Long trajectories beside the value of a jump from chaos to chaos: one before it, and what becomes
+   of it beyond. */
+typedef struct accuracy_crisis {
+  int compared;      /* both are chaotic */
+  int differs;       /* the larger chaos is there on one side only */
+  double outside[2]; /* how much of each is outside the region of the other, ... */
+  double aside;      /* ... and how far from the value they are */
+} accuracy_crisis;
+
+/* `from` is a state x, v of the chaos before the jump. */
+accuracy_crisis accuracy_crisis_beside(const pendres_pendulum *p, pendres_parameter parameter,
+                                       const pendres_jump *j, const double from[2]);
+/* Let a pendulum come from the state s to what there is at a value: to such a `from`. */
+void accuracy_crisis_come(const pendres_pendulum *p, pendres_parameter parameter, double value,
+                          double s[2]);
+
 /* ---- sections ---- */
 
 void accuracy_orbits(accuracy *a);

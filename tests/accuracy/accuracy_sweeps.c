@@ -7,7 +7,7 @@
  * orbit the extended-precision reference's Newton's method leads on to the next value, in steps
  * that are halved where it fails. Where it arrives and the orbit has been stable all the way, there
  * must be no jump, and the next point must be that orbit; where it does not, there must be a jump
- * at that place.
+ * at that place. Interior crises are put beside a simulation (accuracy_crises.c).
  */
 #include "accuracy.h"
 
@@ -47,7 +47,7 @@ typedef struct item {
   accuracy_units units;
   pendres_status status;
   long steps, checked, marked;
-  int faults, jumps;
+  int faults, jumps, crises;
   fault fault[FAULTS];
   pendres_status why; /* the latest of values left out */
   pendres_jump jump[JUMPS];
@@ -250,6 +250,27 @@ static void check_jump(item *t, const pendres_jump *j)
     complain(t, "a jump beside its step", a->value, b->value, j->value);
 }
 
+/* Chaos that goes on in larger or smaller chaos, beside an own simulation on the same way, where no
+   other jump lies between the same values. */
+static void check_crises(item *t)
+{
+  const pendres_hysteresis_point *at = t->point;
+  double s[2] = {t->x, t->v};
+  for (int k = 0; k < t->jumps; k++) {
+    const pendres_jump *j = &t->jump[k];
+    int others = 0;
+    for (int i = 0; i < t->jumps; i++) others += t->jump[i].step == j->step;
+    if (j->kind != PENDRES_JUMP_CRISIS || j->to != PENDRES_LABEL_CHAOTIC) continue;
+    for (; at < t->point + j->step; at++)
+      if (at->outcome == PENDRES_OK) accuracy_crisis_come(&t->pendulum, t->parameter, at->value, s);
+    if (others > 1) continue;
+    const accuracy_crisis c = accuracy_crisis_beside(&t->pendulum, t->parameter, j, s);
+    t->crises += c.compared;
+    if (c.compared && !c.differs)
+      complain(t, "a crisis beside which chaos is the same", at[-1].value, at->value, j->value);
+  }
+}
+
 static void check(item *t)
 {
   for (int k = 0; k < t->jumps; k++) check_jump(t, &t->jump[k]);
@@ -259,6 +280,7 @@ static void check(item *t)
     else t->marked++;
     if (a->outcome != PENDRES_OK) t->why = a->outcome;
   }
+  check_crises(t);
 }
 
 /* Take over what was found, in the powers of two next to the units. */
@@ -266,7 +288,9 @@ static void take(item *t, const pendres_hysteresis *h, const pendres_pendulum *a
 {
   const accuracy_units near = accuracy_near_units(t->units);
   const size_t jumps = pendres_hysteresis_jump_count(h);
-  const double unit = value_in(t, 1.0, near);
+  const double unit = value_in(t, 1.0, near), length = near.length / t->units.length;
+  t->x *= length;
+  t->v *= length * t->units.time / near.time;
   t->pendulum = accuracy_in_units(asked, (accuracy_units){1.0 / near.length, 1.0 / near.time});
   for (size_t i = 0; i < POINTS; i++) {
     t->point[i] = *pendres_hysteresis_get(h, i);
@@ -310,7 +334,7 @@ static void compute(accuracy_random *r, void *of, long number)
 /* ---- notes ---- */
 
 typedef struct tally {
-  long sweeps, steps, checked, marked, uncertain, jumps[PENDRES_JUMP_COUNT];
+  long sweeps, steps, checked, marked, uncertain, crises, jumps[PENDRES_JUMP_COUNT];
 } tally;
 
 static void show(const item *t, const char *how)
@@ -339,6 +363,7 @@ static void note(accuracy *a, const void *of, long number, void *counts)
   c->steps += t->steps;
   c->checked += t->checked;
   c->marked += t->marked;
+  c->crises += t->crises;
   for (int k = 0; k < t->jumps; k++) {
     c->jumps[t->jump[k].kind]++;
     c->uncertain += !t->jump[k].certain;
@@ -367,8 +392,8 @@ void accuracy_sweeps(accuracy *a)
                                     .size = sizeof(item), .compute = compute, .note = note,
                                     .tally = &c});
   printf("\nsweeps: %ld of %ld values; %ld steps, %ld of them beside a continuation, %ld next to "
-         "values left out; jumps, %ld of them uncertain:", c.sweeps, (long)POINTS, c.steps,
-         c.checked, c.marked, c.uncertain);
+         "values left out; %ld crises beside a simulation; jumps, %ld of them uncertain:",
+         c.sweeps, (long)POINTS, c.steps, c.checked, c.marked, c.crises, c.uncertain);
   for (int k = 0; k < PENDRES_JUMP_COUNT; k++)
     printf(" %ld %s%s", c.jumps[k], pendres_name_get(PENDRES_NAMES_JUMP, k),
            k + 1 < PENDRES_JUMP_COUNT ? "," : "\n");
