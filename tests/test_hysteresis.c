@@ -323,6 +323,38 @@ static void left_out(void **state)
   pendres_hysteresis_free(kept);
 }
 
+/* Slopes of a squid's sweep to n values, without those of its steps. */
+static double slopes_beyond(size_t n, const double *value)
+{
+  const pendres_pendulum p = {
+    .damping = 0.077, .drive_amplitude = 0.113, .drive_frequency = 0.628, .torque = -0.308,
+    .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.643}};
+  pendres_context *ctx = context_with(NULL);
+  pendres_hysteresis *h = NULL;
+  pendres_cost cost;
+  check_ok(pendres_hysteresis_find(
+    ctx, &p, &(pendres_state){0.51, -0.34},
+    &(pendres_hysteresis_path){PENDRES_PARAMETRIC_AMPLITUDE, n, value}, &h));
+  check_ok(pendres_hysteresis_get(h, 1)->outcome);
+  for (size_t i = 2; i < n; i++)
+    assert_int_equal(pendres_hysteresis_get(h, i)->outcome, PENDRES_TOLERANCE_UNREACHABLE);
+  pendres_context_cost(ctx, &cost);
+  pendres_hysteresis_free(h);
+  pendres_context_free(ctx);
+  return cost.rhs_evaluations;
+}
+
+/* A parametric drive that shakes a squid off to infinity makes it too fast for any steps: where its
+   state has ended the values that follow are left out, and nothing more is done for them. */
+static void end_that_nothing_follows(void **state)
+{
+  enum { N = 8 };
+  static const double value[N] = {-0.85, 1.14, 3.14, 3.15, 3.16, 3.17, 3.18, 3.19};
+  (void)state;
+  const double one = slopes_beyond(3, value), many = slopes_beyond(N, value);
+  assert_true(many < 1.5 * one);
+}
+
 /*
  * Chaos of the driven pendulum that becomes larger in an interior crisis is told both ways. Runge
  * and Kutta's method with 300 steps a period stays in the smaller set for 200,000 periods at
@@ -432,6 +464,7 @@ int main(void)
     cmocka_unit_test(escaped),
     cmocka_unit_test_setup_teardown(left_out, setup_exact, teardown),
     cmocka_unit_test(not_worth_it),
+    cmocka_unit_test(end_that_nothing_follows),
     cmocka_unit_test_setup_teardown(interior_crises, setup, teardown),
     cmocka_unit_test(beyond_an_end),
   };

@@ -12,6 +12,8 @@
 #include <pendres/reference.h>
 #include <pendres/strobe.h>
 
+#include "engine/context_internal.h"
+#include "engine/flow.h"
 #include "engine/steps.h"
 
 static const double pi = 3.14159265358979323846;
@@ -155,6 +157,26 @@ static void stiff_pendulums(void **state)
   pendres_context_free(ctx);
 }
 
+/* What is so fast that a million steps a period are less than one a radian, of a force that goes up
+   and down with it, is refused at once: nothing is integrated to find that out. */
+static void too_fast_to_be_tried(void **state)
+{
+  const pendres_pendulum squid = {.damping = 0.1, .drive_amplitude = 0.1, .drive_frequency = 0.6,
+                                  .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.6}};
+  pendres_context *ctx = context_of(0);
+  pendres_flow *flow = NULL;
+  int steps = -1;
+  (void)state;
+  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
+  assert_int_equal(pendres_steps_choose(ctx, &squid, 1e6, 1e-6, &steps),
+                   PENDRES_TOLERANCE_UNREACHABLE);
+  assert_int_equal(steps, -1);
+  check_near(pendres_flow_evaluations(flow), 0.0, 0.0);
+  assert_true(choose(ctx, &squid, 100.0, 1e-6) > 0);
+  assert_true(pendres_flow_evaluations(flow) > 0.0);
+  pendres_context_free(ctx);
+}
+
 /* Even numbers, for halves of a period; an eighth apart, for there to be few of them. */
 static void ladder(void **state)
 {
@@ -181,7 +203,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(enough_and_no_more), cmocka_unit_test(whatever_came_before),
     cmocka_unit_test(stiff_pendulums),    cmocka_unit_test(ladder),
-    cmocka_unit_test(asked_for),
+    cmocka_unit_test(asked_for),          cmocka_unit_test(too_fast_to_be_tried),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -132,13 +132,16 @@ static double reach_of(const pendres_pendulum *p, double speed)
 }
 
 /* The frequency of oscillations as fast as the stiffest spring up to `reach`, parametric drive and
-   all; where the coordinate has a period the reach is that. */
+   all; where the coordinate has a period the reach is that. Where the force goes up and down along
+   the coordinate a fast pendulum feels that as fast as it moves. */
 static double pace_of(const pendres_pendulum *p, double speed, double reach)
 {
   const double modulation = 1.0 + fabs(p->parametric_amplitude);
   if (p->force == PENDRES_FORCE_PENDULUM) return sqrt(modulation) * fmax(1.0, speed / 4.0);
   const double stiffest = pendres_model_stiffest(p, open_ended(p) ? reach : PENDRES_PI);
-  return sqrt(modulation * stiffest) * (open_ended(p) ? 1.0 : fmax(1.0, speed / 4.0));
+  const double pace = sqrt(modulation * stiffest);
+  if (!open_ended(p)) return pace * fmax(1.0, speed / 4.0);
+  return pendres_model_of(p->force)->angle ? fmax(pace, speed / 4.0) : pace;
 }
 
 double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
@@ -355,7 +358,7 @@ static pendres_status too_many(pendres_context *ctx, const cell *c, const pendre
 
 typedef struct entry {
   cell of;
-  int steps;
+  int steps; /* more than PENDRES_MOST_STEPS: these are too few */
 } entry;
 
 struct pendres_steps_memo {
@@ -414,17 +417,17 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
     return PENDRES_OK;
   }
   const cell key = cell_of(p, speed, tolerance);
+  pendres_status status = PENDRES_OK;
   int chosen = find_steps(ctx->steps, &key);
-  if (chosen > 0) {
-    *steps = chosen;
-    return PENDRES_OK;
+  if (chosen == 0) {
+    status = probe(ctx, &key, &chosen);
+    if (status == PENDRES_TOLERANCE_UNREACHABLE) chosen = PENDRES_MOST_STEPS + 1;
+    else if (status != PENDRES_OK) return status;
+    status = keep_steps(ctx->steps, &key, chosen);
+    if (status != PENDRES_OK)
+      return pendres_context_fail(ctx, status, "out of memory for the step memo");
   }
-  pendres_status status = probe(ctx, &key, &chosen);
-  if (status == PENDRES_TOLERANCE_UNREACHABLE) return too_many(ctx, &key, p, speed);
-  if (status != PENDRES_OK) return status;
-  status = keep_steps(ctx->steps, &key, chosen);
-  if (status != PENDRES_OK)
-    return pendres_context_fail(ctx, status, "out of memory for the step memo");
+  if (chosen > PENDRES_MOST_STEPS) return too_many(ctx, &key, p, speed);
   *steps = chosen;
   return status;
 }

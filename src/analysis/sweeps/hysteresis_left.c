@@ -99,7 +99,7 @@ int pendres_path_came(pendres_path *w, pendres_path_left *left, const pendres_pa
   const int spent = pendres_context_slopes(w->ctx) > w->ctx->most_slopes &&
                     (*status == PENDRES_OK || *status == PENDRES_INTERRUPTED);
   if (!spent && !pendres_path_own(*status)) return 1;
-  const int beyond = spent ? w->beyond : 0;
+  const int beyond = w->beyond;
   const double end = w->end;
   go_back(w, mark);
   do

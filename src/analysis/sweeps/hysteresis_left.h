@@ -43,9 +43,9 @@ pendres_path_mark pendres_path_mark_here(const pendres_path *w);
 /*
  * Whether the step that ended with this status has reached its value. It is 0 if the failure
  * concerns that value only, or if it cost too much. Then value number i is left out, the path is
- * put back to the mark, and *status is PENDRES_OK. What cost too much may be to find what there is
- * beyond the end of a state, which would cost the same on the way to the values that follow: they
- * are left out as well, until the path comes back.
+ * put back to the mark, and *status is PENDRES_OK. What failed or cost too much may be to find what
+ * there is beyond the end of a state, which would do the same on the way to the values that follow:
+ * they are left out as well, until the path comes back.
  */
 int pendres_path_came(pendres_path *w, pendres_path_left *left, const pendres_path_mark *mark,
                       size_t i, pendres_status *status);

@@ -104,7 +104,8 @@ static pendres_status end_part(pendres_path *w, size_t step, double limit)
                     .value = end.value, .value_error = end.value_error,
                     .from = w->state.attractor.label, .share = NAN};
   pendres_part next = pendres_part_none;
-  int goes_on = 0;
+  int goes_on = 0, failed = 0;
+  pendres_path_search_beyond(w, s->direction, s->end_value);
   pendres_status status = go_over(w, &end, limit, &next);
   pendres_orbit arrived;
   if (status == PENDRES_OK) status = pendres_part_arrive(w->ctx, &next, &arrived);
@@ -130,6 +131,7 @@ static pendres_status end_part(pendres_path *w, size_t step, double limit)
     status = PENDRES_OK;
     if (!done)
       status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
+    failed = pendres_path_own(status); /* as it would on the way to any other value */
     w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
     if (status == PENDRES_OK) status = same_state(w, &old, &goes_on);
   }
@@ -137,6 +139,7 @@ static pendres_status end_part(pendres_path *w, size_t step, double limit)
   if (goes_on) pendres_part_free(&w->part);
   else pendres_path_leave(w);
   w->part = next;
+  if (!failed) pendres_path_search_beyond(w, 0, NAN);
   return status;
 }
 
@@ -235,9 +238,7 @@ pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
       if (status != PENDRES_OK) pendres_part_free(&w->part);
       if (status != PENDRES_OK) return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
     } else {
-      pendres_path_search_beyond(w, direction, w->part.end_value);
       status = end_part(w, *i, limit);
-      pendres_path_search_beyond(w, 0, NAN);
     }
     if (status != PENDRES_OK || !pendres_path_short(&w->state.attractor)) return status;
   }
