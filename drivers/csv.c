@@ -1,6 +1,6 @@
-/* csv.c -- results as text; see csv.h. */
+/* csv.c -- results as text; see run.h. */
 #define _POSIX_C_SOURCE 200809L /* fsync, fdopen */
-#include "csv.h"
+#include "run.h"
 #include "system/grow.h"
 #include "system/own_file.h"
 

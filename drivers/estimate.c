@@ -1,6 +1,5 @@
-/* estimate.c -- rules and words; see estimate.h. */
+/* estimate.c -- rules and words; see run.h. */
 #define _DEFAULT_SOURCE /* statvfs, _SC_PHYS_PAGES */
-#include "estimate.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,7 +7,7 @@
 #include <unistd.h>
 
 #include "terminal/safe_text.h"
-#include "together.h"
+#include "run.h"
 
 /* What every run has in memory, and what a thread adds. */
 static const double program_memory = 19e6, thread_memory = 9e6;

@@ -1,6 +1,6 @@
-/* files.c -- the files of a run; see files.h. */
+/* files.c -- the files of a run; see run.h. */
 #define _XOPEN_SOURCE 700 /* realpath, access */
-#include "files.h"
+#include "run.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,8 +1,5 @@
 /*
  * main.c -- the program `resonance`: a deck in, a file of results and a short table out.
- *
- * Exit codes: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they are
- * marked in the file); 75 interrupted.
  */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include <errno.h>
@@ -11,23 +8,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "csv.h"
 #include "ending.h"
-#include "estimate.h"
 #include "farm/ranks.h"
-#include "deck/explain.h"
-#include "files.h"
-#include "options.h"
-#include "provenance.h"
-#include "resume.h"
+#include "run.h"
 #include "shard.h"
-#include "together.h"
-#include "verify.h"
 #include "terminal/safe_text.h"
-#include "scenes/scene.h"
 #include "terminal/signals.h"
-
-enum { DONE = 0, FAILED = 1, BAD_USAGE = 2, SOME_POINTS_FAILED = 3, STOPPED = 75 };
 
 /* All that a run holds; zero at first, so that it can be let go of half-built. */
 typedef struct job {

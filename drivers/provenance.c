@@ -1,6 +1,6 @@
-/* provenance.c -- see provenance.h. */
+/* provenance.c -- see run.h. */
 #define _POSIX_C_SOURCE 200809L /* gmtime_r */
-#include "provenance.h"
+#include "run.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
-/* resume.c -- a run that goes on where an earlier one was stopped; see resume.h. */
+/* resume.c -- a run that goes on where an earlier one was stopped; see run.h. */
 #define _POSIX_C_SOURCE 200809L /* opendir */
-#include "resume.h"
+#include "run.h"
 
 #include <dirent.h>
 #include <stdlib.h>
@@ -8,10 +8,7 @@
 
 #include <pendres/store.h>
 
-#include "scenes/scene.h"
 #include "shard.h"
-
-enum { FAILED = 1, BAD_USAGE = 2 };
 
 /* Where journals stand: the folder, and what their names begin with. Free both. */
 typedef struct place {

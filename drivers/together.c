@@ -1,6 +1,6 @@
-/* together.c -- what the ranks of a run agree on; see together.h. */
+/* together.c -- what the ranks of a run agree on; see run.h. */
 #define _POSIX_C_SOURCE 200809L /* getpid */
-#include "together.h"
+#include "run.h"
 
 #include <stdint.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
-/* verify.c -- see verify.h. */
+/* verify.c -- see run.h. */
 #define _XOPEN_SOURCE 700 /* stat */
-#include "verify.h"
+#include "run.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -11,7 +11,6 @@
 #include <pendres/store.h>
 
 #include "apart.h"
-#include "options.h"
 #include "terminal/safe_text.h"
 
 enum { WHOLE = 0, DAMAGED = 1, UNTOLD = 2 };

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/explain.h"
+#include "deck/deck.h"
 #include "deck/table.h"
 
 static char *explained(const char *word)

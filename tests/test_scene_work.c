@@ -8,7 +8,7 @@
 #include <pendres/reference.h>
 
 #include "engine/tables.h"
-#include "provenance.h"
+#include "run.h"
 #include "validation/benchmark.h"
 
 enum { METHODS = 4, TOLERANCES = 3, ALL = METHODS * TOLERANCES, MEMBERS = 200, PERIODS = 100 };

@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/check.h"
 #include "scenes/columns.h"
 #include "system/grow.h"
 #include "validation/hard_cases.h"

@@ -1,5 +1,5 @@
-/* explain.c -- the table of keys in words, for readers; see explain.h. */
-#include "deck/explain.h"
+/* explain.c -- the table of keys in words, for readers; see deck.h. */
+#include "deck/deck.h"
 #include "deck/table.h"
 
 #include <math.h>

@@ -7,7 +7,6 @@
 #ifndef SCENE_ALONG_H
 #define SCENE_ALONG_H
 
-#include "scenes/check.h"
 #include "scenes/columns.h"
 #include "scenes/failed.h"
 #include "scenes/points.h"
@@ -87,5 +86,16 @@ void scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
 /* Count the points that failed, and tell the first of them. If there are two ways, points of the
    way back are in the order of the axis, too. */
 void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path *path, int ways);
+
+enum { SCENE_DIRECTIONS = 2 /* of a path that goes up and then down */ };
+
+/* ---- ramp.c: the parameter of scene hysteresis moved in real time, up and then down ---- */
+
+/* All of it, where the deck asks for a ramp; the dimensions `direction` and `jump` exist. The path
+   was followed up and down, and the points of the way back are in the order of the axis. */
+void scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_along_path *path);
+
+/* What is said of it before a run. */
+void scene_ramp_describe(const deck *d, deck_axis_id axis, FILE *out);
 
 #endif

@@ -8,10 +8,8 @@
 
 #include <pendres/basin.h>
 
-#include "scenes/check.h"
 #include "scenes/columns.h"
 #include "scenes/failed.h"
-#include "scenes/paper.h"
 
 enum {
   BASINS_VARIABLES = 6,      /* of every state */

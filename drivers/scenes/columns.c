@@ -10,6 +10,8 @@
 /* Bytes of rows that are gathered at a time, or those of one value of the first dimension. */
 enum { PIECE = 1 << 20 };
 
+enum { MOST_STEPS = 100 * DECK_MAX_COUNT }; /* a drive period */
+
 /* Room for a column, as it is stored. */
 typedef struct buffers {
   double *value, *error;
@@ -340,4 +342,68 @@ void scene_columns_print(FILE *out, const scene_table *t, size_t lines, size_t c
     if (words != NULL) fputs(words, out);
     fputc('\n', out);
   }
+}
+
+/* ---- records that come from elsewhere ---- */
+
+int scene_check_code(int code, int count)
+{
+  return code >= 0 && code < count;
+}
+
+int scene_check_text(const char *text, size_t room)
+{
+  return memchr(text, '\0', room) != NULL;
+}
+
+int scene_check_attractor(const pendres_attractor *a)
+{
+  const pendres_orbit *o = &a->orbit;
+  return scene_check_code((int)a->label, PENDRES_LABEL_COUNT) &&
+         scene_check_code((int)o->pendulum.force, PENDRES_FORCE_COUNT) &&
+         scene_check_code(o->period, DECK_MAX_COUNT + 1) && scene_check_code(o->symmetric, 2) &&
+         scene_check_code(o->stable, 2) && scene_check_code(o->steps, MOST_STEPS);
+}
+
+int scene_check_response(const pendres_response *r)
+{
+  int good = r->states <= PENDRES_RESPONSE_STATES &&
+             scene_check_code((int)r->pendulum.force, PENDRES_FORCE_COUNT);
+  for (size_t i = 0; good && i < r->states; i++) good = scene_check_attractor(&r->state[i]);
+  return good;
+}
+
+int scene_check_basin_state(const pendres_basin_state *state, size_t attractors)
+{
+  const int number = state->attractor;
+  return (number == PENDRES_ATTRACTOR_UNKNOWN || number == PENDRES_ATTRACTOR_ESCAPED ||
+          (number >= 0 && (size_t)number < attractors)) &&
+         scene_check_code(state->label, PENDRES_LABEL_COUNT) &&
+         scene_check_code(state->how, PENDRES_BASIN_HOW_COUNT);
+}
+
+/* ---- what the paper prints ---- */
+
+static const scene_column of_paper[] = {
+  SCENE_COLUMN_OF(SCENE_PLAIN, scene_printed, printed, "value printed in the paper"),
+  {.name = "computed", .long_name = "value of this run", .value = offsetof(scene_printed, computed),
+   .error = offsetof(scene_printed, error)},
+  {.name = "difference", .long_name = "computed less printed",
+   .value = offsetof(scene_printed, difference), .error = offsetof(scene_printed, error)},
+};
+
+void scene_write_paper(scene_run *run, size_t n, scene_printed *values)
+{
+  const char **name = scene_array(run, n, sizeof *name);
+  const scene_table table = {.group = "paper", .dimensions = {"quantity"}, .n = n,
+                             .stride = sizeof *values, .rows = values};
+  const pendres_store_spec quantity = {.group = "paper", .name = "quantity",
+                                       .type = PENDRES_STORE_STRING, .long_name = "quantity"};
+  if (n == 0 || name == NULL) return;
+  for (size_t i = 0; i < n; i++) {
+    name[i] = values[i].name;
+    values[i].difference = values[i].computed - values[i].printed;
+  }
+  scene_put_dimension(run, &quantity, name, n);
+  SCENE_WRITE(run, &table, of_paper);
 }

@@ -1,15 +1,16 @@
 /*
  * columns.h -- tables of results from arrays of structs.
  *
- * Owns: writing a table whose columns are fields of a struct, and printing a short one. A scene
- * gives for each column its name, its words and the place of the field.
+ * Owns: writing a table whose columns are fields of a struct, and printing a short one; whether
+ * rows that come from a journal can be what a task has written; the group `paper`. A scene gives
+ * for each column its name, its words and the place of the field.
  */
 #ifndef SCENE_COLUMNS_H
 #define SCENE_COLUMNS_H
 
 #include <stddef.h>
 
-#include "scenes/scene.h"
+#include "scenes/failed.h"
 
 typedef enum scene_column_type {
   SCENE_REAL = 0, /* double, with an error beside it */
@@ -140,5 +141,34 @@ void scene_columns_print(FILE *out, const scene_table *table, size_t lines, size
                          const scene_cell *cells, const char *(*instead)(const void *row));
 #define SCENE_PRINT(out, table, lines, cells, instead) \
   scene_columns_print(out, table, lines, sizeof cells / sizeof *cells, cells, instead)
+
+/*
+ * Records that come from elsewhere: the ranges of what they hold of the library's structs: codes,
+ * counts, flags, numbers of things and texts. Doubles may be anything. Each returns 0 where
+ * something is out of its range.
+ */
+
+/* Is a code one of 0 .. count - 1? Of an enum too, whatever its sign. */
+int scene_check_code(int code, int count);
+
+/* Does a text end within its room? */
+int scene_check_text(const char *text, size_t room);
+
+int scene_check_attractor(const pendres_attractor *a); /* closed or not */
+int scene_check_response(const pendres_response *r);
+
+/* attractors: how many the set has to which the state's number refers. */
+int scene_check_basin_state(const pendres_basin_state *state, size_t attractors);
+
+/* A value that the paper prints beside that of the run, in the group `paper` of the file. */
+typedef struct scene_printed {
+  const char *name;      /* of the quantity, e.g. "resonance_period_gamma_0.24" */
+  double printed;        /* by the paper */
+  double computed, error;
+  double difference;     /* is set when it is written */
+} scene_printed;
+
+/* Write them, if there are any. */
+void scene_write_paper(scene_run *run, size_t n, scene_printed *values);
 
 #endif

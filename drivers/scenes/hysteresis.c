@@ -3,15 +3,12 @@
  * experimenter sees. One task: each value is approached from the one before.
  */
 #include "scenes/along.h"
-#include "scenes/ramp.h"
-
-enum { DIRECTIONS = 2 };
 
 /* Up and down again; points of the way back are put in the order of the axis, too. */
 static void compute(scene_run *run, deck_axis_id axis, scene_along_path *path)
 {
   const deck_axis *a = &run->deck->axis[axis];
-  const size_t n = DIRECTIONS * a->count;
+  const size_t n = SCENE_DIRECTIONS * a->count;
   double *value = scene_array(run, n, sizeof *value);
   for (size_t i = 0; value != NULL && i < a->count; i++) value[i] = value[n - 1 - i] = a->value[i];
   scene_along_compute(run, &(scene_along_way){axis, n, value}, path, 0, NULL);
@@ -32,11 +29,11 @@ static const scene_column of_points[] = {
   SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent per unit time", "1"),
 };
 
-static const char *const directions[DIRECTIONS] = {"up", "down"};
+static const char *const directions[SCENE_DIRECTIONS] = {"up", "down"};
 
 static const char *direction_names(int value)
 {
-  return value < DIRECTIONS ? directions[value] : NULL;
+  return value < SCENE_DIRECTIONS ? directions[value] : NULL;
 }
 
 static const char *gradual_names(int value)
@@ -70,12 +67,12 @@ static void write(scene_run *run, deck_axis_id axis, const scene_along_path *pat
                              .n = path->points, .stride = sizeof *rows, .rows = rows};
   const pendres_store_spec ways = {.name = "direction", .type = PENDRES_STORE_STRING,
                                    .long_name = "way in which the parameter goes"};
-  scene_put_dimension(run, &ways, directions, DIRECTIONS);
+  scene_put_dimension(run, &ways, directions, SCENE_DIRECTIONS);
   scene_dimension(run, NULL, axis);
   scene_columns_write_orbits(run, &table, offsetof(scene_along_row, of.attractor.orbit));
   SCENE_WRITE(run, &table, of_points);
   scene_along_write_verdicts(run, path, &table);
-  scene_along_tell(run, axis, path, DIRECTIONS);
+  scene_along_tell(run, axis, path, SCENE_DIRECTIONS);
   SCENE_ALONG_WRITE_JUMPS(run, path, "jump", of_jumps);
 }
 
@@ -142,7 +139,7 @@ const scene_kind scene_hysteresis = {
   .budget = 1,
   .size = {.head = 40e3, .point = 240.0, .memory = 60e3, .stages = 1.0, .after = 1.0,
            .seconds = 0.03, .slowest = SCENE_SLOWEST_BRANCH,
-           .journal = DIRECTIONS * SCENE_PATH_JOURNAL, .more_output = ramp_output},
+           .journal = SCENE_DIRECTIONS * SCENE_PATH_JOURNAL, .more_output = ramp_output},
   .one_temperature = 1,
   .describe = describe,
   .run = run_scene,

@@ -10,7 +10,7 @@
 
 #include <pendres/phase_diagram.h>
 
-#include "scenes/paper.h"
+#include "scenes/columns.h"
 #include "scenes/points.h"
 
 typedef struct scene_lines {

@@ -6,7 +6,7 @@
 #ifndef SCENE_ORBIT_H
 #define SCENE_ORBIT_H
 
-#include "scenes/check.h"
+#include "scenes/columns.h"
 #include "scenes/points.h"
 
 /* What is found of the pendulum. */

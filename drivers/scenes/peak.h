@@ -6,7 +6,7 @@
 #ifndef SCENE_PEAK_H
 #define SCENE_PEAK_H
 
-#include "scenes/paper.h"
+#include "scenes/columns.h"
 
 typedef struct scene_peak {
   double at;     /* the line's parameter, */

@@ -1,13 +1,11 @@
-/* ramp.c -- ramps beside quasi-static sweeps; see ramp.h. */
-#include "scenes/ramp.h"
+/* ramp.c -- ramps beside quasi-static sweeps; see along.h. */
+#include "scenes/along.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scenes/points.h"
-
-enum { DIRECTIONS = 2 };
 
 /* A strobe of the ramp without noise. */
 typedef struct row {
@@ -24,7 +22,7 @@ typedef struct work {
   long every;                  /* drive periods between two points recorded */
   size_t points;               /* recorded each way */
   scene_points way;            /* one: all of the ramp, taken apart into: */
-  row *rows;                   /* [DIRECTIONS][points], both ways in the order of time */
+  row *rows;                   /* [SCENE_DIRECTIONS][points], both ways in the order of time */
   pendres_ramp_jump *jump;
   size_t trajectories;         /* 0: no noise */
   double *noisy;               /* [jumps][trajectories] values */
@@ -81,7 +79,7 @@ static void lay_out(scene_run *run, work *w, const deck_axis *a)
 static void prepare(scene_run *run, work *w, deck_axis_id axis, const scene_along_path *path)
 {
   const deck *d = w->d;
-  const size_t n = path->points, half = n / DIRECTIONS;
+  const size_t n = path->points, half = n / SCENE_DIRECTIONS;
   w->name = deck_axis_name(axis);
   w->ramp = (pendres_ramp){.pendulum = deck_pendulum(d),
                            .parameter = deck_axis_parameter(axis), .points = n,
@@ -90,7 +88,7 @@ static void prepare(scene_run *run, work *w, deck_axis_id axis, const scene_alon
   if (w->trajectories > 0) w->ramp.pendulum.temperature = d->axis[DECK_AXIS_TEMPERATURE].value[0];
   lay_out(run, w, &d->axis[axis]);
   pendres_hysteresis_point *point = scene_array(run, n, sizeof *point);
-  w->rows = scene_array(run, DIRECTIONS * w->points, sizeof *w->rows);
+  w->rows = scene_array(run, SCENE_DIRECTIONS * w->points, sizeof *w->rows);
   w->jump = scene_array(run, path->jumps, sizeof *w->jump);
   w->noisy = scene_array(run, path->jumps * w->trajectories, sizeof *w->noisy);
   w->summary = scene_array(run, path->jumps, sizeof *w->summary);
@@ -107,7 +105,7 @@ static void prepare(scene_run *run, work *w, deck_axis_id axis, const scene_alon
 /* A record: the jumps, then x, v and their errors. The turning point is one strobe of both ways. */
 static size_t samples(const work *w)
 {
-  return DIRECTIONS * (w->points - 1) + 1;
+  return SCENE_DIRECTIONS * (w->points - 1) + 1;
 }
 
 static pendres_status follow(const scene_some *some)
@@ -152,7 +150,7 @@ static pendres_status collect(const scene_points *p, size_t first, size_t n, con
   (void)first;
   (void)n;
   memcpy(w->jump, jump, w->ramp.jumps * sizeof *jump);
-  for (size_t i = 0; i < DIRECTIONS * w->points; i++) {
+  for (size_t i = 0; i < SCENE_DIRECTIONS * w->points; i++) {
     const size_t k = i < w->points ? i : i - 1;
     const double time = (double)((long)k * w->every);
     w->rows[i] = (row){time, pendres_ramp_value(&w->ramp, time), x[k], x[2 * all + k], x[all + k],
@@ -201,7 +199,7 @@ static void put_way(scene_run *run, const work *w)
                state_names),
   };
   const scene_table table = {.dimensions = {"direction", "point"}, .prefix = "ramp",
-                             .n = DIRECTIONS * w->points, .stride = sizeof *w->rows,
+                             .n = SCENE_DIRECTIONS * w->points, .stride = sizeof *w->rows,
                              .rows = w->rows};
   scene_numbering(run, "point", w->points, "number of the point of a way");
   SCENE_WRITE(run, &table, columns);
@@ -308,7 +306,7 @@ void scene_ramp_describe(const deck *d, deck_axis_id axis, FILE *out)
 {
   long every = 0;
   if (!deck_has_ramp(d)) return;
-  const long periods = DIRECTIONS * periods_of(d, &d->axis[axis], &every);
+  const long periods = SCENE_DIRECTIONS * periods_of(d, &d->axis[axis], &every);
   fprintf(out, "then the same in real time, over %ld drive periods", periods);
   if (deck_has_noise(d))
     fprintf(out, ", and %lld trajectories at temperature %g, %.3g pendulum-periods",

@@ -8,7 +8,7 @@
  */
 #include <math.h>
 
-#include "scenes/check.h"
+#include "scenes/columns.h"
 #include "scenes/points.h"
 
 static const double level = 0.95; /* of confidence intervals */

@@ -15,8 +15,9 @@
 #include "orbits/trapping_ellipse.h"
 
 enum {
-  PENDRES_MOST_COVERS = 4,  /* chaotic attractors of a parameter set */
-  PENDRES_COVER_CELLS = 128 /* a side */
+  PENDRES_MOST_COVERS = 4,   /* chaotic attractors of a parameter set */
+  PENDRES_COVER_CELLS = 128, /* a side */
+  PENDRES_MOST_GUESSES = 8   /* orbits that are searched for at a time in a parameter set */
 };
 
 /* Cells of the Poincaré plane that a chaotic attractor visits, or that touch such a cell. */

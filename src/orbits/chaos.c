@@ -20,14 +20,13 @@ enum {
   REPLICAS = 64,         /* replicas that are followed, once they have separated */
   WARM_UP = 200,         /* periods in which they separate */
   ATTEMPTS = 3,          /* to start replicas, while some leave the chaotic set immediately */
-  BATCHES = 16,          /* into which a replica's periods are divided, an even number */
+  BATCHES = PENDRES_GROWTH_BATCHES,
   BATCH = 120,           /* periods of a batch, at first. Replicas may visit the bands of an
                             attractor in turn, all in step: 120 periods are whole rounds of 2, 3, 4,
                             5, 6 or 8 bands */
   LONGEST_BATCH = 4 * BATCH, /* periods; batches grow to this while replicas do not agree */
   FEW_BATCHES = 4,       /* after which replicas on different attractors are distinguished */
-  KEPT = 8 * BATCH,      /* latest strobe points of a replica that are kept */
-  MOST_GUESSES = 8       /* orbits that are searched for at a time */
+  KEPT = 8 * BATCH       /* latest strobe points of a replica that are kept */
 };
 
 /* The logarithm of a suspect's tangent vector must have grown by this. Without chaos the vector
@@ -146,8 +145,7 @@ static pendres_status send_out(pendres_context *ctx, pendres_attractor_set *c,
   *together = 0;
   for (int attempt = 0; attempt < ATTEMPTS && !*together; attempt++, radius *= closer) {
     for (size_t i = 0; i < REPLICAS; i++) {
-      /* Spread by an irrational angle: no two replicas start at the same place. */
-      const double angle = 2.39996322972865332 * (double)i;
+      const double angle = golden_angle * (double)i;
       v->a[i] = pendres_replica_at(from.y + radius * cos(angle), from.w + radius * sin(angle));
     }
     const pendres_status status = pendres_replicas_advance(ctx, c, REPLICAS, v->a, WARM_UP, NULL);
@@ -191,7 +189,7 @@ static pendres_status next_batch(pendres_context *ctx, const pendres_attractor_s
 static pendres_status seek_orbits(pendres_context *ctx, pendres_attractor_set *c, const ensemble *v,
                                   size_t *settled)
 {
-  pendres_initial_guess guesses[MOST_GUESSES];
+  pendres_initial_guess guesses[PENDRES_MOST_GUESSES];
   size_t n = 0;
   const long points = v->trace.filled < PENDRES_RECURRENCE_POINTS ? v->trace.filled
                                                                   : PENDRES_RECURRENCE_POINTS;
@@ -207,7 +205,7 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_attractor_set *c
     }
     if (!pendres_recurrence_find((int)points, pendres_model_turn(&c->pendulum), y, w, &r)) continue;
     ++*settled;
-    if (n < MOST_GUESSES)
+    if (n < PENDRES_MOST_GUESSES)
       guesses[n++] = (pendres_initial_guess){.y = r.y, .w = r.w, .period = r.period,
                                              .winding = r.winding};
   }

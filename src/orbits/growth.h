@@ -14,6 +14,7 @@
 
 #include "engine/coordinates.h"
 
+/* Into which the periods of an average are divided: an even number. */
 enum { PENDRES_GROWTH_BATCHES = 16 };
 
 /* Tangent vectors of length one, as a motion begins with them. */

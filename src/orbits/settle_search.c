@@ -11,7 +11,6 @@
 #include "orbits/recurrence.h"
 
 enum {
-  MOST_GUESSES = 8,  /* orbits that are searched for at a time in one parameter set */
   FIRST_HISTORY = 65 /* strobe points that are available after the first round */
 };
 
@@ -82,7 +81,7 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
     if (!searched(l, i) || l->histories[i].filled == 0) continue;
     l->guesses[n].set = l->set[i];
     const double turn = pendres_model_turn(&attractor_sets[l->set[i]].pendulum);
-    if (in_set < MOST_GUESSES && recurrence(&l->histories[i], turn, &l->guesses[n])) {
+    if (in_set < PENDRES_MOST_GUESSES && recurrence(&l->histories[i], turn, &l->guesses[n])) {
       n++;
       in_set++;
     }

@@ -28,8 +28,6 @@ enum {
 static const double base_first = 0.25, base_departure = 0.7;
 /* Iterates are taken together until the linear map contracts to this. */
 static const double base_contraction = 0.6;
-/* Longest semi-axis of the outermost ring: well inside one turn, so that angles stay unique. */
-static const double widest = 1.6;
 static const double climb_ratio = 2.5; /* of radii, while rings hold */
 /* The largest radius that holds is found to this factor, by effort. */
 static const double few_ratio = 1.3, many_ratio = 1.04;
@@ -259,7 +257,8 @@ static void choose_rings(search *s, const pendres_trapping_ellipse *t)
     choose_ring(s, t, s->base, 0.0, BASE_POINTS, s->base_looks);
   } else if (s->stage == STAGE_CLIMB) {
     const double radius =
-      s->failed > 0.0 ? sqrt(s->proven * s->failed) : fmin(s->proven * climb_ratio, widest);
+      s->failed > 0.0 ? sqrt(s->proven * s->failed)
+                      : fmin(s->proven * climb_ratio, pendres_trapping_widest);
     choose_ring(s, t, radius, home_share * s->proven, FEW_POINTS, s->looks);
   } else {
     for (int k = 1; k <= RINGS; k++)
@@ -275,10 +274,11 @@ static void judge_base(search *s, const pendres_trapping_point *points, const pe
   s->pass++;
   if (departure <= base_departure) {
     /* As the departure grows with the square of the radius, a larger one may do: try that once. */
-    const int last = s->proven > 0.0 || departure > 0.5 * base_departure || s->base >= widest;
+    const int last = s->proven > 0.0 || departure > 0.5 * base_departure ||
+                     s->base >= pendres_trapping_widest;
     s->proven = s->base;
     if (last || s->pass >= BASE_PASSES) s->stage = STAGE_CLIMB;
-    s->base = fmin(widest, s->base * fmin(0.85 * base_departure / departure, 6.0));
+    s->base = fmin(pendres_trapping_widest, s->base * fmin(0.85 * base_departure / departure, 6.0));
   } else if (s->proven > 0.0) {
     s->stage = STAGE_CLIMB;
   } else {
@@ -303,7 +303,7 @@ static void judge(search *s, const pendres_trapping_point *points, const pendres
     }
     s->proven = s->ring[k].radius;
   }
-  if (s->proven >= widest) {
+  if (s->proven >= pendres_trapping_widest) {
     s->stage = STAGE_DONE;
   } else if (s->stage == STAGE_FINE) {
     if (s->failed < many_ratio * s->proven) s->stage = STAGE_DONE;

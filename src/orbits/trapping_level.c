@@ -41,9 +41,8 @@ enum {
 /* Damping is weak where a period leaves more than this of a distance: beyond, rings of a few
    iterates reach as far. */
 static const double weak = 0.94;
-/* Disks are wider or narrower than the one before by this factor. The widest is well inside one
-   turn, so that angles stay unique. */
-static const double pace = 1.5, widest = 1.6;
+/* Disks are wider or narrower than the one before by this factor. */
+static const double pace = 1.5;
 /* V falls by at least this share of what the linear map takes from it. */
 static const double least_fall = 0.5;
 /* Along a ray V grows with the distance to a power between these; with the square where the linear
@@ -313,7 +312,7 @@ static pendres_status judge(pendres_context *ctx, disk *d, pendres_trapping_elli
     d->done = 1; /* the one before was the best */
   }
   if (d->passes++ == 0) d->pace = whole ? pace : 1.0 / pace;
-  const double next = fmin(widest, d->radius * d->pace);
+  const double next = fmin(pendres_trapping_widest, d->radius * d->pace);
   if (d->passes >= PASSES || next == d->radius || next < d->ellipse.radius) d->done = 1;
   d->radius = next;
   return status;
@@ -354,7 +353,7 @@ static void begin(disk *d, size_t orbit, const pendres_orbit *o, const pendres_t
 {
   const double kept = exp(-two_pi * o->period * o->pendulum.damping / o->pendulum.drive_frequency);
   *d = (disk){.orbit = orbit, .kept = kept, .ellipse = *t};
-  d->radius = fmin(widest, 0.5 * t->radius / (1.0 - kept));
+  d->radius = fmin(pendres_trapping_widest, 0.5 * t->radius / (1.0 - kept));
   even_metric(o, d->ellipse.metric);
 }
 

@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 #include <sys/syscall.h>
 
-#include "verify.h"
+#include "run.h"
 
 /* On some bytes HDF5 runs in circles, and --verify gives it a minute. A second is enough for files
    as small as these: this stands in the place of the C library's function. Sanitizers call it

@@ -15,6 +15,7 @@
 #include "orbits/settle_lanes.h"
 #include "analysis/chaos/lyapunov_move.h"
 #include "analysis/chaos/lyapunov_verdict.h"
+#include "base/angles.h"
 #include "base/sized.h"
 
 enum {
@@ -102,9 +103,8 @@ static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
   j.runner = pendres_room_take(&room, all, sizeof *j.runner);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t at = 0; at < all; at++) {
-    /* Spread by an irrational angle: no two of them start at the same place. */
     const size_t i = f->which[at / f->copies], number = f->first + at % f->copies;
-    const double angle = 2.39996322972865332 * (double)number;
+    const double angle = golden_angle * (double)number;
     const double off = number > 0 ? f->job->accuracy : 0.0;
     p[at] = f->job->pendulum[i];
     x[at] = f->job->x[i] + off * cos(angle);

@@ -11,8 +11,7 @@
 enum {
   SLIPS = 3,   /* of a rotation by where a lock has ended, for its mean to be known */
   SHOWS = 1024, /* periods after which chaos shows in means */
-  SHORT_ORBIT = 16,    /* drive periods of one beside which a rotation may be slow, ... */
-  LONGEST_ORBIT = 128  /* ... and of one that is looked for */
+  SHORT_ORBIT = 16 /* drive periods of one beside which a rotation may be slow */
 };
 
 /* A rotation that slips once in n periods is known to a few slips in n periods. */
@@ -62,7 +61,7 @@ int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_l
   if (passed < SLIPS)
     off = fmax(off, pendres_mean_halves(&r->turns) * SLIPS / fmin(1.0, passed));
   if (passed > rounding * q * (double)periods && (passed < half_slip || !(off < enough))) return 0;
-  if (nearest(turned, LONGEST_ORBIT, &q, &p) < q * (as_near * off + rounding)) {
+  if (nearest(turned, PENDRES_RUNNER_LONGEST_ORBIT, &q, &p) < q * (as_near * off + rounding)) {
     r->period = q;
     r->winding = p;
     r->state = PENDRES_RUNNER_CAUGHT;

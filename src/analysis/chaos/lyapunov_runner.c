@@ -12,8 +12,7 @@
 
 enum {
   BATCHES = PENDRES_GROWTH_BATCHES,
-  WARM_UP = 16,        /* periods in which the tangent vector turns into the growing direction */
-  LONGEST_ORBIT = 128  /* drive periods of an orbit that is looked for */
+  WARM_UP = 16 /* periods in which the tangent vector turns into the growing direction */
 };
 
 /* The distance of a neighbour. Both its rounding errors and its departure from the linear equation
@@ -69,15 +68,16 @@ int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
   double across;
   const double square = apart_by(l, r->ref_y, r->ref_w, &across), lags = (double)lag;
   /* The more periods, the more often points come back by chance. */
-  if (lag > 0 && lag <= LONGEST_ORBIT && lags * lags * square < r->near * r->near) {
+  if (lag > 0 && lag <= PENDRES_RUNNER_LONGEST_ORBIT && lags * lags * square < r->near * r->near) {
     const double turns = (double)(l->turns - r->ref_turns) + across;
     r->period = (int)lag;
     r->winding = fabs(turns) < 1e6 ? (int)turns : 0;
     return 1;
   }
   if (l->period >= r->next) {
+    const long longest = 2 * PENDRES_RUNNER_LONGEST_ORBIT;
     look_from(r, l);
-    r->next = l->period + (l->period < 2 * LONGEST_ORBIT ? l->period : 2 * LONGEST_ORBIT);
+    r->next = l->period + (l->period < longest ? l->period : longest);
   }
   return 0;
 }

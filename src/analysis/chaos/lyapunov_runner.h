@@ -13,6 +13,8 @@
 #include "orbits/growth.h"
 #include "orbits/mean.h"
 
+enum { PENDRES_RUNNER_LONGEST_ORBIT = 128 /* drive periods of an orbit that is looked for */ };
+
 typedef enum pendres_runner_state {
   PENDRES_RUNNER_MOVING,
   PENDRES_RUNNER_WAITING,
