@@ -281,7 +281,7 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
     .n = n, .pendulum = p, .x = x, .v = v, .out = out,
     .accuracy = pendres_accuracy_to_average(ctx), .transient = o->transient,
     .periods = o->periods > 0 ? o->periods : PERIODS, .asked = o->periods > 0, .rounds = ROUNDS,
-    .longer = o->periods > 0 ? 0 : LONGER,
+    .coarse = o->periods == 0, .longer = o->periods > 0 ? 0 : LONGER,
     .care = PENDRES_CARE_FULL, .points = 1,
     .runner = pendres_room_take(&room, n, sizeof *j.runner),
     .orbit = pendres_room_take(&room, n, sizeof *j.orbit)};

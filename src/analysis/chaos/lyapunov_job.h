@@ -20,6 +20,8 @@ typedef struct pendres_lyapunov_job {
                                        its states alone, before it is averaged */
   int asked;                        /* number of periods, by the caller */
   int rounds;
+  int coarse;                       /* the first average: as exact as what is followed. Sweeps come
+                                       next to folds, beyond which such steps may be */
   size_t copies;                    /* of one pendulum each, side by side; 0: they are no copies */
   const pendres_orbit *known;       /* of copies: orbits that those are on which they are copies
                                        of; of period 0 if on none */

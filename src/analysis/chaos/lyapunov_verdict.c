@@ -172,7 +172,7 @@ static void judge(const job *j, long batch, double enough)
     if (r->beside == PENDRES_BESIDE_NOTHING) j->out[i].exponent = j->out[i].exponent_error = NAN;
     const long periods = batch * BATCHES;
     if (!chaotic && r->rotates) r->rough = pendres_means_tell(r, periods, enough, &j->out[i]);
-    const int coarse = r->beside == PENDRES_BESIDE_TANGENTS && !j->asked;
+    const int coarse = r->beside == PENDRES_BESIDE_TANGENTS && j->coarse;
     const int ordered = told == PENDRES_GROWTH_ORDER && !coarse;
     if (chaotic || r->rough || ordered ||
         (j->care == PENDRES_CARE_CLOSE && pendres_means_scatter(r, periods)))
@@ -307,7 +307,7 @@ static pendres_status follow(pendres_context *ctx, const job *j)
 static pendres_status coarsen(pendres_context *ctx, const job *j)
 {
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < j->n && !j->asked && status == PENDRES_OK; i++) {
+  for (size_t i = 0; i < j->n && j->coarse && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING || r->beside != PENDRES_BESIDE_TANGENTS) continue;
     status = pendres_steps_choose(ctx, r->lane.pendulum, speed_of(&r->lane),
