@@ -12,6 +12,7 @@
 
 #include "context_fixture.h"
 
+#include "analysis/sweeps/stable_part.h"
 #include "continuation/sets.h"
 
 /* Up and down over n values between two; the caller frees. No point is left out. */
@@ -319,6 +320,26 @@ static void upright(void **state)
   }
 }
 
+/* A part goes one way from its orbit: what the branch does the other way is not followed, though a
+   point there shows that the orbit is not at the end of its branch. */
+static void one_way(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 0.5, .drive_frequency = 2.0};
+  const pendres_orbit orbit = orbit_at(*state, &p, 1.6);
+  for (int direction = -1; direction <= 1; direction += 2) {
+    double behind = 0.0;
+    pendres_part s;
+    check_ok(pendres_part_from(*state, &orbit, PENDRES_DRIVE_FREQUENCY, 2.0 + 0.1 * direction, &s));
+    assert_int_equal(s.end, PENDRES_PART_LIMIT);
+    for (size_t i = 0; i < pendres_branch_count(s.branch); i++) {
+      const double there = pendres_branch_get(s.branch, i)->orbit.pendulum.drive_frequency;
+      behind = fmax(behind, direction * (2.0 - there));
+    }
+    assert_true(behind > 0.0 && behind < 1e-4);
+    pendres_part_free(&s);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -331,6 +352,7 @@ int main(void)
     cmocka_unit_test(one_bifurcation_at_a_place),
     cmocka_unit_test(one_branch),
     cmocka_unit_test(upright),
+    cmocka_unit_test(one_way),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }

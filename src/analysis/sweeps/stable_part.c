@@ -18,6 +18,10 @@ static const double wildest = 3000.0;
    all of its q points, and the part is one of many. */
 enum { FEW_POINTS = 48, MOST_POINTS = PENDRES_CURVE_POINTS, ENOUGH = 8 };
 
+/* From an orbit a part goes one way: the branch is followed the other way by this share of the
+   margin only, which shows that there is an orbit, too. */
+static const double little = 0.01;
+
 /* How close to a bifurcation the branch that is born there has that, too. */
 static const double near_birth = 1e-5;
 
@@ -62,8 +66,11 @@ static pendres_status extend(pendres_context *ctx, pendres_part *s, double limit
   const double here = s->born ? c->way->start.u[c->kind.system.unknown[2]] : from;
   const double room = pendres_part_margin(parameter);
   const double least = fmin(fmin(from, limit), here), most = fmax(fmax(from, limit), here);
+  /* A birth is located between points on both sides of it. */
+  const double behind = s->born ? room : little * room;
+  const double below = s->direction > 0 ? behind : room, above = s->direction > 0 ? room : behind;
   const pendres_curve_bounds bounds = {
-    .low = {pendres_parameter_beyond(parameter, least, -room)}, .high = {most + room},
+    .low = {pendres_parameter_beyond(parameter, least, -below)}, .high = {most + above},
     .wildest = wildest, .most_points = points};
   s->points_each_way = points;
   return pendres_branch_extend(ctx, s->branch, &bounds);
