@@ -212,8 +212,8 @@ typedef struct search {
   double base_share;     /* of a length that the linear map leaves then */
   int looks;             /* of the others */
   double base;           /* radius of the next base ring */
-  double proven, failed; /* largest radius that holds (checked, see trapping.h), smallest that does
-                            not */
+  double proven, failed; /* largest radius that holds (checked: trapping_ellipse.h), smallest that
+                            does not */
   int rings;             /* of this pass */
   pendres_trapping_ring ring[RINGS];
 } search;
