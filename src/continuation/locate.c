@@ -190,22 +190,23 @@ static int crosses(const pendres_system *system, const pendres_image *coarse,
 }
 
 /* Whether what the equations at a solution leave moves no parameter by more than its error, which
-   otherwise becomes that large. Newton's method ends where a short step is followed by one that is
-   hardly shorter: at weak damping that need not be rounding yet. */
+   otherwise becomes that large, as does that of the place. Newton's method ends where a short step
+   is followed by one that is hardly shorter: at weak damping that need not be rounding yet. */
 static pendres_status is_solved(pendres_context *ctx, const pendres_system *system,
-                                const double u[PENDRES_U_COUNT],
-                                double error[PENDRES_EQUATIONS_MOST], int *solved)
+                                pendres_located *l, int *solved)
 {
   pendres_equations there;
   double moved[PENDRES_EQUATIONS_MOST];
-  const pendres_status status =
-    pendres_equations_at(ctx, system, 1, (const double (*)[PENDRES_U_COUNT])u, &there);
+  const pendres_status status = pendres_equations_at(
+    ctx, system, 1, (const double (*)[PENDRES_U_COUNT])l->pair.fine, &there);
   *solved = 1;
   if (status != PENDRES_OK) return status;
   if (!moved_at_once(&there, system->unknown, there.r, moved)) return status;
-  for (int i = 2; i < system->unknowns; i++) {
-    *solved &= moved[i] <= error[i];
-    error[i] = fmax(error[i], moved[i]);
+  for (int i = 0; i < system->unknowns; i++) {
+    if (moved[i] <= l->error[i]) continue;
+    l->error[i] = moved[i];
+    if (i < 2) l->pair.rounding = fmax(l->pair.rounding, moved[i]);
+    else *solved = 0;
   }
   return status;
 }
@@ -268,7 +269,7 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system,
   status = solve_finely(ctx, &system, &few, out);
   for (int times = 0; status == PENDRES_OK && times < MOST_TIMES; times++) {
     int solved = 0;
-    status = is_solved(ctx, &system, pair->fine, out->error, &solved);
+    status = is_solved(ctx, &system, out, &solved);
     if (status != PENDRES_OK || solved) break;
     pendres_located again = *out;
     status = solve_finely(ctx, &system, &few, &again);
