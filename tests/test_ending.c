@@ -5,6 +5,7 @@
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "check.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -170,6 +171,21 @@ static void what_is_done_apart_harms_nothing(void **state)
   assert_int_equal(WEXITSTATUS(status), 0);
 }
 
+static int is_closed(const void *arg)
+{
+  return fcntl(*(const int *)arg, F_GETFD) < 0;
+}
+
+/* What is done apart may outlive a run that is killed, and must not keep its locks then. */
+static void what_is_done_apart_holds_no_files(void **state)
+{
+  (void)state;
+  const int file = open(".", O_RDONLY);
+  assert_true(file > STDERR_FILENO);
+  assert_int_equal(apart(is_closed, &file, 0), 1);
+  assert_int_equal(close(file), 0);
+}
+
 static int enter(void **state)
 {
   (void)state;
@@ -190,6 +206,7 @@ int main(void)
     cmocka_unit_test(what_is_told_stays),
     cmocka_unit_test(a_done_program_exits),
     cmocka_unit_test(what_is_done_apart_harms_nothing),
+    cmocka_unit_test(what_is_done_apart_holds_no_files),
   };
   return cmocka_run_group_tests(tests, enter, leave_folder);
 }

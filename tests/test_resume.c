@@ -47,6 +47,7 @@ static int kill_and_resume(const char *deck, double takes)
     went_on += strstr(err, "going on from") != NULL;
   }
   code = run_list(go_on);
+  if (code != DONE && code != 3) print_error("%s: code %d: %s\n", deck, code, err);
   assert_true(code == DONE || code == 3);
   went_on += strstr(err, "going on from") != NULL;
   return went_on;
