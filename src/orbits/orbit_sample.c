@@ -9,6 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"
+#include "engine/room.h"
 #include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
@@ -85,35 +86,36 @@ static void point_at(const pendres_orbit *o, const curve *c, double share, doubl
   out[1] = o->pendulum.drive_frequency * (f[1] + o->winding) / o->period;
 }
 
-/* By how much two curves, or their derivatives by phase, differ at most. */
+/* By how much two curves, and their derivatives by phase, differ at most. */
 static pendres_status farthest(pendres_context *ctx, const curve *coarse, const curve *fine,
-                               int derivative, double *apart)
+                               double apart[2])
 {
   const size_t n = coarse->series.samples;
   pendres_orbit_tables tables = {0};
-  double *a = malloc(2 * n * sizeof *a);
-  if (a == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  double *b = a + n;
-  pendres_status status = pendres_orbit_series_spread(&tables, &coarse->series, derivative, n, a);
-  if (status == PENDRES_OK)
-    status = pendres_orbit_series_spread(&tables, &fine->series, derivative, n, b);
+  pendres_room room = pendres_room_open(ctx, "samples");
+  double *a = pendres_room_take(&room, n, sizeof *a), *b = pendres_room_take(&room, n, sizeof *b);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  pendres_status status = PENDRES_OK;
+  for (int derivative = 0; derivative < 2 && status == PENDRES_OK; derivative++) {
+    apart[derivative] = 0.0;
+    status = pendres_orbit_series_spread(&tables, &coarse->series, derivative, n, a);
+    if (status == PENDRES_OK)
+      status = pendres_orbit_series_spread(&tables, &fine->series, derivative, n, b);
+    for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+      apart[derivative] = fmax(apart[derivative], fabs(a[k] - b[k]));
+  }
   if (status != PENDRES_OK)
     status = pendres_context_fail(ctx, status, "the samples of an orbit could not be compared");
-  *apart = 0.0;
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++) *apart = fmax(*apart, fabs(a[k] - b[k]));
   pendres_orbit_tables_free(&tables);
-  free(a);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* The largest errors of x and of v anywhere on the finer of two curves. */
 static pendres_status errors_of(pendres_context *ctx, const pendres_orbit *o, const curve *coarse,
                                 const curve *fine, double error[2])
 {
-  double apart[2] = {0.0, 0.0};
-  pendres_status status = farthest(ctx, coarse, fine, 0, &apart[0]);
-  if (status == PENDRES_OK) status = farthest(ctx, coarse, fine, 1, &apart[1]);
+  double apart[2];
+  const pendres_status status = farthest(ctx, coarse, fine, apart);
   if (status != PENDRES_OK) return status;
   apart[1] *= o->pendulum.drive_frequency / o->period;
   const double omega = o->pendulum.drive_frequency;

@@ -251,7 +251,7 @@ static void begin(const pendres_bifurcation *at, int direction, double distance[
 {
   const double scale = pendres_parameter_scale_at(at->parameter, at->value);
   for (int i = 0; i < TRIALS; i++) {
-    const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
+    const double part = (double)(i / 2) / (TRIALS / 2), angle = golden_angle * i;
     distance[i] = scale * beyond[i % 2] * (1.0 + 0.5 * part);
     const pendres_pendulum p = beyond_by(at, direction * distance[i]);
     const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
