@@ -27,7 +27,7 @@
 
 #include "engine/compat.h"
 #include "figures.h"
-#include "engine/flow.h"
+#include "engine/block.h"
 #include "engine/kernels.h"
 #include "engine/tables.h"
 
@@ -192,20 +192,21 @@ static double run(const pendres_options *options, const ensemble *reference, siz
 /* ---- Two ways in turn ------------------------------------------------------------------------ */
 
 typedef struct duel {
-  pendres_flow *flow;
+  pendres_context *ctx;
+  pendres_block *block;
   bare_method method;
   bare_block bare;
   double *memory;
 } duel;
 
-static void duel_open(duel *d, SUNContext sun, pendres_table table, size_t lanes, int steps)
+static void duel_open(duel *d, pendres_table table, size_t lanes, int steps)
 {
-  const pendres_flow_options options = {.rows = PENDRES_ROWS_STATE, .lanes = lanes, .table = table};
-  need_ok(pendres_flow_create(&options, sun, &d->flow), "a block");
-  need_ok(pendres_flow_set_steps(d->flow, steps), "a block's steps");
-  pendres_flow_resize(d->flow, lanes);
+  const pendres_options options = {.block_lanes = (int)lanes, .table = table};
+  need_ok(pendres_context_create(&options, &d->ctx), "a context");
+  need_ok(pendres_block_open(d->ctx, PENDRES_FLOW_STATE, steps, &d->block), "a block");
+  pendres_block_resize(d->block, lanes);
   bare_open(&d->method, table, steps);
-  const size_t n = pendres_flow_rows(d->flow).stride;
+  const size_t n = pendres_block_rows(d->block).stride;
   double *m = d->memory = need(aligned_alloc(64, 5 * n * sizeof *m));
   d->bare = (bare_block){n, m, m + n, m + 2 * n, m + 3 * n, m + 4 * n};
   const double omega = pendulum.drive_frequency;
@@ -218,7 +219,7 @@ static void duel_open(duel *d, SUNContext sun, pendres_table table, size_t lanes
 
 static void duel_close(duel *d)
 {
-  pendres_flow_free(d->flow);
+  pendres_context_free(d->ctx);
   free(d->method.cosine);
   free(d->memory);
 }
@@ -234,23 +235,23 @@ static void duel_run(duel *d, double budget, double *block, double *bare)
     for (size_t i = 0; i < n; i++) {
       d->bare.y[i] = start(i, n) - half_pi;
       d->bare.w[i] = 0.0;
-      pendres_flow_set_lane(d->flow, i, &pendulum, d->bare.y[i], 0.0);
+      pendres_block_load(d->block, i, &pendulum, d->bare.y[i], 0.0);
     }
     clock_gettime(CLOCK_MONOTONIC, &a);
-    need_ok(pendres_flow_period(d->flow), "a period");
+    need_ok(pendres_block_period(d->block), "a period");
     clock_gettime(CLOCK_MONOTONIC, &b);
     bare_run(&d->method, &d->bare, 1);
     clock_gettime(CLOCK_MONOTONIC, &c);
     *block = fmin(*block, seconds_between(&a, &b));
     *bare = fmin(*bare, seconds_between(&b, &c));
   } while (seconds_between(&first, &c) < budget);
-  const pendres_rows rows = pendres_flow_rows(d->flow);
+  const pendres_rows rows = pendres_block_rows(d->block);
   for (size_t i = 0; i < n; i++) /* the same method: the same numbers but for rounding */
     if (!(fabs(pendres_rows_get(&rows, PENDRES_ROW_Y, i) - d->bare.y[i]) < 1e-11))
       need_ok(1, "the bare loop");
 }
 
-static void print_widths(SUNContext sun)
+static void print_widths(void)
 {
   static const size_t widths[] = {8, 64, 128, 200, 256, 512, 1024, 2048, 4096};
   const int steps = 20;
@@ -260,7 +261,7 @@ static void print_widths(SUNContext sun)
   for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) {
     duel d = {0};
     double block, bare;
-    duel_open(&d, sun, PENDRES_TABLE_TP8, widths[i], steps);
+    duel_open(&d, PENDRES_TABLE_TP8, widths[i], steps);
     duel_run(&d, 0.4, &block, &bare);
     printf("%8zu %22.3f %22.3f %12.0f %%\n", widths[i], 1e6 * block / steps, 1e6 * bare / steps,
            100.0 * bare / block);
@@ -305,7 +306,7 @@ static void find_steps(pendres_table table, const ensemble *reference, need_of *
   }
 }
 
-static void print_tables(SUNContext sun, const ensemble *reference, int steps[TARGETS])
+static void print_tables(const ensemble *reference, int steps[TARGETS])
 {
   need_of needs[PENDRES_TABLE_COUNT];
   printf("\nReference ensemble, million pendulum-periods a second at a measured error\n");
@@ -318,7 +319,7 @@ static void print_tables(SUNContext sun, const ensemble *reference, int steps[TA
       if (pendres_tables_order(table) < 8 || needs[table].steps[t] == 0) continue;
       double block, bare;
       duel d = {0};
-      duel_open(&d, sun, table, MEMBERS, needs[table].steps[t]);
+      duel_open(&d, table, MEMBERS, needs[table].steps[t]);
       duel_run(&d, 0.25, &block, &bare);
       duel_close(&d);
       printf("%8.0e %8s %8d %10.1e %10.2f %10.2f %12.0f %%\n", targets[t],
@@ -389,15 +390,12 @@ int main(void)
 {
   static ensemble reference;
   int steps[TARGETS];
-  SUNContext sun = NULL;
-  if (pendres_compat_context_create(&sun) != 0) return 1;
   setvbuf(stdout, NULL, _IOLBF, 0);
   printf("SUNDIALS %s. Ratios count; other work on the machine changes absolute figures.\n",
          SUNDIALS_VERSION);
-  print_widths(sun);
+  print_widths();
   make_reference(&reference);
-  print_tables(sun, &reference, steps);
+  print_tables(&reference, steps);
   print_singles(&reference, steps);
-  SUNContext_Free(&sun);
   return 0;
 }

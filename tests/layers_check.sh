@@ -26,7 +26,7 @@ layers()
 src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/limits.h base/mix.h base/sine.h base/sized.h
   base/student.h
   model/forces.h model/model.h model/parameter.h model/units.h
-  engine/accuracy.h engine/chain.h engine/context_internal.h engine/door.h engine/coordinates.h engine/rank.h engine/room.h
+  engine/accuracy.h engine/block.h engine/chain.h engine/context_internal.h engine/door.h engine/coordinates.h engine/rank.h engine/room.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/growth.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
@@ -106,11 +106,11 @@ only()
 set -f
 only 'hdf5|hdf5_hl\.h|H5F|H5D|H5S' 'src/store/*'
 only 'H5public\.h' 'src/store/*' src/base/version.c
-only 'arkode/|cvode/|cvodes/' 'src/engine/flow*' 'src/engine/method_*' src/engine/compat.h
+only 'arkode/|cvode/|cvodes/' 'src/engine/block*' 'src/engine/flow*' 'src/engine/method_*' src/engine/compat.h
 only 'nvector/|sunmatrix/|sunlinsol/|sunnonlinsol/' 'src/engine/method_*'
-only 'sundials/' src/engine/compat.h 'src/engine/flow*' 'src/engine/lanes*' 'src/engine/method_*' \
+only 'sundials/' src/engine/compat.h 'src/engine/block*' 'src/engine/flow*' 'src/engine/lanes*' 'src/engine/method_*' \
   src/base/version.c
-only '.*compat\.h' 'src/engine/flow*' 'src/engine/method_*' src/engine/context.c
+only '.*compat\.h' 'src/engine/block*' 'src/engine/flow*' 'src/engine/method_*' src/engine/context.c
 only 'gsl/' 'src/*' validation/benchmark.c 'drivers/ending.c'
 only 'mpi\.h' 'drivers/farm/*_mpi.c'
 only 'omp\.h' 'drivers/*'

@@ -38,13 +38,13 @@ static void chain(pendres_context *ctx, pendres_flow_kind kind, size_t n,
 static void run_long(pendres_context *ctx, pendres_flow_kind kind, const pendres_chain_start *from,
                      double *out)
 {
-  pendres_block b;
+  pendres_block *b;
   check_ok(pendres_block_open(ctx, kind, STEPS, &b));
-  pendres_block_resize(&b, N);
+  pendres_block_resize(b, N);
   for (size_t i = 0; i < N; i++)
-    pendres_block_load(&b, i, &from[i].pendulum, from[i].y, from[i].w);
-  for (int k = 0; k < PERIODS; k++) check_ok(pendres_block_period(&b));
-  const pendres_rows rows = pendres_block_rows(&b);
+    pendres_block_load(b, i, &from[i].pendulum, from[i].y, from[i].w);
+  for (int k = 0; k < PERIODS; k++) check_ok(pendres_block_period(b));
+  const pendres_rows rows = pendres_block_rows(b);
   for (size_t row = 0; row < pendres_flow_kind_rows(kind); row++)
     for (size_t i = 0; i < N; i++) out[row * N + i] = pendres_rows_get(&rows, (int)row, i);
 }

@@ -6,8 +6,8 @@
 
 #include "base/instructions.h"
 #include "engine/context_internal.h"
-#include "engine/flow.h"
-#include "engine/flow_internal.h"
+#include "engine/block.h"
+#include "engine/block_internal.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 
@@ -66,7 +66,7 @@ static void test_same_bytes_on_every_instruction_set(void **state)
 #endif
   pendres_float_steps s = {0};
   (void)state;
-  assert_int_equal(pendres_flow_float_prepare(&s, STEPS), 0);
+  assert_int_equal(pendres_block_float_prepare(&s, STEPS), 0);
   for (size_t k = 0; k < 2 * count; k++) {
     seed = 7;
     numbers first = some_numbers();
@@ -88,9 +88,9 @@ static void test_same_bytes_on_every_instruction_set(void **state)
 }
 
 /* The states of all lanes of a flow, row after row. */
-static void take_rows(const pendres_flow *flow, double at[2][MOST])
+static void take_rows(const pendres_block *flow, double at[2][MOST])
 {
-  const pendres_rows rows = pendres_flow_rows(flow);
+  const pendres_rows rows = pendres_block_rows(flow);
   for (size_t i = 0; i < MOST; i++) {
     at[0][i] = pendres_rows_get(&rows, PENDRES_ROW_Y, i);
     at[1][i] = pendres_rows_get(&rows, PENDRES_ROW_W, i);
@@ -98,15 +98,15 @@ static void take_rows(const pendres_flow *flow, double at[2][MOST])
 }
 
 /* Pendulums of the same parameters from y and w, which carry an error that begins at zero. */
-static void load_flow(pendres_flow *flow, int steps, const pendres_pendulum *p, const double *y,
+static void load_flow(pendres_block *flow, int steps, const pendres_pendulum *p, const double *y,
                       const double *w, double added)
 {
-  pendres_flow_clear(flow);
-  check_ok(pendres_flow_set_steps(flow, steps));
-  pendres_flow_resize(flow, MOST);
+  pendres_block_clear(flow);
+  check_ok(pendres_block_set_steps(flow, steps));
+  pendres_block_resize(flow, MOST);
   for (size_t i = 0; i < MOST; i++) {
-    pendres_flow_set_lane(flow, i, p, y[i], w[i]);
-    pendres_flow_set_error(flow, i, &(pendres_flow_error){0}, added);
+    pendres_block_load(flow, i, p, y[i], w[i]);
+    pendres_block_set_error(flow, i, &(pendres_flow_error){0}, added);
   }
 }
 
@@ -117,10 +117,10 @@ typedef struct distances {
   int count;
 } distances;
 
-static void compare(distances *d, const pendres_flow *flow, double at[2][MOST], double to[2][MOST])
+static void compare(distances *d, const pendres_block *flow, double at[2][MOST], double to[2][MOST])
 {
   for (size_t i = 0; i < MOST; i++) {
-    const pendres_flow_error e = pendres_flow_get_error(flow, i);
+    const pendres_flow_error e = pendres_block_get_error(flow, i);
     const double off = hypot(at[0][i] - to[0][i], at[1][i] - to[1][i]) / sqrt(e.yy + e.ww);
     d->square += off * off;
     d->largest = isnan(off) ? INFINITY : fmax(d->largest, off);
@@ -142,14 +142,14 @@ static void test_carried_error_holds_the_rounding(void **state)
   static const double accuracy = 1e-5;
   const double rounding = pendres_strobe_noise_of_step_in_float();
   pendres_context *chooses = NULL, *ctx = NULL;
-  pendres_flow *flow = NULL;
+  pendres_block *flow = NULL;
   distances alone = {0}, in_all = {0};
   (void)state;
   check_ok(pendres_context_create(NULL, &chooses));
   const pendres_options options = {.block_lanes = MOST, .table = pendres_tables_float};
   check_ok(pendres_context_create(&options, &ctx));
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
-  check_ok(pendres_flow_carry(flow, PENDRES_FLOW_ERRORS));
+  check_ok(pendres_block_of(ctx, PENDRES_FLOW_STATE, &flow));
+  check_ok(pendres_block_carry(flow, PENDRES_FLOW_ERRORS));
   seed = 11;
   for (int round = 0; round < ROUNDS; round++) {
     const pendres_pendulum p = {.damping = between(0.02, 1.0),
@@ -163,17 +163,17 @@ static void test_carried_error_holds_the_rounding(void **state)
     }
     check_ok(pendres_steps_choose(chooses, &p, 2.0, accuracy, &steps));
     load_flow(flow, MANY_STEPS, &p, y, w, 0.0);
-    check_ok(pendres_flow_period(flow));
+    check_ok(pendres_block_period(flow));
     take_rows(flow, exact);
     load_flow(flow, steps, &p, y, w, 0.0);
-    check_ok(pendres_flow_period(flow));
+    check_ok(pendres_block_period(flow));
     take_rows(flow, rounded);
     load_flow(flow, steps, &p, y, w, rounding * rounding);
-    check_ok(pendres_flow_period_float(flow));
+    check_ok(pendres_block_period_float(flow));
     take_rows(flow, got);
     compare(&alone, flow, got, rounded);
     load_flow(flow, steps, &p, y, w, rounding * rounding + accuracy * accuracy / steps);
-    check_ok(pendres_flow_period_float(flow));
+    check_ok(pendres_block_period_float(flow));
     compare(&in_all, flow, got, exact);
   }
   const double typical = sqrt(alone.square / alone.count);

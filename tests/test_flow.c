@@ -9,7 +9,7 @@
 #include <pendres/reference.h>
 
 #include "engine/context_internal.h"
-#include "engine/flow.h"
+#include "engine/block.h"
 #include "engine/tables.h"
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
@@ -59,19 +59,19 @@ static void expected(const pendres_pendulum *p, double y, double v, double rows[
 }
 
 /* Largest error of a period by n steps over lanes and rows `from` to `to` - 1. */
-static double error_of(pendres_flow *flow, int n, size_t from, size_t to)
+static double error_of(pendres_block *flow, int n, size_t from, size_t to)
 {
   double worst = 0.0;
-  check_ok(pendres_flow_set_steps(flow, n));
-  pendres_flow_resize(flow, LANES);
+  check_ok(pendres_block_set_steps(flow, n));
+  pendres_block_resize(flow, LANES);
   for (size_t i = 0; i < LANES; i++) {
     pendres_pendulum p;
     double y, v;
     example(i, &p, &y, &v);
-    pendres_flow_set_lane(flow, i, &p, y, v / p.drive_frequency);
+    pendres_block_load(flow, i, &p, y, v / p.drive_frequency);
   }
-  check_ok(pendres_flow_period(flow));
-  const pendres_rows found = pendres_flow_rows(flow);
+  check_ok(pendres_block_period(flow));
+  const pendres_rows found = pendres_block_rows(flow);
   for (size_t i = 0; i < LANES; i++) {
     pendres_pendulum p;
     double y, v, rows[MOST_ROWS];
@@ -89,7 +89,7 @@ static double error_of(pendres_flow *flow, int n, size_t from, size_t to)
  * below 1e-6, where higher orders are small, to the first below 1e-10, where rounding (a few 1e-15
  * a period) is not felt yet.
  */
-static double measured_order(pendres_flow *flow, size_t from, size_t to)
+static double measured_order(pendres_block *flow, size_t from, size_t to)
 {
   double first = 0.0, error = 1.0;
   int steps = 16, first_steps = 0, last_steps = 0;
@@ -116,10 +116,10 @@ static void test_order_of_every_table(void **state)
     const pendres_options options = { .table = (pendres_table)t, .block_lanes = LANES };
     pendres_context *ctx = context(&options);
     const double order = pendres_tables_order((pendres_table)t);
-    pendres_flow *flow = NULL;
-    check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
+    pendres_block *flow = NULL;
+    check_ok(pendres_block_of(ctx, PENDRES_FLOW_STATE, &flow));
     const double plain = measured_order(flow, 0, 2);
-    check_ok(pendres_context_flow(ctx, PENDRES_FLOW_SENSITIVITY, &flow));
+    check_ok(pendres_block_of(ctx, PENDRES_FLOW_SENSITIVITY, &flow));
     const double derivatives = measured_order(flow, 2, 12);
     print_message("%-7s order %g: measured %.2f for the state, %.2f for its derivatives\n",
                   pendres_name_get(PENDRES_NAMES_TABLE, t), order, plain, derivatives);
@@ -163,15 +163,15 @@ static void test_order_conditions(void **state)
 static void test_rows_agree(void **state)
 {
   pendres_context *ctx = context(NULL);
-  pendres_flow *flow[3];
+  pendres_block *flow[3];
   double end[3][2 * LANES];
   (void)state;
   for (int k = 0; k < 3; k++) {
     const pendres_flow_kind kind[] = { PENDRES_FLOW_STATE, PENDRES_FLOW_VARIATIONAL,
                                        PENDRES_FLOW_SENSITIVITY };
-    check_ok(pendres_context_flow(ctx, kind[k], &flow[k]));
+    check_ok(pendres_block_of(ctx, kind[k], &flow[k]));
     (void)error_of(flow[k], 40, 0, 2);
-    const pendres_rows rows = pendres_flow_rows(flow[k]);
+    const pendres_rows rows = pendres_block_rows(flow[k]);
     for (size_t i = 0; i < LANES; i++)
       for (int r = 0; r < 2; r++) end[k][2 * i + (size_t)r] = pendres_rows_get(&rows, r, i);
     /* Different numbers of rows, the same operations on each: the same bits. */
@@ -193,9 +193,9 @@ static void keep(void *arg, int step, const pendres_rows *rows)
 }
 
 /* Of the first lane, after a period. */
-static double row_of(const pendres_flow *flow, int row)
+static double row_of(const pendres_block *flow, int row)
 {
-  const pendres_rows rows = pendres_flow_rows(flow);
+  const pendres_rows rows = pendres_block_rows(flow);
   return pendres_rows_get(&rows, row, 0);
 }
 
@@ -203,26 +203,26 @@ static double row_of(const pendres_flow *flow, int row)
 static void test_samples_and_halves(void **state)
 {
   pendres_context *ctx = context(NULL);
-  pendres_flow *flow = NULL;
+  pendres_block *flow = NULL;
   samples s = { .steps = 34 };
   pendres_pendulum p;
   double y, v;
   (void)state;
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
+  check_ok(pendres_block_of(ctx, PENDRES_FLOW_STATE, &flow));
   (void)error_of(flow, s.steps, 0, 2);
   const double whole = row_of(flow, PENDRES_ROW_Y);
   example(0, &p, &y, &v);
-  pendres_flow_set_lane(flow, 0, &p, y, v / p.drive_frequency);
-  check_ok(pendres_flow_period_sampled(flow, keep, &s));
+  pendres_block_load(flow, 0, &p, y, v / p.drive_frequency);
+  check_ok(pendres_block_period_sampled(flow, keep, &s));
   assert_int_equal(s.calls, s.steps);
   assert_true(s.y == whole && row_of(flow, PENDRES_ROW_Y) == whole);
 
   /* From phase pi on the drive has the other sign: the second half by the mirrored pendulum. */
-  pendres_flow_set_lane(flow, 0, &p, y, v / p.drive_frequency);
-  check_ok(pendres_flow_half_period(flow));
-  pendres_flow_set_lane(flow, 0, &p, -row_of(flow, PENDRES_ROW_Y),
-                        -row_of(flow, PENDRES_ROW_W));
-  check_ok(pendres_flow_half_period(flow));
+  pendres_block_load(flow, 0, &p, y, v / p.drive_frequency);
+  check_ok(pendres_block_half_period(flow));
+  pendres_block_load(flow, 0, &p, -row_of(flow, PENDRES_ROW_Y),
+                     -row_of(flow, PENDRES_ROW_W));
+  check_ok(pendres_block_half_period(flow));
   /* Rounding of 34 steps, and of cos(theta) on the other half of the circle. */
   check_near(-row_of(flow, PENDRES_ROW_Y), whole, 34 * 2.2e-16 * 3.0);
   pendres_context_free(ctx);
@@ -232,17 +232,17 @@ static void test_refusals(void **state)
 {
   const pendres_options adaptive = { .method = PENDRES_BLOCK_ADAPTIVE };
   pendres_context *ctx = context(&adaptive);
-  pendres_flow *flow = NULL;
+  pendres_block *flow = NULL;
   (void)state;
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
-  assert_int_equal(pendres_flow_set_steps(flow, 0), PENDRES_INVALID_ARGUMENT);
-  check_ok(pendres_flow_set_steps(flow, 9));
-  assert_int_equal(pendres_flow_half_period(flow), PENDRES_INVALID_ARGUMENT);
-  check_ok(pendres_context_flow_adaptive(ctx, 1e-8, &flow));
-  assert_int_equal(pendres_flow_set_steps(flow, 20), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_flow_period_sampled(flow, keep, NULL), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_flow_half_period(flow), PENDRES_INVALID_ARGUMENT);
-  pendres_flow_free(flow);
+  check_ok(pendres_block_of(ctx, PENDRES_FLOW_STATE, &flow));
+  assert_int_equal(pendres_block_set_steps(flow, 0), PENDRES_INVALID_ARGUMENT);
+  check_ok(pendres_block_set_steps(flow, 9));
+  assert_int_equal(pendres_block_half_period(flow), PENDRES_INVALID_ARGUMENT);
+  check_ok(pendres_block_create(ctx, PENDRES_ROWS_STATE, 1e-8, &flow));
+  assert_int_equal(pendres_block_set_steps(flow, 20), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_block_period_sampled(flow, keep, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_block_half_period(flow), PENDRES_INVALID_ARGUMENT);
+  pendres_block_free(flow);
   pendres_context_free(ctx);
 }
 
@@ -338,48 +338,48 @@ static void test_clock_of_many_steps(void **state)
   static const pendres_pendulum p = { .drive_amplitude = 1e18, .drive_frequency = 1e9 };
   const double rounding = 6e-14;
   swing s = { .steps = 53248 };
-  pendres_flow *flow = NULL;
+  pendres_block *flow = NULL;
   (void)state;
   pendres_context *ctx = context(&(pendres_options){ .block_lanes = LANES });
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
-  check_ok(pendres_flow_set_steps(flow, s.steps));
-  pendres_flow_resize(flow, 1);
-  pendres_flow_set_lane(flow, 0, &p, -1.0, 0.0);
-  check_ok(pendres_flow_period_sampled(flow, compare_with_sine, &s));
+  check_ok(pendres_block_of(ctx, PENDRES_FLOW_STATE, &flow));
+  check_ok(pendres_block_set_steps(flow, s.steps));
+  pendres_block_resize(flow, 1);
+  pendres_block_load(flow, 0, &p, -1.0, 0.0);
+  check_ok(pendres_block_period_sampled(flow, compare_with_sine, &s));
   check_near(s.worst, 0.0, rounding);
 
   /* Neither a cut step at the end nor one too many. */
-  const double before = pendres_flow_steps(flow);
-  pendres_flow_set_lane(flow, 0, &p, -1.0, 0.0);
-  check_ok(pendres_flow_period(flow));
+  const double before = pendres_block_steps(flow);
+  pendres_block_load(flow, 0, &p, -1.0, 0.0);
+  check_ok(pendres_block_period(flow));
   check_near(row_of(flow, PENDRES_ROW_W), 0.0, rounding);
-  assert_true(pendres_flow_steps(flow) - before == s.steps);
-  pendres_flow_set_lane(flow, 0, &p, -1.0, 0.0);
-  check_ok(pendres_flow_half_period(flow));
+  assert_true(pendres_block_steps(flow) - before == s.steps);
+  pendres_block_load(flow, 0, &p, -1.0, 0.0);
+  check_ok(pendres_block_half_period(flow));
   check_near(row_of(flow, PENDRES_ROW_W), 0.0, rounding);
   pendres_context_free(ctx);
 }
 
 /* What the tangents of a lane at rest grow by in the last of 30 periods, all others forgotten. */
-static void growth_of(pendres_flow *flow, const pendres_pendulum *p, double y, int steps,
+static void growth_of(pendres_block *flow, const pendres_pendulum *p, double y, int steps,
                       double growth[2])
 {
   double u[2];
-  check_ok(pendres_flow_set_steps(flow, steps));
-  check_ok(pendres_flow_carry(flow, PENDRES_FLOW_TANGENTS));
+  check_ok(pendres_block_set_steps(flow, steps));
+  check_ok(pendres_block_carry(flow, PENDRES_FLOW_TANGENTS));
   for (int period = 0; period < 30; period++) {
-    pendres_flow_set_lane(flow, 0, p, y, 0.0);
+    pendres_block_load(flow, 0, p, y, 0.0);
     for (int i = 0; i < 2 && period == 0; i++)
-      pendres_flow_set_tangent(flow, 0, i, (const double[]){0.6, 0.8});
-    check_ok(pendres_flow_period(flow));
+      pendres_block_put_tangent(flow, 0, i, (const double[]){0.6, 0.8});
+    check_ok(pendres_block_period(flow));
     for (int i = 0; i < 2; i++) {
-      pendres_flow_get_tangent(flow, 0, i, u);
+      pendres_block_get_tangent(flow, 0, i, u);
       growth[i] = log(hypot(u[0], u[1]));
       for (int k = 0; k < 2; k++) u[k] /= exp(growth[i]);
-      pendres_flow_set_tangent(flow, 0, i, u);
+      pendres_block_put_tangent(flow, 0, i, u);
     }
   }
-  check_ok(pendres_flow_carry(flow, PENDRES_FLOW_NOTHING));
+  check_ok(pendres_block_carry(flow, PENDRES_FLOW_NOTHING));
 }
 
 /*
@@ -398,16 +398,16 @@ static void test_tangents(void **state)
                                  .parametric_amplitude = 0.8, .force = PENDRES_FORCE_POLYNOMIAL,
                                  .force_coefficients = {1.0}};
   const double rate = sqrt(1.0 + 0.0625) - 0.25;
-  pendres_flow *flow = NULL, *exact = NULL;
+  pendres_block *flow = NULL, *exact = NULL;
   (void)state;
   pendres_context *ctx = context(&(pendres_options){.block_lanes = LANES});
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_VARIATIONAL, &exact));
-  check_ok(pendres_flow_set_steps(exact, 400));
-  pendres_flow_resize(exact, 1);
-  pendres_flow_set_lane(exact, 0, &sway, 0.0, 0.0);
-  check_ok(pendres_flow_period(exact));
+  check_ok(pendres_block_of(ctx, PENDRES_FLOW_VARIATIONAL, &exact));
+  check_ok(pendres_block_set_steps(exact, 400));
+  pendres_block_resize(exact, 1);
+  pendres_block_load(exact, 0, &sway, 0.0, 0.0);
+  check_ok(pendres_block_period(exact));
   double m[2][2];
-  const pendres_rows rows = pendres_flow_rows(exact);
+  const pendres_rows rows = pendres_block_rows(exact);
   pendres_rows_tangent(&rows, 0, m);
   const double half = 0.5 * (m[0][0] + m[1][1]);
   const double root = sqrt(half * half - (m[0][0] * m[1][1] - m[0][1] * m[1][0]));
@@ -418,11 +418,11 @@ static void test_tangents(void **state)
     double y, want;
   } cases[] = {{&fall, 2.0 * half_pi, 2.0 * 2.0 * half_pi * rate}, {&sway, 0.0, sways},
                {&beam, 0.0, sways}};
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
+  check_ok(pendres_block_of(ctx, PENDRES_FLOW_STATE, &flow));
   for (size_t c = 0; c < COUNT(cases); c++) {
     double few[2], many[2];
-    pendres_flow_clear(flow);
-    pendres_flow_resize(flow, 1);
+    pendres_block_clear(flow);
+    pendres_block_resize(flow, 1);
     growth_of(flow, cases[c].p, cases[c].y, 16, few);
     growth_of(flow, cases[c].p, cases[c].y, 32, many);
     const double ratio = (few[0] - cases[c].want) / (many[0] - cases[c].want);
@@ -431,7 +431,7 @@ static void test_tangents(void **state)
     check_near(many[0] - (many[1] - many[0]) / 15.0, cases[c].want,
                fabs(many[1] - many[0]) / 15.0);
   }
-  assert_int_equal(pendres_flow_carry(exact, PENDRES_FLOW_TANGENTS), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_block_carry(exact, PENDRES_FLOW_TANGENTS), PENDRES_INVALID_ARGUMENT);
   pendres_context_free(ctx);
 }
 

@@ -9,7 +9,7 @@
 #include <pendres/pendres.h>
 
 #include "engine/context_internal.h"
-#include "engine/flow.h"
+#include "engine/block.h"
 #include "model/model.h"
 #include "model/parameter.h"
 
@@ -103,14 +103,14 @@ enum { LANES = 24 };
 static void run(pendres_context *ctx, pendres_flow_kind kind, const pendres_pendulum *p, size_t n,
                 double (*end)[2])
 {
-  pendres_flow *flow = NULL;
-  check_ok(pendres_context_flow(ctx, kind, &flow));
-  pendres_flow_clear(flow);
-  check_ok(pendres_flow_set_steps(flow, 40));
-  pendres_flow_resize(flow, n);
-  for (size_t i = 0; i < n; i++) pendres_flow_set_lane(flow, i, &p[i], 0.1 * (double)i, 0.4);
-  check_ok(pendres_flow_period(flow));
-  const pendres_rows rows = pendres_flow_rows(flow);
+  pendres_block *flow = NULL;
+  check_ok(pendres_block_of(ctx, kind, &flow));
+  pendres_block_clear(flow);
+  check_ok(pendres_block_set_steps(flow, 40));
+  pendres_block_resize(flow, n);
+  for (size_t i = 0; i < n; i++) pendres_block_load(flow, i, &p[i], 0.1 * (double)i, 0.4);
+  check_ok(pendres_block_period(flow));
+  const pendres_rows rows = pendres_block_rows(flow);
   for (size_t i = 0; i < n; i++)
     for (int r = 0; r < 2; r++) end[i][r] = pendres_rows_get(&rows, r, i);
 }
@@ -168,28 +168,28 @@ static void tangents(void **state)
   pendres_context *ctx = context(1e-8);
   (void)state;
   for (size_t i = 0; i < COUNT(cases); i++) {
-    pendres_flow *flow = NULL;
+    pendres_block *flow = NULL;
     const int own = cases[i].force != PENDRES_FORCE_PENDULUM;
     int columns = 2;
     while (columns < 2 + PENDRES_PARAMETER_FOLLOWED &&
            pendres_parameter_refuses((pendres_parameter)(columns - 2), cases[i].force) == NULL)
       columns++;
     const int runs = 2 * columns;
-    check_ok(pendres_context_flow(ctx, own ? PENDRES_FLOW_ALL : PENDRES_FLOW_DRIVES, &flow));
-    pendres_flow_clear(flow);
-    check_ok(pendres_flow_set_steps(flow, 60));
-    pendres_flow_resize(flow, (size_t)runs + 1);
+    check_ok(pendres_block_of(ctx, own ? PENDRES_FLOW_ALL : PENDRES_FLOW_DRIVES, &flow));
+    pendres_block_clear(flow);
+    check_ok(pendres_block_set_steps(flow, 60));
+    pendres_block_resize(flow, (size_t)runs + 1);
     for (int k = 0; k <= runs; k++) {
       pendres_pendulum p = cases[i];
       const double sign = k % 2 == 0 ? step : -step;
       const pendres_parameter by = (pendres_parameter)((k - 4) / 2);
       if (k >= 4 && k < runs)
         pendres_parameter_set(by, pendres_parameter_get(by, &p) + sign, &p);
-      pendres_flow_set_lane(flow, (size_t)k, &p, 0.3 + (k < 2 ? sign : 0.0),
-                            0.2 + (k == 2 || k == 3 ? sign : 0.0));
+      pendres_block_load(flow, (size_t)k, &p, 0.3 + (k < 2 ? sign : 0.0),
+                         0.2 + (k == 2 || k == 3 ? sign : 0.0));
     }
-    check_ok(pendres_flow_period(flow));
-    const pendres_rows rows = pendres_flow_rows(flow);
+    check_ok(pendres_block_period(flow));
+    const pendres_rows rows = pendres_block_rows(flow);
     for (int column = 0; column < columns; column++)
       for (int r = 0; r < 2; r++) {
         const double high = pendres_rows_get(&rows, r, (size_t)(2 * column));

@@ -13,7 +13,7 @@
 #include <pendres/strobe.h>
 
 #include "engine/context_internal.h"
-#include "engine/flow.h"
+#include "engine/block.h"
 #include "engine/steps.h"
 
 static const double pi = 3.14159265358979323846;
@@ -164,16 +164,16 @@ static void too_fast_to_be_tried(void **state)
   const pendres_pendulum squid = {.damping = 0.1, .drive_amplitude = 0.1, .drive_frequency = 0.6,
                                   .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.6}};
   pendres_context *ctx = context_of(0);
-  pendres_flow *flow = NULL;
+  pendres_block *flow = NULL;
   int steps = -1;
   (void)state;
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
+  check_ok(pendres_block_of(ctx, PENDRES_FLOW_STATE, &flow));
   assert_int_equal(pendres_steps_choose(ctx, &squid, 1e6, 1e-6, &steps),
                    PENDRES_TOLERANCE_UNREACHABLE);
   assert_int_equal(steps, -1);
-  check_near(pendres_flow_evaluations(flow), 0.0, 0.0);
+  check_near(pendres_block_evaluations(flow), 0.0, 0.0);
   assert_true(choose(ctx, &squid, 100.0, 1e-6) > 0);
-  assert_true(pendres_flow_evaluations(flow) > 0.0);
+  assert_true(pendres_block_evaluations(flow) > 0.0);
   pendres_context_free(ctx);
 }
 

@@ -297,16 +297,16 @@ static pendres_status images(pendres_context *ctx, const pendres_system *s, size
                              const double (*u)[PENDRES_U_COUNT], pendres_flow_kind kind,
                              pendres_image *out)
 {
-  pendres_block b;
+  pendres_block *b;
   const int chained =
     s->map.mirror != PENDRES_MIRROR_HALF && pendres_chain_worth(whole_periods(&s->map));
   pendres_status status = pendres_block_open(ctx, kind, s->steps, &b);
   if (status != PENDRES_OK) return status;
-  const size_t capacity = pendres_block_capacity(&b);
+  const size_t capacity = pendres_block_capacity(b);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     const points p = {&s->map, u + first, s->steps, columns_of(kind),
                       n - first < capacity ? n - first : capacity, out + first};
-    status = chained ? run_chain(ctx, kind, &p) : run_block(&b, s->condition, &p);
+    status = chained ? run_chain(ctx, kind, &p) : run_block(b, s->condition, &p);
     if (status == PENDRES_OK) ctx->cost.newton_steps += (double)p.n;
   }
   return status;

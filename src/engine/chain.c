@@ -19,16 +19,16 @@ static pendres_status run_states(const part *p, int periods)
   const pendres_chain *c = p->of;
   const size_t n = c->n;
   double *y = c->rows, *w = y + n;
-  pendres_block b;
+  pendres_block *b;
   pendres_status status = pendres_block_open(p->ctx, PENDRES_FLOW_STATE, c->steps, &b);
   if (status != PENDRES_OK) return status;
-  pendres_block_resize(&b, n);
-  for (size_t i = 0; i < n; i++) pendres_block_load(&b, i, &c->from[i].pendulum, y[i], w[i]);
+  pendres_block_resize(b, n);
+  for (size_t i = 0; i < n; i++) pendres_block_load(b, i, &c->from[i].pendulum, y[i], w[i]);
   for (int k = 0; k < periods && status == PENDRES_OK; k++) {
     memcpy(p->y + (size_t)k * n, y, n * sizeof *y);
     memcpy(p->w + (size_t)k * n, w, n * sizeof *w);
-    status = pendres_block_period(&b);
-    const pendres_rows rows = pendres_block_rows(&b);
+    status = pendres_block_period(b);
+    const pendres_rows rows = pendres_block_rows(b);
     for (size_t i = 0; i < n; i++) {
       y[i] = pendres_rows_get(&rows, PENDRES_ROW_Y, i);
       w[i] = pendres_rows_get(&rows, PENDRES_ROW_W, i);
@@ -56,14 +56,14 @@ static pendres_status run_derivatives(const part *p, int periods)
 {
   const pendres_chain *c = p->of;
   const size_t n = c->n, lanes = (size_t)periods * n;
-  pendres_block b;
+  pendres_block *b;
   pendres_status status = pendres_block_open(p->ctx, c->kind, c->steps, &b);
   if (status != PENDRES_OK) return status;
-  pendres_block_resize(&b, lanes);
+  pendres_block_resize(b, lanes);
   for (size_t k = 0; k < lanes; k++)
-    pendres_block_load(&b, k, &c->from[k % n].pendulum, p->y[k], p->w[k]);
-  status = pendres_block_period(&b);
-  const pendres_rows rows = pendres_block_rows(&b);
+    pendres_block_load(b, k, &c->from[k % n].pendulum, p->y[k], p->w[k]);
+  status = pendres_block_period(b);
+  const pendres_rows rows = pendres_block_rows(b);
   for (size_t k = 0; k < lanes && status == PENDRES_OK; k++) multiply(c, &rows, k, k % n);
   return status;
 }
@@ -82,10 +82,10 @@ static void begin(const pendres_chain *c)
 
 pendres_status pendres_chain_run(pendres_context *ctx, const pendres_chain *c)
 {
-  pendres_block b;
+  pendres_block *b;
   pendres_status status = pendres_block_open(ctx, c->kind, c->steps, &b);
   if (status != PENDRES_OK || c->n == 0) return status;
-  const size_t most = pendres_block_capacity(&b) / c->n;
+  const size_t most = pendres_block_capacity(b) / c->n;
   const int some = most < (size_t)c->periods ? (int)most : c->periods;
   const size_t starts = (size_t)some * c->n;
   double *y = malloc(2 * starts * sizeof *y);

@@ -9,7 +9,7 @@
 #ifndef PENDRES_CHAIN_H
 #define PENDRES_CHAIN_H
 
-#include "engine/coordinates.h"
+#include "engine/block.h"
 #include "engine/kernels.h"
 #include "engine/lanes_shape.h"
 

@@ -9,8 +9,8 @@
 
 #include "base/sized.h"
 #include "engine/accuracy.h"
+#include "engine/block.h"
 #include "engine/compat.h"
-#include "engine/flow.h"
 #include "engine/steps.h"
 #include "engine/tables.h"
 
@@ -74,7 +74,7 @@ const char *pendres_options_check(const pendres_options *options)
 void pendres_context_free(pendres_context *ctx)
 {
   if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
-  for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_flow_free(ctx->flows[i]);
+  for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_block_free(ctx->blocks[i]);
   pendres_steps_memo_free(ctx->steps);
   SUNContext sun = ctx->sun;
   if (sun != NULL) SUNContext_Free(&sun);
@@ -99,9 +99,9 @@ void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost)
   if (ctx == NULL || pendres_guard_used_elsewhere(&ctx->guard)) return;
   *cost = ctx->cost;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
-    if (ctx->flows[i] != NULL) {
-      cost->rhs_evaluations += pendres_flow_evaluations(ctx->flows[i]);
-      cost->steps += pendres_flow_steps(ctx->flows[i]);
+    if (ctx->blocks[i] != NULL) {
+      cost->rhs_evaluations += pendres_block_evaluations(ctx->blocks[i]);
+      cost->steps += pendres_block_steps(ctx->blocks[i]);
     }
 }
 
@@ -109,7 +109,7 @@ double pendres_context_slopes(const pendres_context *ctx)
 {
   double slopes = ctx->cost.rhs_evaluations;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
-    if (ctx->flows[i] != NULL) slopes += pendres_flow_evaluations(ctx->flows[i]);
+    if (ctx->blocks[i] != NULL) slopes += pendres_block_evaluations(ctx->blocks[i]);
   return slopes;
 }
 
@@ -156,62 +156,4 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
   (void)pendres_guard_fail(&ctx->guard, status, format, args);
   va_end(args);
   return status;
-}
-
-pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,
-                                           pendres_status status)
-{
-  if (status == PENDRES_INTERRUPTED)
-    return pendres_context_fail(ctx, status, "interrupted on request");
-  if (status == PENDRES_OUT_OF_MEMORY)
-    return pendres_context_fail(ctx, status, "out of memory for the steps of a period");
-  return pendres_context_fail(ctx, status, "ARKODE gave up within a drive period (code %d)",
-                              pendres_flow_failure(flow));
-}
-
-static pendres_status make_flow(pendres_context *ctx, size_t rows, double tolerance,
-                                pendres_flow **out)
-{
-  const pendres_flow_options options = {.rows = rows,
-                                        .lanes = (size_t)ctx->options.block_lanes,
-                                        .table = ctx->options.table,
-                                        .stop = pendres_context_stops,
-                                        .stop_arg = ctx,
-                                        .tolerance = tolerance};
-  const pendres_status status = pendres_flow_create(&options, ctx->sun, out);
-  if (status == PENDRES_OK) return status;
-  return pendres_context_fail(ctx, status, "no block of pendulums could be set up: %s",
-                              pendres_status_message(status));
-}
-
-size_t pendres_flow_kind_rows(pendres_flow_kind kind)
-{
-  static const size_t rows[PENDRES_FLOW_KINDS] = {
-    [PENDRES_FLOW_STATE] = PENDRES_ROWS_STATE,
-    [PENDRES_FLOW_VARIATIONAL] = PENDRES_ROWS_VARIATIONAL,
-    [PENDRES_FLOW_SENSITIVITY] = PENDRES_ROWS_SENSITIVITY,
-    [PENDRES_FLOW_DRIVES] = PENDRES_ROWS_DRIVES,
-    [PENDRES_FLOW_ALL] = PENDRES_ROWS_ALL};
-  return rows[kind];
-}
-
-pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
-                                    pendres_flow **out)
-{
-  pendres_status status = PENDRES_OK;
-  /* ARKODE (6.4) crashes when it is called again after an allocation has failed. */
-  if (ctx->flows[kind] != NULL && pendres_flow_failure(ctx->flows[kind]) == ARK_MEM_FAIL) {
-    pendres_flow_free(ctx->flows[kind]);
-    ctx->flows[kind] = NULL;
-  }
-  if (ctx->flows[kind] == NULL)
-    status = make_flow(ctx, pendres_flow_kind_rows(kind), 0.0, &ctx->flows[kind]);
-  *out = ctx->flows[kind];
-  return status;
-}
-
-pendres_status pendres_context_flow_adaptive(pendres_context *ctx, double tolerance,
-                                             pendres_flow **out)
-{
-  return make_flow(ctx, PENDRES_ROWS_STATE, tolerance, out);
 }

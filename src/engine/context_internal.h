@@ -23,15 +23,15 @@ typedef enum pendres_flow_kind {
 } pendres_flow_kind;
 
 struct pendres_steps_memo; /* steps.h */
-typedef struct pendres_flow pendres_flow; /* flow.h */
+typedef struct pendres_block pendres_block; /* block.h */
 
 struct pendres_context {
   pendres_guard guard;
   pendres_options options; /* defaults resolved; the tolerance is canonical while a door is open */
   int tolerance_given; /* the tolerance is the caller's, not the default of canonical units */
   int canonical;       /* a door (door.h) is open: all is in canonical units */
-  void *sun;           /* a SUNContext, for the flows */
-  pendres_flow *flows[PENDRES_FLOW_KINDS];
+  void *sun;           /* a SUNContext, for the blocks */
+  pendres_block *blocks[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;
   pendres_cost cost;
   double most_slopes;    /* pendres_context_slopes at which a computation ends; INFINITY: never */
@@ -59,17 +59,6 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
                                     const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Rows of a kind of block. */
-size_t pendres_flow_kind_rows(pendres_flow_kind kind);
-
-/* The context's block of a kind, made at its first use. */
-pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
-                                    pendres_flow **out);
-
-/* Another block of states, by adaptive steps at a tolerance; the caller frees it. */
-pendres_status pendres_context_flow_adaptive(pendres_context *ctx, double tolerance,
-                                             pendres_flow **out);
-
 /*
  * To be called between drive periods: PENDRES_INTERRUPTED when the caller asked to stop, and beyond
  * ctx->most_slopes. A function that sets most_slopes compares the slopes at the end as well: when
@@ -79,9 +68,5 @@ pendres_status pendres_context_poll(pendres_context *ctx);
 /* Whether the caller asked to stop, as a function that can be handed to others; ctx is a context.
  */
 int pendres_context_stops(void *ctx);
-
-/* Record a failure of the integrator. */
-pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,
-                                           pendres_status status);
 
 #endif

@@ -188,7 +188,7 @@ typedef struct pendres_kernels {
               size_t n);
 } pendres_kernels;
 
-/* The fastest variant that this processor runs. Never NULL; static. Defined in flow.c, since
+/* The fastest variant that this processor runs. Never NULL; static. Defined in block.c, since
    kernels.c is compiled once for each variant. */
 const pendres_kernels *pendres_kernels_select(void);
 

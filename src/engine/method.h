@@ -21,8 +21,8 @@ typedef struct pendres_strobe_lane {
   long period;                      /* strobes so far */
   int steps;                        /* a period; unused by adaptive methods */
   int in_float;                     /* block_fixed computes its periods in single precision, for
-                                       which `added` allows (flow.h) */
-  double added;                     /* variance that a step adds to y's error (flow.h); 0: errors
+                                       which `added` allows (block.h) */
+  double added;                     /* variance that a step adds to y's error (block.h); 0: errors
                                        are not propagated. With fixed steps only */
   pendres_flow_error off;           /* covariance of the errors of y and w */
   double worst;                     /* largest variance at a strobe so far, of y and w together */

@@ -6,7 +6,7 @@
 #include "engine/flow_table.h"
 #include "engine/method_one.h"
 
-/* See flow.c on ERKStep before SUNDIALS 6.7. */
+/* See block.c on ERKStep before SUNDIALS 6.7. */
 static int after_step(sunrealtype theta, N_Vector state, void *arg)
 {
   (void)theta, (void)state, (void)arg;

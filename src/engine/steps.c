@@ -10,8 +10,7 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "engine/context_internal.h"
-#include "engine/flow.h"
-#include "engine/coordinates.h"
+#include "engine/block.h"
 #include "engine/tables.h"
 
 enum {
@@ -232,25 +231,25 @@ static void look(void *arg, int step, const pendres_rows *rows)
    computation does not depend on those before it. */
 static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *s)
 {
-  pendres_block b;
+  pendres_block *b;
   pendres_status status = pendres_block_open(
     ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, s->steps, &b);
   if (status != PENDRES_OK) return status;
-  const size_t capacity = pendres_block_capacity(&b);
-  const double slopes = pendres_flow_evaluations(b.flow), steps = pendres_flow_steps(b.flow);
+  const size_t capacity = pendres_block_capacity(b);
+  const double slopes = pendres_block_evaluations(b), steps = pendres_block_steps(b);
   const double most = ctx->most_slopes;
   const pendres_cost before = ctx->cost;
   ctx->most_slopes = INFINITY;
   for (s->first = 0; s->first < PROBES && status == PENDRES_OK; s->first += capacity) {
     s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
-    pendres_block_resize(&b, s->lanes);
-    for (size_t i = 0; i < s->lanes; i++) load_probe(&b, i, (int)(s->first + i), of);
-    status = pendres_block_period_sampled(&b, look, s);
+    pendres_block_resize(b, s->lanes);
+    for (size_t i = 0; i < s->lanes; i++) load_probe(b, i, (int)(s->first + i), of);
+    status = pendres_block_period_sampled(b, look, s);
   }
   ctx->most_slopes = most;
   ctx->cost = before;
-  ctx->cost.rhs_evaluations -= pendres_flow_evaluations(b.flow) - slopes;
-  ctx->cost.steps -= pendres_flow_steps(b.flow) - steps;
+  ctx->cost.rhs_evaluations -= pendres_block_evaluations(b) - slopes;
+  ctx->cost.steps -= pendres_block_steps(b) - steps;
   return status;
 }
 

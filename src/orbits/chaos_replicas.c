@@ -9,6 +9,7 @@
 #include "orbits/attractor_set.h"
 #include "orbits/growth.h"
 #include "engine/context_internal.h"
+#include "engine/block.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
@@ -225,7 +226,7 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
                                         pendres_replica *a, long periods,
                                         pendres_replica_trace *trace)
 {
-  pendres_block block;
+  pendres_block *block;
   int steps = 0;
   double fastest = 0.0;
   const double origin = pendres_model_origin(&c->pendulum), omega = c->pendulum.drive_frequency;
@@ -236,25 +237,25 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
   if (status == PENDRES_OK) status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
   if (status != PENDRES_OK) return status;
 
-  const size_t capacity = pendres_block_capacity(&block), most = n < capacity ? n : capacity;
+  const size_t capacity = pendres_block_capacity(block), most = n < capacity ? n : capacity;
   double *rows = malloc((WATCHED * most + 1) * sizeof *rows);
   if (rows == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu replicas", n);
-  status = pendres_block_carry_tangents(&block, 1);
+  status = pendres_block_carry(block, PENDRES_FLOW_TANGENTS);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     watched_block b = {.pendulum = &c->pendulum, .steps = steps, .a = a + first,
                        .n = n - first < capacity ? n - first : capacity,
                        .work = rows, .other = rows + most, .loss = rows + 2 * most,
                        .low = rows + 3 * most, .high = rows + 4 * most,
                        .last_y = rows + 5 * most, .last_w = rows + 6 * most};
-    load(&block, &b);
+    load(block, &b);
     for (long k = 0; k < periods && status == PENDRES_OK; k++) {
-      status = advance_block(&block, &b, c, trace != NULL, k == periods - 1);
+      status = advance_block(block, &b, c, trace != NULL, k == periods - 1);
       for (size_t i = 0; i < b.n && trace != NULL && status == PENDRES_OK; i++)
         record(trace, trace->filled + k, first + i, &b.a[i]);
     }
   }
-  (void)pendres_block_carry_tangents(&block, 0);
+  (void)pendres_block_carry(block, PENDRES_FLOW_NOTHING);
   free(rows);
   if (trace != NULL) trace->filled += periods;
   return status;

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "engine/coordinates.h"
+#include "engine/block.h"
 #include "model/model.h"
 
 /*
@@ -42,13 +42,13 @@ pendres_status pendres_escape_within(pendres_context *ctx, const pendres_strobe_
                                      double y, double w, int *away)
 {
   last_period p = {.pendulum = lane->pendulum};
-  pendres_block block;
+  pendres_block *block;
   *away = 0;
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, lane->steps, &block);
   if (status != PENDRES_OK) return status;
-  pendres_block_resize(&block, 1);
-  pendres_block_load(&block, 0, lane->pendulum, y, w);
-  status = pendres_block_period_sampled(&block, watch_escape, &p);
+  pendres_block_resize(block, 1);
+  pendres_block_load(block, 0, lane->pendulum, y, w);
+  status = pendres_block_period_sampled(block, watch_escape, &p);
   *away = status == PENDRES_OK && p.escapes;
   return status;
 }

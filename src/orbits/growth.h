@@ -12,7 +12,7 @@
 #ifndef PENDRES_GROWTH_H
 #define PENDRES_GROWTH_H
 
-#include "engine/coordinates.h"
+#include "engine/block.h"
 
 /* Into which the periods of an average are divided: an even number. */
 enum { PENDRES_GROWTH_BATCHES = 16 };

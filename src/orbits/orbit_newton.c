@@ -9,6 +9,7 @@
 #include "engine/chain.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
+#include "engine/block.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/strobe_noise.h"
@@ -142,7 +143,7 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
                                    pendres_orbit_want want, pendres_newton_samples *taken,
                                    size_t *count)
 {
-  pendres_block b;
+  pendres_block *b;
   const int sensitive = want == PENDRES_ORBIT_FREQUENCY_SLOPE;
   const int steps = c[0].steps, q = c[0].guess->period;
   const pendres_flow_kind kind = sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL;
@@ -152,7 +153,7 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   const pendres_model_terms model = pendres_model_kind(&c[0].guess->pendulum);
   const int companions = taken != NULL && taken->bends ? 2 : 0;
   const int sampled = taken != NULL && !taken->none;
-  const size_t most = pendres_block_capacity(&b) / (size_t)(1 + companions);
+  const size_t most = pendres_block_capacity(b) / (size_t)(1 + companions);
   size_t lanes = 0;
   while (lanes < n && lanes < most && c[lanes].steps == steps && c[lanes].guess->period == q &&
          pendres_model_kind(&c[lanes].guess->pendulum) == model)
@@ -167,13 +168,13 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   const size_t kept = pendres_flow_kind_rows(kind);
   if (sampled && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
-  load_lanes(&b, lanes, companions, c);
+  load_lanes(b, lanes, companions, c);
   recorder r = {.taken = taken};
-  const pendres_rows rows = pendres_block_rows(&b);
+  const pendres_rows rows = pendres_block_rows(b);
   if (sampled) record(&r, 0, &rows);
   for (int k = 0; k < q && status == PENDRES_OK; k++) {
     r.offset = (size_t)k * (size_t)steps;
-    status = sampled ? pendres_block_period_sampled(&b, record, &r) : pendres_block_period(&b);
+    status = sampled ? pendres_block_period_sampled(b, record, &r) : pendres_block_period(b);
   }
   if (status != PENDRES_OK) return status;
   ctx->cost.newton_steps += (double)lanes;

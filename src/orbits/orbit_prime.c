@@ -3,9 +3,7 @@
 #include "orbits/orbit_prime.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "engine/coordinates.h"
 #include "engine/room.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
@@ -57,9 +55,9 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
    front. */
 static pendres_status close_early(pendres_context *ctx, job *j, size_t *n)
 {
-  pendres_strobe_lane *lanes = malloc((*n + 1) * sizeof *lanes);
-  if (lanes == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", *n);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_strobe_lane *lanes = pendres_room_take(&room, *n, sizeof *lanes);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < *n; i++) {
     const pendres_orbit *o = &j->orbit[j->found[i].which];
     lanes[i] = pendres_strobe_lane_at(&o->pendulum, o->x, o->v);
@@ -72,8 +70,7 @@ static pendres_status close_early(pendres_context *ctx, job *j, size_t *n)
   for (size_t i = 0; i < *n; i++)
     if (j->found[i].period > 0) j->found[kept++] = j->found[i];
   *n = kept;
-  free(lanes);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Refine them with the shorter periods. An orbit that is found takes the old one's place; the
@@ -110,17 +107,15 @@ static pendres_status refine(pendres_context *ctx, job *j, size_t *n)
 
 pendres_status pendres_orbits_to_prime(pendres_context *ctx, size_t n, pendres_orbit *orbit)
 {
-  pendres_status status = PENDRES_OK;
-  job j = {.orbit = orbit, .found = calloc(n + 1, sizeof *j.found)};
-  if (j.found == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  job j = {.orbit = orbit, .found = pendres_room_take(&room, n, sizeof *j.found)};
+  pendres_status status = room.status;
   size_t left = 0;
-  for (size_t i = 0; i < n; i++)
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     if (orbit[i].period > 1) j.found[left++] = (closing){.which = i};
   while (left > 0 && status == PENDRES_OK) {
     status = close_early(ctx, &j, &left);
     if (left > 0 && status == PENDRES_OK) status = refine(ctx, &j, &left);
   }
-  free(j.found);
-  return status;
+  return pendres_room_close(&room, status);
 }

@@ -1,7 +1,7 @@
 /*
  * strobe_noise.h -- rounding along trajectories.
  *
- * Owns: the size of rounding errors in a step. Lanes propagate their covariance (flow.h), since a
+ * Owns: the size of rounding errors in a step. Lanes propagate their covariance (block.h), since a
  * trajectory near a separatrix amplifies rounding by orders of magnitude, and two runs may then
  * agree by chance. With strong friction errors may grow as much and decay again within a period,
  * which the derivative of the map over a whole period does not show.
@@ -11,7 +11,7 @@
 
 #include <pendres/context.h>
 
-#include "engine/coordinates.h"
+#include "engine/block.h"
 
 /* The standard error of the angle by rounding in one step with a Butcher table. Roundings are taken
    to be random and independent: each step adds the square of this to the variance. */

@@ -14,6 +14,7 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
+#include "engine/block.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
@@ -25,6 +26,7 @@ enum { MOST_SAMPLES = 1000000 };
 typedef struct recorder {
   double *x, *v;             /* the period's first point */
   double *x_noise, *v_noise; /* NULL in the first run */
+  double added;              /* variance of an angle by rounding in a step */
   const pendres_block *block;
   int stretch;               /* steps between two points */
   const pendres_pendulum *p;
@@ -60,10 +62,9 @@ typedef struct piece {
 static pendres_status turn(pendres_block *b, const pendres_flow_error *off, recorder *r,
                            pendres_coordinates *s)
 {
-  const double rounding = pendres_strobe_noise_of_step(b->ctx->options.table);
   r->turns = s->turns;
   pendres_block_load(b, 0, r->p, s->y, s->w);
-  if (r->x_noise != NULL) pendres_block_set_error(b, 0, off, rounding * rounding);
+  if (r->x_noise != NULL) pendres_block_set_error(b, 0, off, r->added);
   const pendres_status status = pendres_block_period_sampled(b, keep, r);
   const pendres_rows rows = pendres_block_rows(b);
   s->y = pendres_rows_get(&rows, PENDRES_ROW_Y, 0);
@@ -76,28 +77,30 @@ static pendres_status turn(pendres_block *b, const pendres_flow_error *off, reco
 static pendres_status run(pendres_context *ctx, const piece *what, pendres_flow_error *off,
                           double *x_noise, double *v_noise)
 {
-  pendres_block b;
+  pendres_block *b;
   const pendres_pendulum *p = &what->of->pendulum;
   const size_t samples = (size_t)what->of->samples;
   pendres_coordinates s = { .y = what->at->y, .w = what->at->w, .turns = what->at->turns };
-  recorder r = { .stretch = what->stretch, .p = p, .block = &b };
+  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
+  recorder r = { .stretch = what->stretch, .p = p, .added = rounding * rounding };
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE,
                                              what->of->samples * what->stretch, &b);
-  if (status == PENDRES_OK && off != NULL) status = pendres_block_carry(&b, 1);
+  if (status == PENDRES_OK && off != NULL) status = pendres_block_carry(b, PENDRES_FLOW_ERRORS);
   if (status != PENDRES_OK) return status;
-  pendres_block_resize(&b, 1);
+  r.block = b;
+  pendres_block_resize(b, 1);
   for (long k = 0; k < what->periods && status == PENDRES_OK; k++) {
     const size_t first = (size_t)k * samples;
     r.x = what->x + first;
     r.v = what->v + first;
     r.x_noise = off != NULL ? x_noise + first : NULL;
     r.v_noise = off != NULL ? v_noise + first : NULL;
-    status = turn(&b, off, &r, &s);
-    if (off != NULL) *off = pendres_block_get_error(&b, 0);
+    status = turn(b, off, &r, &s);
+    if (off != NULL) *off = pendres_block_get_error(b, 0);
     if (status == PENDRES_OK && !(isfinite(s.y) && isfinite(s.w)))
       status = pendres_strobe_lost(ctx, p, what->of->periods + k + 1);
   }
-  if (off != NULL) (void)pendres_block_carry(&b, 0);
+  if (off != NULL) (void)pendres_block_carry(b, PENDRES_FLOW_NOTHING);
   *what->at = (pendres_recording_place){ .y = s.y, .w = s.w, .turns = s.turns };
   return status;
 }

@@ -13,6 +13,7 @@
 #include "base/sized.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/block.h"
 #include "engine/coordinates.h"
 #include "engine/door.h"
 #include "model/model.h"
@@ -146,19 +147,19 @@ static pendres_status measure(pendres_block *b, const measuring *m, size_t count
 static pendres_status measure_all(pendres_context *ctx, const measuring *m,
                                   const pendres_boundary_node *const *order)
 {
-  pendres_block b;
+  pendres_block *b;
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, m->seed->steps, &b);
   if (status != PENDRES_OK) return status;
-  const size_t capacity = pendres_block_capacity(&b);
-  status = pendres_block_carry_tangents(&b, 1);
+  const size_t capacity = pendres_block_capacity(b);
+  status = pendres_block_carry(b, PENDRES_FLOW_TANGENTS);
   for (size_t first = 0, count; first < m->n && status == PENDRES_OK; first += count) {
     count = 1;
     while (count < capacity && first + count < m->n &&
            order[first + count]->generation == order[first]->generation)
       count++;
-    status = measure(&b, m, count, order + first);
+    status = measure(b, m, count, order + first);
   }
-  (void)pendres_block_carry_tangents(&b, 0);
+  (void)pendres_block_carry(b, PENDRES_FLOW_NOTHING);
   return status;
 }
 

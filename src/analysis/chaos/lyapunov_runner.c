@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "engine/block.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 #include "engine/rank.h"
@@ -195,18 +196,18 @@ static pendres_status average_block(const average_job *a, size_t n, const pendre
 static pendres_status average_class(pendres_context *ctx, runner *runners, long batch,
                                     const pendres_rank *rank, size_t *n)
 {
-  pendres_block block;
+  pendres_block *block;
   const pendres_runner_beside beside = runners[rank[0].index].beside;
   const int tangents = beside == PENDRES_BESIDE_TANGENTS;
-  const average_job a = {.block = &block, .batch = batch, .beside = beside};
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, rank[0].steps, &block);
   if (status != PENDRES_OK) return status;
+  const average_job a = {.block = block, .batch = batch, .beside = beside};
   const size_t most =
-    pendres_block_capacity(&block) / (beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1);
+    pendres_block_capacity(block) / (beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1);
   if (*n > most) *n = most;
-  if (tangents) status = pendres_block_carry_tangents(&block, 1);
+  if (tangents) status = pendres_block_carry(block, PENDRES_FLOW_TANGENTS);
   if (status == PENDRES_OK) status = average_block(&a, *n, rank, runners);
-  if (tangents) (void)pendres_block_carry_tangents(&block, 0);
+  if (tangents) (void)pendres_block_carry(block, PENDRES_FLOW_NOTHING);
   return status;
 }
 

@@ -1,5 +1,5 @@
-/* flow_float.c -- the steps of a period in single precision; see flow_internal.h. */
-#include "engine/flow_internal.h"
+/* block_float.c -- the steps of a period in single precision; see block_internal.h. */
+#include "engine/block_internal.h"
 
 #include <math.h>
 
@@ -14,7 +14,7 @@ static void add_term(pendres_float_sum *q, int stage, double coefficient)
   q->term[q->terms++].c = (float)coefficient;
 }
 
-int pendres_flow_float_prepare(pendres_float_steps *s, int steps)
+int pendres_block_float_prepare(pendres_float_steps *s, int steps)
 {
   const pendres_tables_method *m = pendres_tables_get(pendres_tables_float);
   int stages = m->stages;

@@ -1,11 +1,11 @@
 /*
- * flow_internal.h -- what a block is made of.
+ * block_internal.h -- what a block is made of.
  *
- * Owns: the struct that flow.c, which advances a block, flow_lanes.c, which fills its lanes, and
- * flow_float.c share. No other file includes it.
+ * Owns: the struct that block.c, which advances a block, block_lanes.c, which fills its lanes, and
+ * block_float.c share. No other file includes it.
  */
-#ifndef PENDRES_FLOW_INTERNAL_H
-#define PENDRES_FLOW_INTERNAL_H
+#ifndef PENDRES_BLOCK_INTERNAL_H
+#define PENDRES_BLOCK_INTERNAL_H
 
 #include <stddef.h>
 
@@ -42,36 +42,37 @@ enum {
   TANGENT_KEEP = 4
 };
 
-/* The drive at the right-hand sides of a flow: the exact phase of each stage, and the drive's
+/* The drive at the right-hand sides of a block: the exact phase of each stage, and the drive's
    cosine there, remembered from period to period. */
-typedef struct pendres_flow_drive {
+typedef struct pendres_block_drive {
   int steps;                               /* a period; 0: adaptive */
   int stages;
   double node[PENDRES_TABLES_MOST_STAGES]; /* of the stages of a step */
   double *theta, *cosine; /* at the right-hand sides of a period, in their order, which is the same
                              every period */
   size_t size, next;
-} pendres_flow_drive;
+} pendres_block_drive;
 
 /* The exact phase of the stage at which ARKODE's clock shows theta. */
-double pendres_flow_drive_phase(const pendres_flow_drive *drive, double theta);
+double pendres_block_drive_phase(const pendres_block_drive *drive, double theta);
 
 /* cos(theta) at the next right-hand side of a period. */
-double pendres_flow_drive_cosine(pendres_flow_drive *drive, double theta);
+double pendres_block_drive_cosine(pendres_block_drive *drive, double theta);
 
 /* Begin a period. */
-void pendres_flow_drive_rewind(pendres_flow_drive *drive);
+void pendres_block_drive_rewind(pendres_block_drive *drive);
 
 /* Make room for `steps` steps per period. */
-int pendres_flow_drive_resize(pendres_flow_drive *drive, int steps);
+int pendres_block_drive_resize(pendres_block_drive *drive, int steps);
 
-void pendres_flow_drive_free(pendres_flow_drive *drive);
+void pendres_block_drive_free(pendres_block_drive *drive);
 
 /* Make the steps of a period in single precision, unless they are there; 0, or -1 if out of memory.
    */
-int pendres_flow_float_prepare(pendres_float_steps *s, int steps);
+int pendres_block_float_prepare(pendres_float_steps *s, int steps);
 
-struct pendres_flow {
+struct pendres_block {
+  pendres_context *ctx;
   pendres_lanes_shape shape;
   double tolerance;
   double end, half;       /* ARKODE's clock after a period and half of one */
@@ -80,22 +81,20 @@ struct pendres_flow {
   double *coefficient[COEFFICIENTS];
   pendres_flow_load load; /* what is carried, */
   double *off[CARRIED];   /* in these; NULL until anything is */
-  pendres_flow_drive drive;
+  pendres_block_drive drive;
   pendres_float_steps in_float;   /* steps in single precision, once there are any */
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
-  int (*stop)(void *arg); /* called now and then within a period; may be NULL */
-  void *stop_arg;
-  double next_asked;      /* the number of steps at which it is called next */
+  double next_asked;      /* the number of steps at which the context is next asked to go on */
   int stopped;
   size_t lanes; /* in use */
   int failure;
 };
 
 /* Make the arrays for the coefficients of all lanes and for the rows. 0, or -1 without memory:
-   pendres_flow_free then frees what there is. */
-int pendres_flow_lanes_open(struct pendres_flow *flow);
-void pendres_flow_lanes_close(struct pendres_flow *flow);
+   pendres_block_free then frees what there is. */
+int pendres_block_lanes_open(struct pendres_block *b);
+void pendres_block_lanes_close(struct pendres_block *b);
 
 #endif
