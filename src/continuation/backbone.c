@@ -119,7 +119,7 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, pe
   if (!find_well(&p, &well)) return PENDRES_NOT_FOUND;
   double a = start_amplitude(&p, well);
   for (int i = 0; i < MOST_STARTS && a > 0.0; i++, a *= 0.5) {
-    double u[PENDRES_U_COUNT];
+    pendres_u u;
     p.damping = damping_at(&p, well, a);
     if (!isfinite(p.damping)) continue;
     p.drive_frequency = p.drive_amplitude / (a * p.damping);

@@ -49,7 +49,7 @@ pendres_parameter pendres_curve_parameter(const pendres_curve *c, int which)
 }
 
 pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_parameter second,
-                                     double spacing, double u[PENDRES_U_COUNT])
+                                     double spacing, pendres_u u)
 {
   const pendres_parameter parameter[2] = {b->parameter, second};
   const pendres_condition condition =
@@ -68,9 +68,8 @@ static double test_cusp(const pendres_curve_node *p)
   return p->bending;
 }
 
-static pendres_status locate_cusp(pendres_context *ctx, const pendres_curve *c,
-                                  const double u[PENDRES_U_COUNT], double reach,
-                                  pendres_curve_special *out)
+static pendres_status locate_cusp(pendres_context *ctx, const pendres_curve *c, const pendres_u u,
+                                  double reach, pendres_curve_special *out)
 {
   out->condition = PENDRES_CONDITION_CUSP;
   return pendres_curve_locate(ctx, &c->kind, out->condition, u, reach, &out->located);
@@ -88,7 +87,7 @@ static const pendres_curve_test cusps = {.function = test_cusp, .locate = locate
 static double curvature_of(const pendres_system *s, const pendres_curve_node *p)
 {
   if (s->condition != PENDRES_CONDITION_FOLD) return NAN;
-  const double (*j)[PENDRES_U_COUNT] = (const double (*)[PENDRES_U_COUNT])p->image.j;
+  const pendres_u *j = (const pendres_u *)p->image.j;
   const double *v = p->null, omega = p->u[PENDRES_U_OMEGA];
   const int left = hypot(j[0][0], j[1][0]) > hypot(j[0][1], j[1][1]);
   const double l[2] = {left ? -j[1][0] : -j[1][1], left ? j[0][0] : j[0][1]};

@@ -60,7 +60,7 @@ static double test_flip(const pendres_curve_node *p)
 /* Half map number `which` of a branch's, about the place that an orbit at u is about, and by how
    far that misses closing by it. PENDRES_NOT_CONVERGED: there is none. */
 static pendres_status half_at(pendres_context *ctx, const pendres_curve *t, int which,
-                              const double u[PENDRES_U_COUNT], pendres_map *half, double *off)
+                              const pendres_u u, pendres_map *half, double *off)
 {
   int steps = 0;
   pendres_map_miss miss = {.off = {NAN, NAN}};
@@ -69,7 +69,7 @@ static pendres_status half_at(pendres_context *ctx, const pendres_curve *t, int 
   pendres_status status =
     pendres_map_steps(ctx, t->kind.system.map.force, u, pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
-    status = pendres_map_closes(ctx, half, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &miss);
+    status = pendres_map_closes(ctx, half, steps, 1, (const pendres_u *)u, &miss);
   half->winding = miss.winding;
   *off = hypot(miss.off[0], miss.off[1]);
   return status;
@@ -81,7 +81,7 @@ static const double nearly = 1e-3;
 
 /* Find the number of the half map by which an orbit at a place nearly closes; -1: by none. */
 static pendres_status closing_half(pendres_context *ctx, const pendres_curve *t,
-                                   const double u[PENDRES_U_COUNT], int *which)
+                                   const pendres_u u, int *which)
 {
   for (*which = 0; *which < PENDRES_MAP_HALVES; ++*which) {
     pendres_map half;
@@ -96,9 +96,8 @@ static pendres_status closing_half(pendres_context *ctx, const pendres_curve *t,
 
 /* Locate where the branch was born from orbits of the half map that the zero tells: a flip of
    that. */
-static pendres_status locate_birth(pendres_context *ctx, const pendres_curve *t,
-                                   const double u[PENDRES_U_COUNT], double reach,
-                                   pendres_curve_special *m)
+static pendres_status locate_birth(pendres_context *ctx, const pendres_curve *t, const pendres_u u,
+                                   double reach, pendres_curve_special *m)
 {
   pendres_map half;
   pendres_located flip;
@@ -133,9 +132,8 @@ static int is_crossed(const pendres_curve *t, size_t i)
  * That looks like a fold of its own map, but is a flip of a half map, the one by which the orbits
  * close there. An orbit that closes by half where the half map has no flip is at a fold.
  */
-static pendres_status locate_fold(pendres_context *ctx, const pendres_curve *t,
-                                  const double u[PENDRES_U_COUNT], double reach,
-                                  pendres_curve_special *m)
+static pendres_status locate_fold(pendres_context *ctx, const pendres_curve *t, const pendres_u u,
+                                  double reach, pendres_curve_special *m)
 {
   int which = -1;
   m->condition = PENDRES_CONDITION_FOLD;
@@ -160,8 +158,7 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_curve *t,
 /* Locate where another branch crosses. Where this one was born from orbits that close by half it
    meets itself, and of rest the other map has a flip. */
 static pendres_status locate_crossing(pendres_context *ctx, const pendres_curve *t,
-                                      const double u[PENDRES_U_COUNT], double reach,
-                                      pendres_curve_special *m)
+                                      const pendres_u u, double reach, pendres_curve_special *m)
 {
   int which = -1;
   m->condition = PENDRES_CONDITION_CROSSING;
@@ -173,9 +170,8 @@ static pendres_status locate_crossing(pendres_context *ctx, const pendres_curve 
   return asked != PENDRES_OK ? asked : which >= 0 ? PENDRES_NOT_CONVERGED : status;
 }
 
-static pendres_status locate_flip(pendres_context *ctx, const pendres_curve *t,
-                                  const double u[PENDRES_U_COUNT], double reach,
-                                  pendres_curve_special *m)
+static pendres_status locate_flip(pendres_context *ctx, const pendres_curve *t, const pendres_u u,
+                                  double reach, pendres_curve_special *m)
 {
   m->condition = PENDRES_CONDITION_FLIP;
   return pendres_curve_locate(ctx, &t->kind, m->condition, u, reach, &m->located);

@@ -101,13 +101,12 @@ enum { NODES = 4, ROOTS = 3, PARTS = 16, SAMPLES = 2 * PARTS, BISECTIONS = 40 };
 typedef struct stencil {
   int nodes;
   double t[NODES]; /* distance along the points, scaled as arclength */
-  double u[NODES][PENDRES_U_COUNT];
+  pendres_u u[NODES];
   double length;
 } stencil;
 
 /* Point number k of a curve, moved by whole turns next to the point at hand. */
-static void next_to(const pendres_curve *c, size_t k, const double here[PENDRES_U_COUNT],
-                    double u[PENDRES_U_COUNT])
+static void next_to(const pendres_curve *c, size_t k, const pendres_u here, pendres_u u)
 {
   const pendres_map *map = &c->kind.system.map;
   const double turn = map->mirror ? 0.0 : pendres_model_of(map->force)->period;
@@ -146,7 +145,7 @@ static stencil stencil_of(const pendres_curve *c, size_t i)
   return s;
 }
 
-static void point_at(const stencil *s, double t, double u[PENDRES_U_COUNT])
+static void point_at(const stencil *s, double t, pendres_u u)
 {
   memset(u, 0, PENDRES_U_COUNT * sizeof *u);
   for (int i = 0; i < s->nodes; i++) {
@@ -159,7 +158,7 @@ static void point_at(const stencil *s, double t, double u[PENDRES_U_COUNT])
 
 static double off(const stencil *s, int place, double value, double t)
 {
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   point_at(s, t, u);
   return u[place] - value;
 }
@@ -224,7 +223,7 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
   *found = 0;
   const pendres_condition condition = c->kind.system.condition;
   const int second = c->kind.system.unknown[3];
-  double guess[PENDRES_U_COUNT], last_guess[PENDRES_U_COUNT], last[PENDRES_U_COUNT];
+  pendres_u guess, last_guess, last;
   for (size_t i = 0; i < chords_of(c); i++) {
     double t[ROOTS];
     const stencil s = stencil_of(c, i);

@@ -78,7 +78,7 @@ static void row_of(const pendres_image *image, int parameter, int i, double out[
 }
 
 /* The scales of y, w and p at a place. */
-static void scales_at(const double u[PENDRES_U_COUNT], int parameter, double out[3])
+static void scales_at(const pendres_u u, int parameter, double out[3])
 {
   for (int k = 0; k < 3; k++) {
     const int place = place_of(parameter, k);
@@ -115,9 +115,8 @@ static int plane_of(const double row[3], const double along[3], double plane[2][
 }
 
 /* l D2F in a plane in the scale of arclength, by central differences of l B. */
-static pendres_status bend_of(pendres_context *ctx, const pendres_system *system,
-                              const double u[PENDRES_U_COUNT], const double l[2],
-                              double plane[2][3], double bend[2][2])
+static pendres_status bend_of(pendres_context *ctx, const pendres_system *system, const pendres_u u,
+                              const double l[2], double plane[2][3], double bend[2][2])
 {
   const double h = pendres_central_step; /* its errors only steer a direction */
   const int parameter = system->unknown[2];
@@ -132,7 +131,7 @@ static pendres_status bend_of(pendres_context *ctx, const pendres_system *system
       points[i][place_of(parameter, k)] += (i % 2 == 0 ? h : -h) * way[i / 2][k];
   }
   const pendres_status status = pendres_map_images(
-    ctx, system, 4, (const double (*)[PENDRES_U_COUNT])points, image);
+    ctx, system, 4, (const pendres_u *)points, image);
   if (status != PENDRES_OK) return status;
   for (int i = 0; i < 2; i++)
     for (int m = 0; m < 2; m++) {
@@ -148,14 +147,13 @@ static pendres_status bend_of(pendres_context *ctx, const pendres_system *system
 }
 
 pendres_status pendres_crossing_direction(pendres_context *ctx, const pendres_system *system,
-                                          const double u[PENDRES_U_COUNT], const double own[3],
+                                          const pendres_u u, const double own[3],
                                           double crossing[3])
 {
   const int parameter = system->unknown[2];
   pendres_image image;
   double plane[2][3], row[3], scale[3], bend[2][2], l[2];
-  pendres_status status = pendres_map_images(
-    ctx, system, 1, (const double (*)[PENDRES_U_COUNT])u, &image);
+  pendres_status status = pendres_map_images(ctx, system, 1, (const pendres_u *)u, &image);
   if (status != PENDRES_OK) return status;
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(&image, parameter);
   const int place = place_of(parameter, pivot.column);

@@ -55,7 +55,7 @@ double pendres_crossing_bordered(const pendres_image *image, int parameter,
  * directions t solve l D2F(t, t) = 0. PENDRES_NOT_CONVERGED if they are not told apart.
  */
 pendres_status pendres_crossing_direction(pendres_context *ctx, const pendres_system *system,
-                                          const double u[PENDRES_U_COUNT], const double own[3],
+                                          const pendres_u u, const double own[3],
                                           double crossing[3]);
 
 #endif

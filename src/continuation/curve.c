@@ -79,7 +79,7 @@ typedef struct landing {
 /* Find a parameter among the unknowns that is out of its bounds, and which bound it has passed;
    0: all are within. */
 static int out_of_bounds(const pendres_system *s, const pendres_curve_bounds *b,
-                         const double u[PENDRES_U_COUNT], landing *out)
+                         const pendres_u u, landing *out)
 {
   for (int k = 2; k < s->unknowns; k++) {
     const double value = u[s->unknown[k]];
@@ -125,16 +125,14 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
   for (int i = 0; i < system.unknowns; i++)
     node->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
   system.steps = c.steps;
-  status = pendres_map_images(ctx, &system, 1, (const double (*)[PENDRES_U_COUNT])&c.u,
-                              &node->image);
+  status = pendres_map_images(ctx, &system, 1, (const pendres_u *)&c.u, &node->image);
   out->landed = status == PENDRES_OK;
   return status;
 }
 
 /* By how many whole turns, as an angle, y of a point is larger than that of another. It is 0 for a
    half map, whose mirror stands in one place, and where the coordinate has no period. */
-static double turns_between(const pendres_map *map, const double from[PENDRES_U_COUNT],
-                            const double to[PENDRES_U_COUNT])
+static double turns_between(const pendres_map *map, const pendres_u from, const pendres_u to)
 {
   const double turn = pendres_model_of(map->force)->period;
   if (turn == 0.0 || map->mirror) return 0.0;
@@ -321,7 +319,7 @@ static int in_order(const void *a, const void *b)
 static pendres_status add_special(pendres_context *ctx, const pendres_curve_test *test,
                                   const pendres_curve_zero *zero, pendres_curve *c)
 {
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   pendres_curve_special s = {.at = *zero};
   const double chord = pendres_curve_between(c, zero, u);
   const pendres_status status = test->locate(ctx, c, u, 2.0 * chord, &s);
@@ -356,7 +354,7 @@ pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *
 }
 
 pendres_status pendres_curve_locate(pendres_context *ctx, const pendres_followed *kind,
-                                    pendres_condition condition, const double u[PENDRES_U_COUNT],
+                                    pendres_condition condition, const pendres_u u,
                                     double reach, pendres_located *out)
 {
   const pendres_system system =

@@ -54,7 +54,7 @@ struct pendres_curve {
   /* Of a curve of bifurcations, with the unknowns of its points: */
   pendres_curve_point *point;
   pendres_cusp *cusp;
-  double (*u)[PENDRES_U_COUNT];
+  pendres_u *u;
   /* Working arrays, which are freed once the results have been made, or kept to go on: */
   pendres_curve_way *way; /* [2] */
   size_t nodes, capacity, room;
@@ -115,7 +115,7 @@ static inline int pendres_curve_closed(const pendres_curve *c)
 /* A solution to start from, and the curve that it lies on. */
 typedef struct pendres_curve_start {
   pendres_followed kind;
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
 } pendres_curve_start;
 
 /* Bounds of the parameters among the unknowns, in their order, and of the way. */
@@ -143,7 +143,7 @@ pendres_status pendres_curve_extend(pendres_context *ctx, pendres_curve *curve,
 
 /* The curve of bifurcations in two parameters that one lies on, and its place there. */
 pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_parameter second,
-                                     double spacing, double u[PENDRES_U_COUNT]);
+                                     double spacing, pendres_u u);
 
 /* ---- special points ---- */
 
@@ -159,9 +159,8 @@ typedef struct pendres_curve_test {
   int refine; /* whether it may touch 0, or have two zeros between nodes: these are added then */
   pendres_status (*find)(pendres_context *ctx, const pendres_curve *curve,
                          pendres_curve_zero zeros[PENDRES_CURVE_ZEROS], size_t *count);
-  pendres_status (*locate)(pendres_context *ctx, const pendres_curve *curve,
-                           const double u[PENDRES_U_COUNT], double reach,
-                           pendres_curve_special *out);
+  pendres_status (*locate)(pendres_context *ctx, const pendres_curve *curve, const pendres_u u,
+                           double reach, pendres_curve_special *out);
 } pendres_curve_test;
 
 /* Find the special points of a curve by n tests, one after another, each point once. */
@@ -170,7 +169,7 @@ pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *
 
 /* Solve for a condition near u, on the curve's map. As pendres_locate(). */
 pendres_status pendres_curve_locate(pendres_context *ctx, const pendres_followed *kind,
-                                    pendres_condition condition, const double u[PENDRES_U_COUNT],
+                                    pendres_condition condition, const pendres_u u,
                                     double reach, pendres_located *out);
 
 /* Where a branch passes branch points, or places where branches come so close that its nodes have
@@ -197,7 +196,7 @@ size_t pendres_curve_zeros(const pendres_curve *curve, pendres_curve_function *f
 
 /* The point at a zero, by linear interpolation, and the length of the chord. */
 double pendres_curve_between(const pendres_curve *curve, const pendres_curve_zero *zero,
-                             double u[PENDRES_U_COUNT]);
+                             pendres_u u);
 
 /* ---- to the tolerance ---- */
 

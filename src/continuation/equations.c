@@ -37,8 +37,7 @@ static double stencil_value(const pendres_image stencil[STENCIL])
   return sum / (60.0 * stencil_step);
 }
 
-static void stencil_points(const double u[PENDRES_U_COUNT], const double v[2],
-                           double (*points)[PENDRES_U_COUNT])
+static void stencil_points(const pendres_u u, const double v[2], pendres_u *points)
 {
   for (int i = 0; i < STENCIL; i++) {
     const double far = stencil_step * (i / 2 + 1) * (i % 2 == 0 ? 1.0 : -1.0);
@@ -50,7 +49,7 @@ static void stencil_points(const double u[PENDRES_U_COUNT], const double v[2],
 
 /* Work space: for each point its image and one for each nudged unknown, and their stencils. */
 typedef struct workspace {
-  double (*u)[PENDRES_U_COUNT], (*around)[PENDRES_U_COUNT];
+  pendres_u *u, *around;
   pendres_image *image, *around_image;
 } workspace;
 
@@ -158,11 +157,11 @@ static pendres_status look_around(pendres_context *ctx, const pendres_system *s,
     stencil_points(w->u[i], v, w->around + i * STENCIL);
   }
   return pendres_map_states(ctx, &s->map, s->steps, n * each * STENCIL,
-                            (const double (*)[PENDRES_U_COUNT])w->around, w->around_image);
+                            (const pendres_u *)w->around, w->around_image);
 }
 
 pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *s, size_t n,
-                                    const double (*u)[PENDRES_U_COUNT], pendres_equations *out)
+                                    const pendres_u *u, pendres_equations *out)
 {
   const pendres_condition_rules *rules = pendres_condition_rules_of(s->condition);
   const size_t each = rules->rows == NULL ? 1 : (size_t)s->unknowns + 1;
@@ -178,8 +177,7 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
       if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += nudge;
     }
-  pendres_status status =
-    pendres_map_images(ctx, s, points, (const double (*)[PENDRES_U_COUNT])w.u, w.image);
+  pendres_status status = pendres_map_images(ctx, s, points, (const pendres_u *)w.u, w.image);
   if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_image *image = w.image + i * each;
@@ -223,8 +221,7 @@ pendres_system pendres_system_of(const pendres_map *map, pendres_condition condi
 }
 
 pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_system *s,
-                                       double longest, double u[PENDRES_U_COUNT],
-                                       pendres_equations *at)
+                                       double longest, pendres_u u, pendres_equations *at)
 {
   enum { MOST = 20 };
   const int n = s->unknowns;
@@ -232,8 +229,7 @@ pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_syste
 
   for (int i = 0; i < MOST; i++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
-    const pendres_status status =
-      pendres_equations_at(ctx, s, 1, (const double (*)[PENDRES_U_COUNT])u, at);
+    const pendres_status status = pendres_equations_at(ctx, s, 1, (const pendres_u *)u, at);
     if (status != PENDRES_OK) return status;
     for (int r = 0; r < n; r++) {
       d[r] = -at->r[r];

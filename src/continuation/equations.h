@@ -41,7 +41,7 @@ pendres_system pendres_system_of(const pendres_map *map, pendres_condition condi
 
 /* The equations of a system at n points, with their derivatives by its unknowns. */
 pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *system, size_t n,
-                                    const double (*u)[PENDRES_U_COUNT], pendres_equations *out);
+                                    const pendres_u *u, pendres_equations *out);
 
 /*
  * Solve a system of as many equations as unknowns from u on, by Newton's method; u is replaced, and
@@ -49,8 +49,7 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
  * PENDRES_NOT_CONVERGED without a message if there is no solution near.
  */
 pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_system *system,
-                                       double longest, double u[PENDRES_U_COUNT],
-                                       pendres_equations *at);
+                                       double longest, pendres_u u, pendres_equations *at);
 
 /* a x = b for n <= 5, by GSL's LU decomposition; a and b are overwritten, b by x. 0 if singular. */
 int pendres_equations_linear(int n, double a[][PENDRES_U_COUNT], double *b);

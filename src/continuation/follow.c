@@ -11,10 +11,9 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
-pendres_followed pendres_followed_of(const pendres_orbit *orbit,
-                                     pendres_condition condition,
+pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_condition condition,
                                      const pendres_parameter *parameter, double spacing,
-                                     double u[PENDRES_U_COUNT])
+                                     pendres_u u)
 {
   pendres_followed kind = {.tolerance = pendres_accuracy_of_arcs(), .spacing = spacing};
   pendres_system *s = &kind.system;
@@ -55,15 +54,14 @@ static const int widest_gap = 3; /* how many steps lie between one point and the
 static const double too_close = 1e-6;
 
 /* The scale of unknown number k at a place. */
-static double scale_at(const pendres_system *s, int k, const double u[PENDRES_U_COUNT])
+static double scale_at(const pendres_system *s, int k, const pendres_u u)
 {
   return pendres_arc_scale(s->unknown[k], u[s->unknown[k]]);
 }
 
 /* The equations at u, and the plane across a direction, linearised in the scaled unknowns. */
-static void linearise(const pendres_system *s, const pendres_equations *e,
-                      const double u[PENDRES_U_COUNT], const double *direction,
-                      double a[][PENDRES_U_COUNT])
+static void linearise(const pendres_system *s, const pendres_equations *e, const pendres_u u,
+                      const double *direction, double a[][PENDRES_U_COUNT])
 {
   const int n = s->unknowns;
   for (int k = 0; k < n; k++) {
@@ -74,7 +72,7 @@ static void linearise(const pendres_system *s, const pendres_equations *e,
 
 /* The curve's tangent at its point u: the null vector of the equations, along `along`. */
 static int tangent_of(const pendres_system *s, const pendres_equations *e,
-                      const double u[PENDRES_U_COUNT], const double *along, double *tangent)
+                      const pendres_u u, const double *along, double *tangent)
 {
   const int n = s->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], t[PENDRES_U_COUNT] = {0.0}, length = 0.0;
@@ -164,8 +162,7 @@ static int same_block(const pendres_correction *a, const pendres_correction *b)
 }
 
 /* Gather the points that wait and have the map and the steps of the first; returns their number. */
-static size_t gather(size_t n, pendres_correction *c, size_t first, size_t *index,
-                     double (*u)[PENDRES_U_COUNT])
+static size_t gather(size_t n, pendres_correction *c, size_t first, size_t *index, pendres_u *u)
 {
   size_t count = 0;
   for (size_t i = first; i < n; i++) {
@@ -179,7 +176,7 @@ static size_t gather(size_t n, pendres_correction *c, size_t first, size_t *inde
 
 /* Evaluate all active points, those of equal maps and steps together. */
 static pendres_status evaluate(pendres_context *ctx, size_t n, pendres_correction *c, size_t *index,
-                               double (*u)[PENDRES_U_COUNT], pendres_equations *at)
+                               pendres_u *u, pendres_equations *at)
 {
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < n; i++) c[i].waiting = c[i].state == PENDRES_CORRECTION_ACTIVE;
@@ -188,7 +185,7 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, pendres_correctio
     const size_t count = gather(n, c, first, index, u);
     pendres_system system = c[first].kind->system;
     system.steps = c[first].steps;
-    status = pendres_equations_at(ctx, &system, count, (const double (*)[PENDRES_U_COUNT])u, at);
+    status = pendres_equations_at(ctx, &system, count, (const pendres_u *)u, at);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++) c[index[i]].at = at[i];
   }
   return status;
@@ -200,7 +197,7 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, pendres_correctio
  * that do fail.
  */
 static pendres_status keep_off(pendres_context *ctx, int which, size_t n, pendres_correction *c,
-                               size_t *index, double (*u)[PENDRES_U_COUNT])
+                               size_t *index, pendres_u *u)
 {
   pendres_status status = PENDRES_OK;
   pendres_map_miss *miss = malloc((n + 1) * sizeof *miss);
@@ -214,8 +211,7 @@ static pendres_status keep_off(pendres_context *ctx, int which, size_t n, pendre
     if (!c[first].waiting) continue;
     const size_t count = gather(n, c, first, index, u);
     if (!pendres_map_half(&c[first].kind->system.map, which, &half)) continue;
-    status = pendres_map_closes(ctx, &half, c[first].steps, count,
-                                (const double (*)[PENDRES_U_COUNT])u, miss);
+    status = pendres_map_closes(ctx, &half, c[first].steps, count, (const pendres_u *)u, miss);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++)
       if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close))
         c[index[i]].state = PENDRES_CORRECTION_FAILED;
@@ -229,7 +225,7 @@ static pendres_status converge(pendres_context *ctx, size_t n, pendres_correctio
 {
   pendres_status status = PENDRES_OK;
   size_t *index = malloc((n + 1) * sizeof *index), active = n;
-  double(*u)[PENDRES_U_COUNT] = malloc((n + 1) * sizeof *u);
+  pendres_u *u = malloc((n + 1) * sizeof *u);
   pendres_equations *at = malloc((n + 1) * sizeof *at);
   if (index == NULL || u == NULL || at == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
@@ -264,7 +260,7 @@ pendres_status pendres_follow_correct(pendres_context *ctx, size_t n, pendres_co
 /* The tangent at a point, towards growing last unknown if `direction` is positive. Each unknown is
    tried as the one that goes on: near a fold the last one hardly changes. */
 static int first_tangent(const pendres_system *s, const pendres_equations *e,
-                         const double u[PENDRES_U_COUNT], double direction, double *tangent)
+                         const pendres_u u, double direction, double *tangent)
 {
   const int n = s->unknowns, last = n - 1;
   int best = -1;
@@ -284,15 +280,15 @@ static int first_tangent(const pendres_system *s, const pendres_equations *e,
 }
 
 static pendres_status equations_at(pendres_context *ctx, const pendres_followed *kind, int steps,
-                                   const double u[PENDRES_U_COUNT], pendres_equations *e)
+                                   const pendres_u u, pendres_equations *e)
 {
   pendres_system s = kind->system;
   s.steps = steps;
-  return pendres_equations_at(ctx, &s, 1, (const double (*)[PENDRES_U_COUNT])u, e);
+  return pendres_equations_at(ctx, &s, 1, (const pendres_u *)u, e);
 }
 
 /* Find which half maps an orbit at u does not close by. */
-static pendres_status find_apart(pendres_context *ctx, int steps, const double u[PENDRES_U_COUNT],
+static pendres_status find_apart(pendres_context *ctx, int steps, const pendres_u u,
                                  pendres_followed *kind)
 {
   pendres_status status = PENDRES_OK;
@@ -300,7 +296,7 @@ static pendres_status find_apart(pendres_context *ctx, int steps, const double u
     pendres_map half;
     pendres_map_miss miss;
     if (!pendres_map_half(&kind->system.map, which, &half)) break;
-    status = pendres_map_closes(ctx, &half, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &miss);
+    status = pendres_map_closes(ctx, &half, steps, 1, (const pendres_u *)u, &miss);
     if (status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > too_close)
       kind->apart |= 1 << which;
   }
@@ -308,8 +304,7 @@ static pendres_status find_apart(pendres_context *ctx, int steps, const double u
 }
 
 pendres_status pendres_follow_begin(pendres_context *ctx, const pendres_followed *kind,
-                                    const double u[PENDRES_U_COUNT], double direction,
-                                    pendres_follower *w)
+                                    const pendres_u u, double direction, pendres_follower *w)
 {
   const pendres_system *s = &kind->system;
   pendres_equations e;
@@ -350,7 +345,7 @@ pendres_status pendres_follow_describe(pendres_context *ctx, const pendres_follo
 /* ---- advancing ---- */
 
 /* Where point number `rank` ahead is expected. */
-static void predict(const pendres_follower *w, int rank, double u[PENDRES_U_COUNT])
+static void predict(const pendres_follower *w, int rank, pendres_u u)
 {
   const pendres_system *system = &w->kind.system;
   const double s = w->step * (rank + 1);
@@ -413,7 +408,7 @@ static pendres_status stays(pendres_context *ctx, const pendres_follower *w,
   const pendres_system *s = &w->kind.system;
   const double a = pendres_crossing_bordered(&last->image, s->unknown[2], last->tangent);
   const double b = pendres_crossing_bordered(&node->image, s->unknown[2], node->tangent);
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   pendres_located at;
   *same = 1;
   if (!(w->step >= steps_to_crossing * shortest_step && a * b < 0.0)) return PENDRES_OK;

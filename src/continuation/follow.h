@@ -30,7 +30,7 @@ typedef struct pendres_followed {
 
 /* A place on a curve. */
 typedef struct pendres_curve_node {
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   double tangent[PENDRES_UNKNOWNS]; /* unit vector of the scaled unknowns */
   int held; /* 1 + the number of an unknown that corrections do not change; 0: none */
   double arclength; /* from where the follower began, of the scaled unknowns */
@@ -54,10 +54,9 @@ typedef struct pendres_follower {
  * The curve of orbits (PENDRES_CONDITION_NONE: of one parameter) or of bifurcations (of two) that
  * an orbit lies on, and its place there.
  */
-pendres_followed pendres_followed_of(const pendres_orbit *orbit,
-                                     pendres_condition condition,
+pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_condition condition,
                                      const pendres_parameter *parameter, double spacing,
-                                     double u[PENDRES_U_COUNT]);
+                                     pendres_u u);
 
 /*
  * Begin at u, corrected to the curve across its tangent, towards growing (direction > 0) or
@@ -65,8 +64,7 @@ pendres_followed pendres_followed_of(const pendres_orbit *orbit,
  * PENDRES_NOT_CONVERGED if there is no curve at u.
  */
 pendres_status pendres_follow_begin(pendres_context *ctx, const pendres_followed *kind,
-                                    const double u[PENDRES_U_COUNT], double direction,
-                                    pendres_follower *out);
+                                    const pendres_u u, double direction, pendres_follower *out);
 
 /* Advance n followers; each ends with its `ahead` filled, or stuck. Stuck ones are left alone. */
 pendres_status pendres_follow_advance(pendres_context *ctx, size_t n,
@@ -77,7 +75,7 @@ typedef struct pendres_correction {
   const pendres_followed *kind;
   double tangent[PENDRES_UNKNOWNS]; /* the point stays in the plane across it */
   int steps;                        /* a period */
-  double u[PENDRES_U_COUNT];        /* where it is; replaced */
+  pendres_u u;        /* where it is; replaced */
   /* Set by the corrector: */
   enum { PENDRES_CORRECTION_ACTIVE, PENDRES_CORRECTION_CONVERGED, PENDRES_CORRECTION_FAILED } state;
   int waiting;
@@ -105,8 +103,7 @@ typedef struct pendres_search {
   /* PENDRES_NOT_CONVERGED: there is nothing, and the search goes on; PENDRES_NOT_FOUND: it goes on
      in the other direction. */
   pendres_status (*locate)(pendres_context *ctx, const pendres_followed *kind,
-                           const pendres_curve_node nodes[2], const double u[PENDRES_U_COUNT],
-                           void *out);
+                           const pendres_curve_node nodes[2], const pendres_u u, void *out);
 } pendres_search;
 
 /*
@@ -115,7 +112,7 @@ typedef struct pendres_search {
  * way. PENDRES_NOT_FOUND, without a message, if it is not within a range of parameters.
  */
 pendres_status pendres_follow_search(pendres_context *ctx, const pendres_followed *kind,
-                                     const double u[PENDRES_U_COUNT], const pendres_search *search,
+                                     const pendres_u u, const pendres_search *search,
                                      double first, void *out);
 
 #endif

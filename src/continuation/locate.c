@@ -119,7 +119,7 @@ static pendres_status distance_of(pendres_context *ctx, const pendres_system *sy
   for (int i = 0; i < 3; i++) {
     of.steps = steps[i];
     const pendres_status status = pendres_map_images(
-      ctx, &of, 1, (const double (*)[PENDRES_U_COUNT])pair->coarse, &image[i]);
+      ctx, &of, 1, (const pendres_u *)pair->coarse, &image[i]);
     if (status != PENDRES_OK) return status;
   }
   const double middle = pow((double)steps[0] / steps[1], 8);
@@ -145,13 +145,12 @@ static pendres_status distance_of(pendres_context *ctx, const pendres_system *sy
  * of the derivative N over h.
  */
 static pendres_status curvature_of(pendres_context *ctx, const pendres_system *system,
-                                   const double u[PENDRES_U_COUNT], double h, double *out)
+                                   const pendres_u u, double h, double *out)
 {
   const int parameter = system->unknown[0];
   pendres_image image[3];
-  double points[3][PENDRES_U_COUNT];
-  pendres_status status = pendres_map_images(
-    ctx, system, 1, (const double (*)[PENDRES_U_COUNT])u, image);
+  pendres_u points[3];
+  pendres_status status = pendres_map_images(ctx, system, 1, (const pendres_u *)u, image);
   if (status != PENDRES_OK) return status;
   const double a = image[0].j[0][0], b = image[0].j[0][1], c = image[0].j[1][0],
                d = image[0].j[1][1];
@@ -164,7 +163,7 @@ static pendres_status curvature_of(pendres_context *ctx, const pendres_system *s
     points[i][PENDRES_U_Y] += (i - 1) * h * v[0] / length;
     points[i][PENDRES_U_W] += (i - 1) * h * v[1] / length;
   }
-  status = pendres_map_images(ctx, system, 3, (const double (*)[PENDRES_U_COUNT])points, image);
+  status = pendres_map_images(ctx, system, 3, (const pendres_u *)points, image);
   if (status != PENDRES_OK) return status;
   double top = 0.0, bottom = 0.0;
   for (int i = 0; i < 2; i++) {
@@ -198,7 +197,7 @@ static pendres_status is_solved(pendres_context *ctx, const pendres_system *syst
   pendres_equations there;
   double moved[PENDRES_EQUATIONS_MOST];
   const pendres_status status = pendres_equations_at(
-    ctx, system, 1, (const double (*)[PENDRES_U_COUNT])l->pair.fine, &there);
+    ctx, system, 1, (const pendres_u *)l->pair.fine, &there);
   *solved = 1;
   if (status != PENDRES_OK) return status;
   if (!moved_at_once(&there, system->unknown, there.r, moved)) return status;
@@ -243,9 +242,8 @@ static pendres_status solve_finely(pendres_context *ctx, const pendres_system *s
 }
 
 /* Solve a system with its own steps, and again with more. */
-static pendres_status solve_twice(pendres_context *ctx, pendres_system system,
-                                  const double u[PENDRES_U_COUNT], double reach,
-                                  pendres_located *out)
+static pendres_status solve_twice(pendres_context *ctx, pendres_system system, const pendres_u u,
+                                  double reach, pendres_located *out)
 {
   enum { MOST_TIMES = 4 };
   pendres_equations at;
@@ -280,14 +278,14 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system,
 }
 
 pendres_status pendres_locate(pendres_context *ctx, const pendres_system *of,
-                              const double u[PENDRES_U_COUNT], double reach, pendres_located *out)
+                              const pendres_u u, double reach, pendres_located *out)
 {
   enum { MOST_TRIES = 5 };
   const double tolerance = ctx->options.tolerance;
   pendres_system system = *of;
   pendres_status status = pendres_map_steps(
     ctx, system.map.force, u, pendres_accuracy_first(ctx), &system.steps);
-  double from[PENDRES_U_COUNT];
+  pendres_u from;
   memcpy(from, u, sizeof from);
   out->parted = 0;
   for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {

@@ -25,7 +25,7 @@ typedef struct pendres_located {
  * PENDRES_TOLERANCE_UNREACHABLE with *out complete.
  */
 pendres_status pendres_locate(pendres_context *ctx, const pendres_system *system,
-                              const double u[PENDRES_U_COUNT], double reach, pendres_located *out);
+                              const pendres_u u, double reach, pendres_located *out);
 
 /* Whether a status of pendres_locate() says that *out is complete. */
 int pendres_located_found(pendres_status status);

@@ -15,7 +15,7 @@
 #include "model/model.h"
 #include "model/parameter.h"
 
-pendres_pendulum pendres_map_pendulum(pendres_force force, const double u[PENDRES_U_COUNT])
+pendres_pendulum pendres_map_pendulum(pendres_force force, const pendres_u u)
 {
   pendres_pendulum p = {.force = force};
   for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
@@ -24,7 +24,7 @@ pendres_pendulum pendres_map_pendulum(pendres_force force, const double u[PENDRE
 }
 
 /* The point of a pendulum in a state (y, w). */
-static void point_of(const pendres_pendulum *p, double y, double w, double u[PENDRES_U_COUNT])
+static void point_of(const pendres_pendulum *p, double y, double w, pendres_u u)
 {
   u[PENDRES_U_Y] = y;
   u[PENDRES_U_W] = w;
@@ -75,8 +75,7 @@ static int is_own_reflection(const pendres_orbit *o, double centre)
   return reflected_after(o->period) > 0 && o->winding == 0;
 }
 
-pendres_map pendres_map_of(const pendres_orbit *o, int unknowns, const int *unknown,
-                           double u[PENDRES_U_COUNT])
+pendres_map pendres_map_of(const pendres_orbit *o, int unknowns, const int *unknown, pendres_u u)
 {
   pendres_map map = {
     .force = o->pendulum.force, .period = o->period, .winding = o->winding};
@@ -106,7 +105,7 @@ pendres_map pendres_map_of(const pendres_orbit *o, int unknowns, const int *unkn
 }
 
 pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
-                                 const double u[PENDRES_U_COUNT], double tolerance, int *steps)
+                                 const pendres_u u, double tolerance, int *steps)
 {
   const pendres_pendulum p = pendres_map_pendulum(force, u);
   const char *why = NULL;
@@ -160,7 +159,7 @@ double pendres_arc_scale(int i, double value)
   return i < PENDRES_U_OMEGA ? least : fmax(least, fabs(value) / logarithmic);
 }
 
-double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
+double pendres_arc_distance(const pendres_u a, const pendres_u b)
 {
   double sum = 0.0;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
@@ -178,7 +177,7 @@ static int whole_periods(const pendres_map *map)
 }
 
 static void read_image(const pendres_rows *rows, size_t lane, const pendres_map *map,
-                       const double u[PENDRES_U_COUNT], int columns, pendres_image *out)
+                       const pendres_u u, int columns, pendres_image *out)
 {
   const double sign = map->mirror ? -1.0 : 1.0;
   const double turns = map->mirror ? two_pi * map->winding + 2.0 * map->centre
@@ -202,7 +201,7 @@ static void read_image(const pendres_rows *rows, size_t lane, const pendres_map 
 /* Points whose images are wanted, few enough for a block. */
 typedef struct points {
   const pendres_map *map;
-  const double (*u)[PENDRES_U_COUNT];
+  const pendres_u *u;
   int steps;
   int columns; /* derivatives that the block gives, in the order of u */
   size_t n;
@@ -294,8 +293,7 @@ static pendres_flow_kind kind_of(int unknowns, const int *unknown)
 }
 
 static pendres_status images(pendres_context *ctx, const pendres_system *s, size_t n,
-                             const double (*u)[PENDRES_U_COUNT], pendres_flow_kind kind,
-                             pendres_image *out)
+                             const pendres_u *u, pendres_flow_kind kind, pendres_image *out)
 {
   pendres_block *b;
   const int chained =
@@ -313,13 +311,13 @@ static pendres_status images(pendres_context *ctx, const pendres_system *s, size
 }
 
 pendres_status pendres_map_images(pendres_context *ctx, const pendres_system *s, size_t n,
-                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out)
+                                  const pendres_u *u, pendres_image *out)
 {
   return images(ctx, s, n, u, kind_of(s->unknowns, s->unknown), out);
 }
 
 pendres_status pendres_map_states(pendres_context *ctx, const pendres_map *map, int steps, size_t n,
-                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out)
+                                  const pendres_u *u, pendres_image *out)
 {
   const pendres_system s = {.map = *map, .steps = steps};
   return images(ctx, &s, n, u, PENDRES_FLOW_VARIATIONAL, out);
@@ -359,8 +357,7 @@ int pendres_map_half(const pendres_map *map, int which, pendres_map *half)
 }
 
 pendres_status pendres_map_closes(pendres_context *ctx, const pendres_map *half, int steps,
-                                  size_t n, const double (*u)[PENDRES_U_COUNT],
-                                  pendres_map_miss *miss)
+                                  size_t n, const pendres_u *u, pendres_map_miss *miss)
 {
   pendres_image *image = malloc((n + 1) * sizeof *image);
   if (image == NULL)

@@ -48,6 +48,9 @@ enum {
   PENDRES_U_COUNT = PENDRES_U_OMEGA + PENDRES_PARAMETER_FOLLOWED
 };
 
+/* Such a point. */
+typedef double pendres_u[PENDRES_U_COUNT];
+
 typedef struct pendres_map {
   pendres_force force;
   int symmetric; /* all pendulums on the way have the mirror symmetry */
@@ -94,27 +97,27 @@ typedef struct pendres_system {
   int unknowns, unknown[PENDRES_UNKNOWNS];
 } pendres_system;
 
-pendres_pendulum pendres_map_pendulum(pendres_force force, const double u[PENDRES_U_COUNT]);
+pendres_pendulum pendres_map_pendulum(pendres_force force, const pendres_u u);
 
 /* The map that an orbit is a fixed point of, and the point. The first two of `unknown[unknowns]`
    are y and w, the others change along the way: where one of them breaks the mirror symmetry, the
    map of the whole period is meant. */
 pendres_map pendres_map_of(const pendres_orbit *orbit, int unknowns, const int *unknown,
-                           double u[PENDRES_U_COUNT]);
+                           pendres_u u);
 
 /* Choose the steps a period at a point for an error of about `tolerance` a period; the number is
    even. */
 pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
-                                 const double u[PENDRES_U_COUNT], double tolerance, int *steps);
+                                 const pendres_u u, double tolerance, int *steps);
 
 /* The map at n points of any parameters, all of the given kind, period and steps, with the
    derivatives by the system's unknowns, and by others that cost nothing more. */
 pendres_status pendres_map_images(pendres_context *ctx, const pendres_system *system, size_t n,
-                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out);
+                                  const pendres_u *u, pendres_image *out);
 
 /* The same without the derivatives by parameters, which become NaN. */
 pendres_status pendres_map_states(pendres_context *ctx, const pendres_map *map, int steps, size_t n,
-                                  const double (*u)[PENDRES_U_COUNT], pendres_image *out);
+                                  const pendres_u *u, pendres_image *out);
 
 /*
  * The half map: one whose second iterate is `map`, so that its fixed points are those of `map` as
@@ -136,8 +139,7 @@ typedef struct pendres_map_miss {
   int winding;
 } pendres_map_miss;
 pendres_status pendres_map_closes(pendres_context *ctx, const pendres_map *half, int steps,
-                                  size_t n, const double (*u)[PENDRES_U_COUNT],
-                                  pendres_map_miss *miss);
+                                  size_t n, const pendres_u *u, pendres_map_miss *miss);
 
 /* det(N -+ I). */
 double pendres_map_fold(const pendres_image *image);
@@ -152,7 +154,7 @@ double pendres_arc_scale(int i, double value);
 double pendres_arc_least_scale(int i);
 
 /* Distance in the scale of arclength. What is the same in both points does not count. */
-double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);
+double pendres_arc_distance(const pendres_u a, const pendres_u b);
 
 /* Norm of DG: by how much the map may enlarge an error of the state. */
 double pendres_map_growth(const pendres_image *image);

@@ -13,7 +13,7 @@
 /* A fixed point as two computations of different steps a period found it. */
 typedef struct pendres_solution {
   pendres_map map;
-  double coarse[PENDRES_U_COUNT], fine[PENDRES_U_COUNT];
+  pendres_u coarse, fine;
   int coarse_steps, fine_steps;
   int critical;    /* at a bifurcation, not at given parameters */
   double apart;    /* of the two at a bifurcation, in y and w, chance left out */

@@ -210,7 +210,7 @@ static void list_points(pendres_curve *c)
     const double at = c->node[i].arclength;
     c->place[c->count++] = (pendres_curve_place){.i = i, .special = -1, .arclength = at};
     for (; k < c->specials && c->special[k].at.i == i; k++) {
-      double u[PENDRES_U_COUNT];
+      pendres_u u;
       const double chord = pendres_curve_between(c, &c->special[k].at, u);
       c->place[c->count++] = (pendres_curve_place){
         .i = i, .special = (int)k, .arclength = at + c->special[k].at.part * chord};

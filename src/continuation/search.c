@@ -38,7 +38,7 @@ static pendres_status search_one_way(pendres_context *ctx, pendres_follower *w,
       nodes[1] = w->ahead[k];
       const double before = search->value(&start, &nodes[0]);
       const double now = search->value(&start, &nodes[1]);
-      double u[PENDRES_U_COUNT];
+      pendres_u u;
       if (before == 0.0 || !(before * now <= 0.0)) continue;
       for (int m = 0; m < PENDRES_U_COUNT; m++)
         u[m] = nodes[0].u[m] + before / (before - now) * (nodes[1].u[m] - nodes[0].u[m]);
@@ -63,7 +63,7 @@ static pendres_status approach_of(pendres_context *ctx, const pendres_follower *
 }
 
 pendres_status pendres_follow_search(pendres_context *ctx, const pendres_followed *kind,
-                                     const double u[PENDRES_U_COUNT], const pendres_search *search,
+                                     const pendres_u u, const pendres_search *search,
                                      double first, void *out)
 {
   pendres_follower way[2];
@@ -94,8 +94,7 @@ static double fold_value(const pendres_curve_node *start, const pendres_curve_no
 
 /* Where branches cross the determinant changes its sign, too. */
 static pendres_status locate_fold(pendres_context *ctx, const pendres_followed *kind,
-                                  const pendres_curve_node nodes[2],
-                                  const double u[PENDRES_U_COUNT], void *out)
+                                  const pendres_curve_node nodes[2], const pendres_u u, void *out)
 {
   const int place = kind->system.unknown[2];
   if (pendres_crossing_bordered(&nodes[0].image, place, nodes[0].tangent) *
@@ -113,7 +112,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
   const char *why = pendres_follow_refuses(near, parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", why);
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   pendres_located located;
   const pendres_followed kind =
     pendres_followed_of(near, PENDRES_CONDITION_NONE, &parameter, pendres_search_spacing, u);
@@ -151,8 +150,7 @@ static double cusp_value(const pendres_curve_node *start, const pendres_curve_no
 }
 
 static pendres_status locate_cusp(pendres_context *ctx, const pendres_followed *kind,
-                                  const pendres_curve_node nodes[2],
-                                  const double u[PENDRES_U_COUNT], void *out)
+                                  const pendres_curve_node nodes[2], const pendres_u u, void *out)
 {
   return pendres_curve_locate(ctx, kind, PENDRES_CONDITION_CUSP, u,
                               2.0 * (nodes[1].arclength - nodes[0].arclength), out);
@@ -171,7 +169,7 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   if (why == NULL && second == near->parameter)
     why = "the second parameter must be another one than the fold's";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", why);
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   pendres_located located;
   const pendres_followed kind = pendres_followed_at(near, second, pendres_curve_spacing, u);
   const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, 0.0, &located);

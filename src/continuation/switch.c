@@ -36,7 +36,8 @@ static pendres_status meet_plane(pendres_context *ctx, const pendres_followed *k
 static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurcation *at,
                                       pendres_orbit *out)
 {
-  double u[PENDRES_U_COUNT], way[PENDRES_UNKNOWNS] = {0.0}, scale[3], length = 0.0;
+  pendres_u u;
+  double way[PENDRES_UNKNOWNS] = {0.0}, scale[3], length = 0.0;
   const pendres_followed orbits =
     pendres_followed_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter,
                         pendres_curve_spacing, u);
@@ -84,7 +85,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   const char *why = pendres_follow_refuses(&at->orbit, at->parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   if (at->kind == PENDRES_BRANCH_POINT) return switch_crossing(ctx, at, out);
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   pendres_image image;
   int steps = 0;
   pendres_followed twice =
@@ -96,7 +97,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   pendres_status status =
     pendres_map_steps(ctx, map->force, u, pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
-    status = pendres_map_states(ctx, &once, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &image);
+    status = pendres_map_states(ctx, &once, steps, 1, (const pendres_u *)u, &image);
   if (status != PENDRES_OK) return status;
   /* The null vector of N + I: the way in which the doubled map's orbits leave. */
   const double a = image.n[0][0] + 1.0, b = image.n[0][1], c = image.n[1][0],
@@ -124,8 +125,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     if (error > most_error || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
     /* Keep away from the branch that it came from, which the plane meets as well. Orbits of the
        other branch are on the far side after one map, and so twice as far away. */
-    status = pendres_map_states(ctx, &once, steps, 1, (const double (*)[PENDRES_U_COUNT])pair.fine,
-                                &image);
+    status = pendres_map_states(ctx, &once, steps, 1, (const pendres_u *)pair.fine, &image);
     if (status != PENDRES_OK) return status;
     const double apart = hypot(image.f[0], image.f[1]);
     if (!(apart > away && apart < 4.0 * away)) continue;

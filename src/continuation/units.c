@@ -29,8 +29,7 @@ static void convert_bifurcations(const pendres_door *d, convert *way, size_t n,
 }
 
 /* Points of map.h are y, w = dy/dtheta and the parameters. */
-static void convert_points(const pendres_door *d, convert *way, size_t n,
-                           double (*u)[PENDRES_U_COUNT])
+static void convert_points(const pendres_door *d, convert *way, size_t n, pendres_u *u)
 {
   for (size_t i = 0; i < n; i++) {
     way(&d->scales, &pendres_dim_length, 2, &u[i][PENDRES_U_Y]);

@@ -21,11 +21,10 @@ static const double narrowest = 1e-9; /* of a search, in arclength */
 static const double known_already = 0.02;
 enum { MOST_TRIALS = 24, HALVE_EVERY = 4 /* trials, in case parabolas close in from one side */ };
 
-double pendres_curve_between(const pendres_curve *t, const pendres_curve_zero *z,
-                             double u[PENDRES_U_COUNT])
+double pendres_curve_between(const pendres_curve *t, const pendres_curve_zero *z, pendres_u u)
 {
   const pendres_curve_node *a = &t->node[z->i], *b = &t->node[(z->i + 1) % t->nodes];
-  double end[PENDRES_U_COUNT];
+  pendres_u end;
   memcpy(end, b->u, sizeof end);
   if (z->i + 1 == t->nodes) end[PENDRES_U_Y] += t->round;
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (end[i] - a->u[i]);
@@ -177,7 +176,7 @@ pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_cur
   *count = 0;
   if (!t->kind.apart || n < 2) return PENDRES_OK;
   pendres_room room = pendres_room_open(ctx, "points of a curve");
-  double(*u)[PENDRES_U_COUNT] = pendres_room_take(&room, n, sizeof *u);
+  pendres_u *u = pendres_room_take(&room, n, sizeof *u);
   pendres_map_miss *miss = pendres_room_take(&room, n, sizeof *miss);
   pendres_status status = room.status;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
@@ -190,7 +189,7 @@ pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_cur
     pendres_map half;
     if ((t->kind.apart >> which & 1) == 0 || !pendres_map_half(map, which, &half))
       continue;
-    status = pendres_map_closes(ctx, &half, steps, n, (const double (*)[PENDRES_U_COUNT])u, miss);
+    status = pendres_map_closes(ctx, &half, steps, n, (const pendres_u *)u, miss);
     if (status == PENDRES_OK) turns_round(t, which, miss, zeros, count);
   }
   return pendres_room_close(&room, status);

@@ -49,7 +49,7 @@ static void eigenvectors(const pendres_image *image, double eigenvalue, double r
 
 /* l . D2P(e, e) by central differences of the monodromy over h. */
 static pendres_status second_derivative(pendres_context *ctx, const pendres_system *closing,
-                                        const double u[PENDRES_U_COUNT], const double e[2],
+                                        const pendres_u u, const double e[2],
                                         const double l[2], double *out)
 {
   const double h = 1e-4;
@@ -61,7 +61,7 @@ static pendres_status second_derivative(pendres_context *ctx, const pendres_syst
     points[i][PENDRES_U_W] += (2 * i - 1) * h * e[1];
   }
   const pendres_status status = pendres_map_states(
-    ctx, &closing->map, closing->steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
+    ctx, &closing->map, closing->steps, 2, (const pendres_u *)points, image);
   for (int i = 0; i < 2 && status == PENDRES_OK; i++)
     for (int k = 0; k < 2; k++)
       sum += l[i] * (image[1].n[i][k] - image[0].n[i][k]) / (2.0 * h) * e[k];
@@ -73,7 +73,8 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
                                           int steps, pendres_boundary_seed *seed)
 {
   static const int unknown[] = {PENDRES_U_Y, PENDRES_U_W};
-  double u[PENDRES_U_COUNT], stable[2], unstable[2], left[2], unused[2], second = 0.0;
+  pendres_u u;
+  double stable[2], unstable[2], left[2], unused[2], second = 0.0;
   pendres_equations at;
   (void)pendres_map_of(saddle, 2, unknown, u);
   /* The map over the whole period, even where that over half of it would do. */

@@ -24,8 +24,7 @@ typedef struct way_back {
 
 /* Refine the orbit of a branch that has come back to the attractor's drive frequency. */
 static pendres_status refine(pendres_context *ctx, const pendres_followed *kind,
-                             const pendres_curve_node nodes[2], const double u[PENDRES_U_COUNT],
-                             void *arg)
+                             const pendres_curve_node nodes[2], const pendres_u u, void *arg)
 {
   const way_back *back = arg;
   const pendres_orbit *attractor = back->attractor;
@@ -63,7 +62,7 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
   static const pendres_search search = {.start = "orbit", .value = away, .locate = refine};
   const pendres_parameter along = PENDRES_DRIVE_FREQUENCY;
   way_back back = {.attractor = attractor, .out = out};
-  double u[PENDRES_U_COUNT];
+  pendres_u u;
   const pendres_followed kind =
     pendres_followed_of(attractor, PENDRES_CONDITION_NONE, &along, pendres_search_spacing, u);
   const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, up, &back);
