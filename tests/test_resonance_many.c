@@ -9,7 +9,7 @@
 
 #include <pendres/pendres.h>
 
-#include "analysis/resonance/work.h"
+#include "analysis/resonance/search.h"
 
 enum { MOST = 20 };
 

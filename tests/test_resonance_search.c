@@ -13,7 +13,7 @@
 #include <pendres/pendres.h>
 
 #include "engine/context_internal.h"
-#include "analysis/resonance/work.h"
+#include "analysis/resonance/search.h"
 
 enum { FREQUENCIES = 100 };
 

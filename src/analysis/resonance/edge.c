@@ -42,8 +42,7 @@ static const pendres_attractor *ending_state(const pendres_response *here,
 static int jump_is_right(const pendres_scan_point *a, const pendres_scan_point *m,
                          const pendres_scan_point *b)
 {
-  const double width =
-    b->response.pendulum.drive_frequency - a->response.pendulum.drive_frequency;
+  const double width = pendres_scan_frequency(b) - pendres_scan_frequency(a);
   const double at_a = a->response.mean_loop_area, at_b = b->response.mean_loop_area;
   const double at_m = m->response.mean_loop_area;
   const double left = fabs(at_m - at_a), right = fabs(at_b - at_m);
@@ -67,8 +66,8 @@ static pendres_status point_between(pendres_context *ctx, const pendres_ensemble
                                     pendres_scan_point *m, int *found)
 {
   static const double shares[] = {0.5, 0.75, 0.25};
-  const double lower = a->response.pendulum.drive_frequency;
-  const double width = b->response.pendulum.drive_frequency - lower;
+  const double lower = pendres_scan_frequency(a);
+  const double width = pendres_scan_frequency(b) - lower;
   *found = 0;
   for (size_t k = 0; k < sizeof shares / sizeof *shares && !*found; k++) {
     pendres_pendulum p = a->response.pendulum;
@@ -86,8 +85,8 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
                              pendres_scan_point *a, pendres_scan_point *b)
 {
   for (;;) {
-    const double lower = a->response.pendulum.drive_frequency;
-    const double upper = b->response.pendulum.drive_frequency;
+    const double lower = pendres_scan_frequency(a);
+    const double upper = pendres_scan_frequency(b);
     const double middle = 0.5 * (lower + upper);
     pendres_scan_point m;
     int found = 0;
@@ -199,7 +198,7 @@ static pendres_status fold_of(pendres_context *ctx, const pendres_ensemble *ense
   if (!(fold.value > range[0] && fold.value < range[1])) return PENDRES_OK;
   status = fold_decides(ctx, ensemble, &fold, e->side, &decides);
   if (status != PENDRES_OK || !decides) return status;
-  status = pendres_scan_follow(ctx, e->without, fold.value, at);
+  status = pendres_scan_follow(ctx, e->without, fold.value, NULL, at);
   if (status != PENDRES_OK) return status;
   at->at_fold = e->side < 0.0 ? -1 : 1;
   at->fold = fold.value;
@@ -209,28 +208,27 @@ static pendres_status fold_of(pendres_context *ctx, const pendres_ensemble *ense
 
 pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
                                            const pendres_scan_point *a,
-                                           const pendres_scan_point *b, pendres_scan_fold *out)
+                                           const pendres_scan_point *b, pendres_scan_border *out)
 {
-  const double range[2] = {a->response.pendulum.drive_frequency,
-                           b->response.pendulum.drive_frequency};
+  const double range[2] = {pendres_scan_frequency(a), pendres_scan_frequency(b)};
   const double rate = pendres_model_units_of(&a->response.pendulum).rate;
   /* Where all members change together, the state of either point may be the one that ends; in a
      wide gap states that continue may have moved so far that they are not recognised. */
   const double close = 1e-4;
   const ending ends[2] = {{ending_state(&a->response, &b->response), b, -1.0},
                           {ending_state(&b->response, &a->response), a, 1.0}};
-  pendres_scan_point *at = &out->at;
+  pendres_scan_point *at = out->at;
   pendres_status status = PENDRES_OK;
-  out->found = 0;
+  out->points = 0;
   if (ends[0].state != NULL && ends[1].state != NULL && range[1] - range[0] > close * rate)
     return status;
-  for (int k = 0; k < 2 && !out->found && status == PENDRES_OK; k++) {
+  for (int k = 0; k < 2 && out->points == 0 && status == PENDRES_OK; k++) {
     at->at_fold = 0;
     if (ends[k].state == NULL || ends[k].without->response.states == 0) continue;
     status = fold_of(ctx, ensemble, &ends[k], range, at);
     if (status != PENDRES_OK || !at->at_fold) continue;
     out->beside = at->fold + ends[k].side * fmin(1e-3 * rate, 0.5 * fabs(at->fold - range[k]));
-    out->found = 1;
+    out->points = 1;
   }
   return status;
 }
@@ -243,7 +241,7 @@ static pendres_status conclude(pendres_context *ctx, const pendres_scan_point *a
   const double step = side * 1e-6 * pendres_model_units_of(&at->response.pendulum).rate;
   pendres_scan_point beside;
   const pendres_status status =
-    pendres_scan_follow(ctx, at, at->response.pendulum.drive_frequency + step, &beside);
+    pendres_scan_follow(ctx, at, pendres_scan_frequency(at) + step, NULL, &beside);
   if (status != PENDRES_OK) return status;
   pendres_resonance_take(out, at);
   pendres_resonance_add_error(out, &beside);
@@ -272,8 +270,8 @@ pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres
   if (status != PENDRES_OK) return status;
   const int low = lower.response.mean_loop_area > upper.response.mean_loop_area;
   *out = (pendres_resonance){.peak = PENDRES_PEAK_EDGE,
-                             .frequency_error = upper.response.pendulum.drive_frequency -
-                                                lower.response.pendulum.drive_frequency,
+                             .frequency_error = pendres_scan_frequency(&upper) -
+                                                pendres_scan_frequency(&lower),
                              .fold_frequency = NAN,
                              .fold_frequency_error = NAN};
   return conclude(ctx, low ? &lower : &upper, low ? -1 : 1, out);

@@ -62,7 +62,7 @@ static pendres_status move_to(pendres_context *ctx, const pendres_scan_point *fr
                               const pendres_orbit *state, const pendres_bifurcation *b,
                               pendres_scan_point *to)
 {
-  const pendres_status status = pendres_scan_follow(ctx, from, b->value, to);
+  const pendres_status status = pendres_scan_follow(ctx, from, b->value, NULL, to);
   if (status != PENDRES_OK) return status;
   for (size_t j = 0; j < to->response.states; j++) {
     const pendres_orbit *o = &from->response.state[j].orbit;
@@ -76,13 +76,13 @@ static pendres_status move_to(pendres_context *ctx, const pendres_scan_point *fr
 
 /* Look for a state of one point that bifurcates towards one of the other. */
 static pendres_status find_from(pendres_context *ctx, const pendres_scan_point *const end[2],
-                                int regular, pendres_scan_kink *out)
+                                int regular, pendres_scan_border *out)
 {
   const pendres_response *here = &end[regular]->response, *there = &end[1 - regular]->response;
-  const double range[2] = {end[0]->response.pendulum.drive_frequency,
-                           end[1]->response.pendulum.drive_frequency};
+  const double range[2] = {pendres_scan_frequency(end[0]),
+                           pendres_scan_frequency(end[1])};
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < here->states && !out->found && status == PENDRES_OK; i++) {
+  for (size_t i = 0; i < here->states && out->points == 0 && status == PENDRES_OK; i++) {
     const pendres_orbit *o = &here->state[i].orbit, *off = NULL, *of[2];
     pendres_bifurcation b = {.value = NAN};
     int bifurcates = 0;
@@ -101,16 +101,16 @@ static pendres_status find_from(pendres_context *ctx, const pendres_scan_point *
       status = move_to(ctx, end[e], of[e], &b, &out->at[e]);
       out->at[e].at_fold = e == 0 ? 1 : -1;
     }
-    out->found = status == PENDRES_OK;
+    out->points = status == PENDRES_OK ? 2 : 0;
   }
   return status;
 }
 
 pendres_status pendres_resonance_find_kink(pendres_context *ctx, const pendres_scan_point *a,
-                                           const pendres_scan_point *b, pendres_scan_kink *out)
+                                           const pendres_scan_point *b, pendres_scan_border *out)
 {
   const pendres_scan_point *const end[2] = {a, b};
-  out->found = 0;
+  out->points = 0;
   const pendres_status status = find_from(ctx, end, 0, out);
-  return status != PENDRES_OK || out->found ? status : find_from(ctx, end, 1, out);
+  return status != PENDRES_OK || out->points > 0 ? status : find_from(ctx, end, 1, out);
 }

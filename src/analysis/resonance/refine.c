@@ -83,8 +83,9 @@ pendres_status pendres_scan_evaluate(pendres_context *ctx, size_t n,
 
 /* ---- following states to another frequency ---- */
 
-static pendres_status follow(pendres_context *ctx, const pendres_scan_point *from, double omega,
-                             pendres_orbit_coarser *coarser, pendres_scan_point *to)
+pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_point *from,
+                                   double omega, pendres_orbit_coarser *coarser,
+                                   pendres_scan_point *to)
 {
   *to = *from;
   to->where = NULL;
@@ -105,12 +106,6 @@ static pendres_status follow(pendres_context *ctx, const pendres_scan_point *fro
   return pendres_response_renew(ctx, &to->response);
 }
 
-pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_point *from,
-                                   double omega, pendres_scan_point *to)
-{
-  return follow(ctx, from, omega, NULL, to);
-}
-
 /* ---- smooth peaks ---- */
 
 typedef struct peak_search {
@@ -128,16 +123,15 @@ typedef struct peak_search {
 static double slope_at(double omega, void *arg)
 {
   peak_search *s = arg;
-  if (omega == s->a->response.pendulum.drive_frequency) return s->a->slope;
-  if (omega == s->b->response.pendulum.drive_frequency) return s->b->slope;
+  if (omega == pendres_scan_frequency(s->a)) return s->a->slope;
+  if (omega == pendres_scan_frequency(s->b)) return s->b->slope;
   const pendres_scan_point *from = s->a;
   const pendres_scan_point *const known[] = {s->b, &s->latest, &s->before};
   pendres_scan_point now;
   for (int i = 0; i < 3; i++)
-    if (fabs(known[i]->response.pendulum.drive_frequency - omega) <
-        fabs(from->response.pendulum.drive_frequency - omega))
+    if (fabs(pendres_scan_frequency(known[i]) - omega) < fabs(pendres_scan_frequency(from) - omega))
       from = known[i];
-  if (s->status == PENDRES_OK) s->status = pendres_scan_follow(s->ctx, from, omega, &now);
+  if (s->status == PENDRES_OK) s->status = pendres_scan_follow(s->ctx, from, omega, NULL, &now);
   if (s->status == PENDRES_OK && !isfinite(now.slope)) s->status = PENDRES_NOT_CONVERGED;
   if (s->status != PENDRES_OK) return 0.0;
   s->before = s->latest;
@@ -174,7 +168,7 @@ void pendres_resonance_add_error(pendres_resonance *r, const pendres_scan_point 
 void pendres_resonance_take(pendres_resonance *r, const pendres_scan_point *at)
 {
   r->response = at->response;
-  r->frequency = at->response.pendulum.drive_frequency;
+  r->frequency = pendres_scan_frequency(at);
   r->loop_area = at->response.mean_loop_area;
   r->loop_area_error = at->response.mean_loop_area_error;
 }
@@ -220,7 +214,7 @@ static double lag_error(const pendres_scan_point *at, const pendres_scan_point *
   if (r->states != 1 || r->unresolved + r->unlisted > 0 || !pendres_response_has_loop(r->state) ||
       !isfinite(o->x))
     return NAN;
-  const double width = near->response.pendulum.drive_frequency - r->pendulum.drive_frequency;
+  const double width = pendres_scan_frequency(near) - r->pendulum.drive_frequency;
   const double curvature = (b->loop_area_slope - o->loop_area_slope) / width;
   const double shift = -(coarser->loop_area_slope - o->loop_area_slope) / curvature;
   const double turn[2] = {(b->cosine[0] - o->cosine[0]) / width, (b->sine[0] - o->sine[0]) / width};
@@ -246,12 +240,11 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   if (!(a->slope >= 0.0 && b->slope <= 0.0))
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
                                 "the loop area has no peak between drive frequencies %g and %g",
-                                a->response.pendulum.drive_frequency,
-                                b->response.pendulum.drive_frequency);
+                                pendres_scan_frequency(a), pendres_scan_frequency(b));
   gsl_function f = {.function = slope_at, .params = &s};
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-  const double lower = a->response.pendulum.drive_frequency;
-  const double upper = b->response.pendulum.drive_frequency;
+  const double lower = pendres_scan_frequency(a);
+  const double upper = pendres_scan_frequency(b);
   if (solver == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a root");
 
@@ -276,8 +269,8 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   const double rate = pendres_model_units_of(&a->response.pendulum).rate;
   const double width = fmin(1e-4 * rate, 0.25 * (upper - lower));
   pendres_orbit_coarser coarser[PENDRES_RESPONSE_STATES];
-  pendres_status status = follow(ctx, &s.latest, root, coarser, &at);
-  if (status == PENDRES_OK) status = pendres_scan_follow(ctx, &at, root + width, &beside);
+  pendres_status status = pendres_scan_follow(ctx, &s.latest, root, coarser, &at);
+  if (status == PENDRES_OK) status = pendres_scan_follow(ctx, &at, root + width, NULL, &beside);
   if (status != PENDRES_OK) return status;
   const double curvature = (beside.slope - at.slope) / width;
   /* Not a zero of the slope, but a jump through zero. */

@@ -9,7 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
-#include "analysis/resonance/work.h"
+#include "analysis/resonance/search.h"
 #include "analysis/resonance/response_parts.h"
 
 /*
@@ -81,20 +81,19 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
   const char *why = refuses(p, range[0], range[1], ensemble);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   if (is_at_rest(p)) return pendres_resonance_no_area(ctx, p);
-  pendres_resonance_work w;
-  pendres_search *s = &w.s;
+  pendres_search search, *s = &search;
   pendres_search_budget budget = pendres_search_budget_of(ctx, most_work);
-  pendres_status status = pendres_resonance_work_create(&budget, p, ensemble, &w);
+  pendres_status status = pendres_search_create(&budget, p, ensemble, s);
   s->lowest = range[0];
   s->highest = range[1];
   while (status == PENDRES_OK) {
-    status = pendres_resonance_work_next(&w, out);
+    status = pendres_search_next(s, out);
     if (status != PENDRES_OK || s->requests == 0) break;
     status = pendres_search_add(1, &s);
   }
   if (status == PENDRES_OK) status = add_sampling(ctx, ensemble, out);
   if (status != PENDRES_OK) clear(out);
-  pendres_resonance_work_free(&w);
+  pendres_search_free(s);
   return status;
 }
 
@@ -124,7 +123,7 @@ typedef struct party {
   size_t n;
   struct seeker {
     enum { SEEKER_ALONE, SEEKER_TOGETHER, SEEKER_ENDED } state;
-    pendres_resonance_work work;
+    pendres_search search;
     pendres_resonance_search *of;
   } seeker[TOGETHER];
 } party;
@@ -146,11 +145,10 @@ static pendres_status end(pendres_context *ctx, pendres_status status, struct se
 static pendres_status step(pendres_context *ctx, const party *p, struct seeker *k)
 {
   pendres_resonance *out = &k->of->resonance;
-  pendres_status status =
-    PENDRES_CONTEXT_CALL(ctx, pendres_resonance_work_next(&k->work, out));
+  pendres_status status = PENDRES_CONTEXT_CALL(ctx, pendres_search_next(&k->search, out));
   /* With a budget of its own it might have continued. */
   if (p->budget.exhausted && status != PENDRES_INTERRUPTED) return PENDRES_OK;
-  if (status == PENDRES_OK && k->work.s.requests > 0) return status;
+  if (status == PENDRES_OK && k->search.requests > 0) return status;
   if (status == PENDRES_OK)
     status = PENDRES_CONTEXT_CALL(ctx, add_sampling(ctx, p->ensemble, out));
   return end(ctx, status, k);
@@ -167,7 +165,7 @@ static pendres_status go_together(pendres_context *ctx, party *p)
       if (p->seeker[i].state != SEEKER_TOGETHER) continue;
       const pendres_status status = step(ctx, p, &p->seeker[i]);
       if (status != PENDRES_OK || p->budget.exhausted) return status;
-      if (p->seeker[i].state == SEEKER_TOGETHER) requesting[count++] = &p->seeker[i].work.s;
+      if (p->seeker[i].state == SEEKER_TOGETHER) requesting[count++] = &p->seeker[i].search;
     }
     if (count == 0) return PENDRES_OK;
     const pendres_status status = PENDRES_CONTEXT_CALL(ctx, pendres_search_add(count, requesting));
@@ -189,10 +187,10 @@ static pendres_status begin(pendres_context *ctx, party *p, double most_together
     if (is_at_rest(&of->pendulum) ||
         refuses(&of->pendulum, of->lowest, of->highest, p->ensemble) != NULL)
       continue;
-    status = pendres_resonance_work_create(&p->budget, &of->pendulum, p->ensemble, &k->work);
+    status = pendres_search_create(&p->budget, &of->pendulum, p->ensemble, &k->search);
     k->state = SEEKER_TOGETHER;
-    k->work.s.lowest = of->lowest;
-    k->work.s.highest = of->highest;
+    k->search.lowest = of->lowest;
+    k->search.highest = of->highest;
   }
   return status == PENDRES_OK ? go_together(ctx, p) : status;
 }
@@ -200,7 +198,7 @@ static pendres_status begin(pendres_context *ctx, party *p, double most_together
 static pendres_status find_some(pendres_context *ctx, party *p, double most_together)
 {
   pendres_status status = begin(ctx, p, most_together);
-  for (size_t i = 0; i < p->n; i++) pendres_resonance_work_free(&p->seeker[i].work);
+  for (size_t i = 0; i < p->n; i++) pendres_search_free(&p->seeker[i].search);
   for (size_t i = 0; i < p->n && status == PENDRES_OK; i++) {
     pendres_resonance_search *of = p->seeker[i].of;
     if (p->seeker[i].state == SEEKER_ENDED) continue;

@@ -182,14 +182,10 @@ static void average(pendres_response *r, const parted *p)
 void pendres_response_average(pendres_response *r)
 {
   if (r == NULL) return;
-  if (r->states > PENDRES_RESPONSE_STATES) {
-    r->mean_loop_area = r->mean_loop_area_error = r->mean_loop_amplitude = NAN;
-    r->mean_loop_amplitude_error = r->mean_amplitude = r->mean_amplitude_error = NAN;
-    r->phase_lag = r->phase_lag_error = r->mean_power = r->mean_power_error = NAN;
-    r->sa_fraction = r->sa_fraction_error = r->la_fraction = r->la_fraction_error = NAN;
-    return;
-  }
-  average(r, &(parted){.attractors = r->states, .attractor = r->state,
+  if (r->states > PENDRES_RESPONSE_STATES)
+    clear_means(r);
+  else
+    average(r, &(parted){.attractors = r->states, .attractor = r->state,
                        .members = r->state_members, .lost = r->unresolved + r->unlisted});
 }
 

@@ -48,11 +48,6 @@ void pendres_search_free(pendres_search *s)
   free(s->points);
 }
 
-double pendres_scan_frequency(const pendres_scan_point *p)
-{
-  return p->response.pendulum.drive_frequency;
-}
-
 /* Never 0 for two points that differ, so that their order is not that of their discovery. */
 static int by_frequency(const void *a, const void *b)
 {
@@ -119,6 +114,21 @@ static void gather(pendres_room *room, size_t n, pendres_search *const *s, wante
     }
 }
 
+/* Append a point whose members are on these states. */
+static pendres_status append(pendres_search *s, const pendres_scan_point *point,
+                             const signed char *where)
+{
+  pendres_scan_point *to = &s->points[s->count];
+  *to = *point;
+  to->next = NULL;
+  to->where = malloc(s->ensemble->members);
+  if (to->where == NULL)
+    return pendres_context_fail(s->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
+  memcpy(to->where, where, s->ensemble->members);
+  s->count++;
+  return PENDRES_OK;
+}
+
 /* Evaluate n of what is wanted, from number `first` on. */
 static pendres_status add_batch(const wanted *w, size_t first, size_t n)
 {
@@ -130,17 +140,8 @@ static pendres_status add_batch(const wanted *w, size_t first, size_t n)
   pendres_scan_point *new = pendres_room_take(&room, n, sizeof *new);
   pendres_status status = room.status;
   if (status == PENDRES_OK) status = pendres_scan_evaluate(by[0]->ctx, n, p, e, where, new);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    pendres_scan_point *to = &by[i]->points[by[i]->count];
-    *to = new[i];
-    to->where = malloc(e->members);
-    if (to->where == NULL) {
-      status = pendres_context_fail(by[0]->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
-      break;
-    }
-    memcpy(to->where, where + i * e->members, e->members);
-    by[i]->count++;
-  }
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = append(by[i], &new[i], where + i * e->members);
   pendres_search_account(by[n / 2], p[n / 2].drive_frequency);
   return pendres_room_close(&room, status);
 }
@@ -180,16 +181,11 @@ pendres_status pendres_search_add(size_t n, pendres_search *const *s)
 }
 
 pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point *point,
-                                     const pendres_scan_point *like)
+                                     const signed char *where)
 {
-  signed char *where = malloc(s->ensemble->members);
-  if (where == NULL)
-    return pendres_context_fail(s->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
-  memcpy(where, like->where, s->ensemble->members);
-  s->points[s->count] = *point;
-  s->points[s->count++].where = where;
+  const pendres_status status = append(s, point, where);
   qsort(s->points, s->count, sizeof *s->points, by_frequency);
-  return PENDRES_OK;
+  return status;
 }
 
 /* ---- the first scan ---- */

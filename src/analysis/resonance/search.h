@@ -1,10 +1,11 @@
 /*
- * search.h -- the frequencies that a search for a resonance has evaluated.
+ * search.h -- one search for a resonance, step by step.
  *
  * Owns: the points of a search in ascending frequency, the first scan of the range, the gaps
- * between neighbouring points, and the budget of work, which bounds the cost of a search whatever
- * its parameters. Searches may share a budget; the frequencies that they need are then evaluated
- * side by side.
+ * between neighbouring points, which frequencies the search needs next, and its result; and the
+ * budget of work, which bounds the cost of a search whatever its parameters. Between two steps the
+ * caller evaluates the frequencies that the search asks for, so that several searches run side by
+ * side, with a budget that they may share.
  */
 #ifndef PENDRES_RESONANCE_SEARCH_H
 #define PENDRES_RESONANCE_SEARCH_H
@@ -47,12 +48,10 @@ typedef struct pendres_search {
 /* A budget of which nothing is spent. */
 pendres_search_budget pendres_search_budget_of(pendres_context *ctx, double most);
 
-/* Free it in any case. */
+/* Free it in any case; the range is set by the caller. */
 pendres_status pendres_search_create(pendres_search_budget *budget, const pendres_pendulum *p,
                                      const pendres_ensemble *ensemble, pendres_search *out);
 void pendres_search_free(pendres_search *s);
-
-double pendres_scan_frequency(const pendres_scan_point *p);
 
 /*
  * Evaluate the frequencies that n searches with one budget and one ensemble need, and insert the
@@ -61,9 +60,9 @@ double pendres_scan_frequency(const pendres_scan_point *p);
  */
 pendres_status pendres_search_add(size_t n, pendres_search *const *s);
 
-/* Insert a point whose members are on the same states as those of `like`; room is not checked. */
+/* Insert a point whose members are on these states; room is not checked. */
 pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point *point,
-                                     const pendres_scan_point *like);
+                                     const signed char *where);
 
 /* Add what the context has spent since the last time to the work of the search. */
 void pendres_search_account(pendres_search *s, double omega);
@@ -82,26 +81,29 @@ double pendres_search_width(const pendres_pendulum *p, double omega);
    the damping requires. If it requests none, it is complete. */
 pendres_status pendres_search_scan(pendres_search *s);
 
-/* ---- gap.c: what may happen between two neighbouring points: which states continue from one to
-   the other, which members change their state, how large the mean area can be in between ---- */
-
-typedef enum pendres_gap_kind {
-  PENDRES_GAP_PLAIN, /* the members keep their states, and the mean rises or falls */
-  PENDRES_GAP_PEAK,  /* they keep them, and it first rises and then falls */
-  PENDRES_GAP_JUMP   /* a state appears or ends, or a member changes its state */
-} pendres_gap_kind;
-
-typedef struct pendres_gap {
-  pendres_gap_kind kind;
-  double width;
-  double bound;  /* no mean area within exceeds this */
-  int loose;     /* the bound allows for members near a basin boundary that appear to keep their
-                    states */
-  int mixed;     /* members change to larger areas and to smaller ones */
-} pendres_gap;
-
-/* The gap between two neighbours, `members` on each. */
+/* Which states continue from one neighbour to the other, which of the `members` on each change
+   their state, how large the mean area can be in between. */
 void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, size_t members,
                       pendres_gap *out);
+
+/* Request the frequencies that a search needs next; if none, it is over, and *out its resonance. */
+pendres_status pendres_search_next(pendres_search *s, pendres_resonance *out);
+
+/* pendres_resonance_find_ensemble() with a budget of work, which is about seconds of one
+   processor. */
+pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
+                                             const double range[2],
+                                             const pendres_ensemble *ensemble, double most_work,
+                                             pendres_resonance *out);
+
+/* pendres_resonance_find_many; what searches side by side may cost together before they are begun
+   again one by one. */
+pendres_status pendres_resonance_find_together(pendres_context *ctx, size_t n,
+                                               pendres_resonance_search *searches,
+                                               const pendres_ensemble *ensemble,
+                                               double most_together);
+
+/* PENDRES_NOT_FOUND, and why: there is no area to be largest. */
+pendres_status pendres_resonance_no_area(pendres_context *ctx, const pendres_pendulum *p);
 
 #endif

@@ -1,5 +1,5 @@
-/* work.c -- gaps that are cut, and the best of what they hold; see work.h. */
-#include "analysis/resonance/work.h"
+/* work.c -- gaps that are cut, and the best of what they hold; see search.h. */
+#include "analysis/resonance/search.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,43 +16,14 @@ enum { SECTIONS = 4 /* a gap is cut into */ };
  */
 static const double narrow = 2e-5, narrowest = 1e-7;
 
-pendres_status pendres_resonance_work_create(pendres_search_budget *budget,
-                                             const pendres_pendulum *p,
-                                             const pendres_ensemble *ensemble,
-                                             pendres_resonance_work *out)
+/* Examine all gaps that are not known from before: points are only added. */
+static void look_at_gaps(pendres_search *s)
 {
-  const pendres_status status = pendres_search_create(budget, p, ensemble, &out->s);
-  out->gaps = 0;
-  out->known = malloc(PENDRES_SEARCH_POINTS * sizeof *out->known);
-  if (status != PENDRES_OK || out->known != NULL) return status;
-  return pendres_context_fail(budget->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
-}
-
-void pendres_resonance_work_free(pendres_resonance_work *w)
-{
-  pendres_search_free(&w->s);
-  free(w->known);
-}
-
-/*
- * Examine all gaps. Most of them are known from before, since points have only been added. The loop
- * runs from the last gap down, so that known gaps are not overwritten before they are moved.
- */
-static void look_at_gaps(pendres_resonance_work *w)
-{
-  size_t before = w->gaps;
-  w->gaps = w->s.count > 0 ? w->s.count - 1 : 0;
-  for (size_t i = w->gaps; i-- > 0;) {
-    const pendres_scan_point *a = &w->s.points[i], *b = a + 1;
-    pendres_known_gap next = {.from = a->where, .to = b->where, .jump = a->jump_to_next};
-    const pendres_known_gap *old = before > 0 ? &w->known[before - 1] : NULL;
-    const int met = old != NULL && old->from == next.from;
-    if (met && old->to == next.to && old->jump == next.jump)
-      next.gap = old->gap;
-    else
-      pendres_gap_look(a, b, w->s.ensemble->members, &next.gap);
-    if (met) before--;
-    w->known[i] = next;
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    pendres_scan_point *a = &s->points[i], *b = a + 1;
+    if (a->next == b->where) continue;
+    pendres_gap_look(a, b, s->ensemble->members, &a->gap);
+    a->next = b->where;
   }
 }
 
@@ -81,26 +52,26 @@ static double threshold_of(const pendres_search *s)
 }
 
 /* Whether a gap has to be examined further. */
-static int open_gap(const pendres_resonance_work *w, size_t i, double threshold)
+static int open_gap(const pendres_search *s, size_t i, double threshold)
 {
-  const pendres_gap *g = &w->known[i].gap;
-  const double width = g->width / w->s.rate;
+  const pendres_gap *g = &s->points[i].gap;
+  const double width = g->width / s->rate;
   if (!(g->bound > threshold)) return 0;
   if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? narrowest : narrow);
   return g->loose || (g->kind == PENDRES_GAP_PLAIN && width > narrow);
 }
 
 /* The largest bound of all gaps that are open; minus infinity if none is. */
-static double largest_bound(const pendres_resonance_work *w, double threshold)
+static double largest_bound(const pendres_search *s, double threshold)
 {
   double largest = -INFINITY;
-  for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (open_gap(w, i, threshold)) largest = fmax(largest, w->known[i].gap.bound);
+  for (size_t i = 0; i + 1 < s->count; i++)
+    if (open_gap(s, i, threshold)) largest = fmax(largest, s->points[i].gap.bound);
   return largest;
 }
 
 /* Whether all states of two points go on to a kink between them, and their members meet there. */
-static int meet(const pendres_scan_point *a, const pendres_scan_kink *kink,
+static int meet(const pendres_scan_point *a, const pendres_scan_border *kink,
                 const pendres_scan_point *b)
 {
   const pendres_response *p = &kink->at[0].response, *q = &kink->at[1].response;
@@ -113,93 +84,89 @@ static int meet(const pendres_scan_point *a, const pendres_scan_kink *kink,
 }
 
 /*
- * A kink in a gap in which no fold was found becomes two points, one for either side. If there are
- * jumps in the gap as well, it is not yet known where the members are at the kink: it is searched
- * for again when the gap has been cut.
+ * Find a fold in a gap, or else a kink. If there are jumps in the gap beside a kink, it is not yet
+ * known where the members are at the kink: it is searched for again when the gap has been cut.
  */
-static pendres_status add_kink(pendres_resonance_work *w, size_t gap, int *found)
+static pendres_status find_border(pendres_search *s, pendres_scan_point *a,
+                                  pendres_scan_border *out)
 {
-  pendres_search *s = &w->s;
-  const pendres_scan_point a = s->points[gap], b = s->points[gap + 1];
-  pendres_scan_kink *kink = malloc(sizeof *kink);
-  if (kink == NULL)
-    return pendres_context_fail(s->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
-  pendres_status status = pendres_resonance_find_kink(s->ctx, &a, &b, kink);
-  pendres_search_account(s, pendres_scan_frequency(&a));
-  *found = status == PENDRES_OK && kink->found;
-  if (*found && s->count + 2 > PENDRES_SEARCH_POINTS) {
-    s->crowded = 1;
-  } else if (*found && !meet(&a, kink, &b)) {
-    *found = 0;
-    if (w->known[gap].gap.width > narrow * s->rate) s->points[gap].fold_sought = 0;
-  } else if (*found) {
-    status = pendres_search_insert(s, &kink->at[0], &a);
-    if (status == PENDRES_OK) status = pendres_search_insert(s, &kink->at[1], &b);
-  }
-  free(kink);
+  const pendres_scan_point *b = a + 1;
+  a->fold_sought = 1;
+  pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, out);
+  pendres_search_account(s, pendres_scan_frequency(a));
+  if (status != PENDRES_OK || out->points > 0) return status;
+  status = pendres_resonance_find_kink(s->ctx, a, b, out);
+  pendres_search_account(s, pendres_scan_frequency(a));
+  if (status != PENDRES_OK || out->points == 0 || s->count + 2 > PENDRES_SEARCH_POINTS ||
+      meet(a, out, b))
+    return status;
+  out->points = 0;
+  if (a->gap.width > narrow * s->rate) a->fold_sought = 0;
   return status;
 }
 
-/*
- * Look for a fold in the most promising gap that was not searched for one yet, however narrow. The
- * fold saves many frequencies close to it, where its ghost slows everything down. *sought: there
- * was such a gap; *found: a fold was added, and a frequency beside it is requested.
- */
-static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *found)
+/* The most promising gap, however narrow, that was not searched for a fold yet; NULL: none. */
+static pendres_scan_point *unsought(const pendres_search *s)
 {
-  pendres_search *s = &w->s;
   double largest = threshold_of(s);
-  size_t gap = s->count;
-  *found = 0;
+  pendres_scan_point *best = NULL;
   for (size_t i = 0; i + 1 < s->count; i++) {
-    const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-    const pendres_gap *g = &w->known[i].gap;
-    if (g->kind != PENDRES_GAP_JUMP || a->fold_sought || a->at_fold || b->at_fold) continue;
-    if (g->bound > largest) {
-      largest = g->bound;
-      gap = i;
-    }
+    pendres_scan_point *a = &s->points[i];
+    if (a->gap.kind != PENDRES_GAP_JUMP || a->fold_sought || a->at_fold || a[1].at_fold ||
+        !(a->gap.bound > largest))
+      continue;
+    largest = a->gap.bound;
+    best = a;
   }
-  *sought = gap < s->count;
-  if (!*sought) return PENDRES_OK;
-  pendres_scan_point *a = &s->points[gap], *b = &s->points[gap + 1];
-  pendres_scan_fold fold;
-  a->fold_sought = 1;
-  pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, &fold);
-  pendres_search_account(s, pendres_scan_frequency(a));
-  *found = status == PENDRES_OK && fold.found;
-  if (status == PENDRES_OK && !*found) return add_kink(w, gap, found);
+  return best;
+}
+
+/*
+ * Look for a fold or a kink in a gap. A fold saves many frequencies close to it, where its ghost
+ * slows everything down; one beside it is requested. *found: its points were added, or there is no
+ * room for them.
+ */
+static pendres_status add_border(pendres_search *s, pendres_scan_point *a, int *found)
+{
+  const signed char *const where[2] = {a->where, a[1].where};
+  pendres_scan_border border;
+  pendres_status status = find_border(s, a, &border);
+  *found = status == PENDRES_OK && border.points > 0;
   if (!*found) return status;
   if (s->count + 2 > PENDRES_SEARCH_POINTS) {
     s->crowded = 1;
     return PENDRES_OK;
   }
-  s->requests = 1;
-  s->request[0] = fold.beside;
-  return pendres_search_insert(s, &fold.at, fold.at.at_fold < 0 ? b : a);
+  if (border.points == 1) {
+    s->requests = 1;
+    s->request[0] = border.beside;
+  }
+  for (size_t k = 0; k < border.points && status == PENDRES_OK; k++)
+    status = pendres_search_insert(s, &border.at[k], where[border.at[k].at_fold < 0]);
+  return status;
 }
 
 /*
  * Request cuts of the gaps that may hold more than the best value known, the most promising first.
  * If there are no requests, none but narrow ones are left, or room or budget are spent.
  */
-static pendres_status resolve_gaps(pendres_resonance_work *w)
+static pendres_status resolve_gaps(pendres_search *s)
 {
-  pendres_search *s = &w->s;
   for (;;) {
-    int sought = 0, found = 0;
-    look_at_gaps(w);
+    int found = 0;
+    look_at_gaps(s);
     if (pendres_search_over(s)) return PENDRES_OK;
-    pendres_status status = add_fold(w, &sought, &found);
+    pendres_scan_point *sought = unsought(s);
+    const pendres_status status = sought != NULL ? add_border(s, sought, &found) : PENDRES_OK;
     if (status != PENDRES_OK || s->requests > 0) return status;
     if (found) continue;
-    const double threshold = threshold_of(s), largest = largest_bound(w, threshold);
-    if (largest == -INFINITY && sought) continue;
+    const double threshold = threshold_of(s), largest = largest_bound(s, threshold);
+    if (largest == -INFINITY && sought != NULL) continue;
     if (largest == -INFINITY) return PENDRES_OK;
     for (size_t i = 0; i + 1 < s->count; i++) {
-      const double first = pendres_scan_frequency(&s->points[i]), width = w->known[i].gap.width;
+      const double first = pendres_scan_frequency(&s->points[i]), width = s->points[i].gap.width;
       /* Less promising gaps may be ruled out by what is found in the others. */
-      if (!open_gap(w, i, threshold) || w->known[i].gap.bound < 0.5 * (threshold + largest))
+      if (!open_gap(s, i, threshold) || s->points[i].gap.bound < 0.5 * (threshold + largest))
         continue;
       for (int k = 1; k < SECTIONS && s->requests < PENDRES_SEARCH_POINTS; k++)
         s->request[s->requests++] = first + width * k / SECTIONS;
@@ -212,12 +179,11 @@ static pendres_status resolve_gaps(pendres_resonance_work *w)
  * Compare the resonance of one gap, or that at the fold before it, with *out; jumps: look at jumps
  * alone, or at all else. *again: a jump turned up in the gap.
  */
-static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps,
+static pendres_status choose_from(pendres_search *s, size_t i, int jumps,
                                   pendres_resonance *out, int *again)
 {
-  pendres_search *s = &w->s;
   pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-  const pendres_gap *g = &w->known[i].gap;
+  const pendres_gap *g = &s->points[i].gap;
   const double best = certain_area(best_point(s));
   pendres_resonance one;
   pendres_status status = PENDRES_OK;
@@ -237,6 +203,7 @@ static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps
   if (status == PENDRES_NOT_FOUND) {
     /* The slope changes its sign without a zero: there is a jump in between after all. */
     a->jump_to_next = 1;
+    a->next = NULL;
     *again = 1;
     return PENDRES_OK;
   }
@@ -248,20 +215,20 @@ static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps
 
 /* Whether a gap was not resolved that may hold more than this area. scanned: it is that of a point
    of the scan, and halving has found one of several jumps in a gap, and less there. */
-static int unresolved(const pendres_resonance_work *w, size_t i, double area, int scanned)
+static int unresolved(const pendres_search *s, size_t i, double area, int scanned)
 {
-  const pendres_gap *g = &w->known[i].gap;
+  const pendres_gap *g = &s->points[i].gap;
   if (!(g->bound > area)) return 0;
-  if (open_gap(w, i, area) || g->mixed) return 1;
-  return g->kind != PENDRES_GAP_PLAIN && (scanned || pendres_search_ended(&w->s));
+  if (open_gap(s, i, area) || g->mixed) return 1;
+  return g->kind != PENDRES_GAP_PLAIN && (scanned || pendres_search_ended(s));
 }
 
 /* The largest area that gaps which were not resolved may hold; minus infinity if there are none. */
-static double left_open(const pendres_resonance_work *w, double area, int scanned)
+static double left_open(const pendres_search *s, double area, int scanned)
 {
   double largest = -INFINITY;
-  for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (unresolved(w, i, area, scanned)) largest = fmax(largest, w->known[i].gap.bound);
+  for (size_t i = 0; i + 1 < s->count; i++)
+    if (unresolved(s, i, area, scanned)) largest = fmax(largest, s->points[i].gap.bound);
   return largest;
 }
 
@@ -276,16 +243,16 @@ static void spread(double *error, double a, double b)
  * A peak among gaps that were not resolved: the largest value lies in one of them, and is at most
  * `largest`. Errors are the differences of the points around these gaps.
  */
-static void make_ragged(const pendres_resonance_work *w, double largest, pendres_resonance *out)
+static void make_ragged(const pendres_search *s, double largest, pendres_resonance *out)
 {
   pendres_response *r = &out->response;
   const int scanned = out->peak == PENDRES_PEAK_RAGGED;
   out->peak = PENDRES_PEAK_RAGGED;
   out->loop_area_error += largest - out->loop_area;
-  for (size_t i = 0; i + 1 < w->s.count; i++) {
-    if (!unresolved(w, i, out->loop_area, scanned)) continue;
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    if (!unresolved(s, i, out->loop_area, scanned)) continue;
     for (size_t k = i; k <= i + 1; k++) {
-      const pendres_response *q = &w->s.points[k].response;
+      const pendres_response *q = &s->points[k].response;
       spread(&out->frequency_error, q->pendulum.drive_frequency, out->frequency);
       spread(&r->mean_loop_amplitude_error, q->mean_loop_amplitude, r->mean_loop_amplitude);
       spread(&r->mean_amplitude_error, q->mean_amplitude, r->mean_amplitude);
@@ -310,40 +277,39 @@ static pendres_resonance as_scanned(const pendres_scan_point *p)
                              .fold_frequency_error = NAN};
 }
 
-static pendres_status at_the_end(const pendres_resonance_work *w, const pendres_scan_point *p)
+static pendres_status at_the_end(const pendres_search *s, const pendres_scan_point *p)
 {
-  const int low = p == &w->s.points[0];
+  const int low = p == &s->points[0];
   return pendres_context_fail(
-    w->s.ctx, PENDRES_NOT_FOUND,
+    s->ctx, PENDRES_NOT_FOUND,
     "damping %g, drive amplitude %g: the loop area is largest at the %s end of the range, "
-    "drive frequency %g", w->s.pendulum.damping, w->s.pendulum.drive_amplitude,
+    "drive frequency %g", s->pendulum.damping, s->pendulum.drive_amplitude,
     low ? "lower" : "upper", pendres_scan_frequency(p));
 }
 
 /* Choose the best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
-static pendres_status choose(pendres_resonance_work *w, pendres_resonance *out, int *again)
+static pendres_status choose(pendres_search *s, pendres_resonance *out, int *again)
 {
-  const pendres_search *s = &w->s;
   pendres_status status = PENDRES_OK;
   *again = 0;
   out->loop_area = NAN;
-  look_at_gaps(w);
+  look_at_gaps(s);
   /* Smooth peaks first: they cost little, and leave fewer jumps to look into. */
-  const int open = largest_bound(w, threshold_of(s)) > -INFINITY;
+  const int open = largest_bound(s, threshold_of(s)) > -INFINITY;
   for (int jumps = 0; jumps < 2 && !open; jumps++)
     for (size_t i = 0; i + 1 < s->count && status == PENDRES_OK && !*again; i++)
-      status = choose_from(w, i, jumps, out, again);
+      status = choose_from(s, i, jumps, out, again);
   if (status != PENDRES_OK || *again) return status;
   const pendres_scan_point *best = best_point(s), *first = &s->points[0];
   const pendres_scan_point *last = &s->points[s->count - 1];
   if (!(out->loop_area >= best->response.mean_loop_area)) {
-    if (best == first || best == last) return at_the_end(w, best);
+    if (best == first || best == last) return at_the_end(s, best);
     *out = as_scanned(best);
   }
-  const double largest = left_open(w, out->loop_area + out->loop_area_error,
+  const double largest = left_open(s, out->loop_area + out->loop_area_error,
                                    out->peak == PENDRES_PEAK_RAGGED);
   if (out->peak == PENDRES_PEAK_RAGGED || largest > -INFINITY)
-    make_ragged(w, fmax(largest, out->loop_area), out);
+    make_ragged(s, fmax(largest, out->loop_area), out);
   out->complete = !s->coarse && (out->peak != PENDRES_PEAK_RAGGED || !pendres_search_over(s));
   return PENDRES_OK;
 }
@@ -370,9 +336,8 @@ pendres_status pendres_resonance_no_area(pendres_context *ctx, const pendres_pen
                                 ? "" : "; the work of a parametric drive does not count");
 }
 
-pendres_status pendres_resonance_work_next(pendres_resonance_work *w, pendres_resonance *out)
+pendres_status pendres_search_next(pendres_search *s, pendres_resonance *out)
 {
-  pendres_search *s = &w->s;
   if (s->stage != PENDRES_SCAN_DONE) {
     const pendres_status status = pendres_search_scan(s);
     if (status != PENDRES_OK || s->requests > 0) return status;
@@ -380,9 +345,9 @@ pendres_status pendres_resonance_work_next(pendres_resonance_work *w, pendres_re
       return pendres_resonance_no_area(s->ctx, &s->pendulum);
   }
   for (int again = 1; again;) {
-    pendres_status status = resolve_gaps(w);
+    pendres_status status = resolve_gaps(s);
     if (status != PENDRES_OK || s->requests > 0) return status;
-    status = choose(w, out, &again);
+    status = choose(s, out, &again);
     if (status != PENDRES_OK) return status;
   }
   return name_states(s, &out->response);
