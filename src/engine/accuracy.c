@@ -5,7 +5,12 @@
 
 #include "engine/context_internal.h"
 
-static const double least_step_error = 1e-15; /* the least with which CVODE works */
+/* The least with which CVODE works. */
+static const double least_step_error = 1e-15;
+/* So small that a pendulum next to a fold or at rest upright does not miss where it should go. */
+static const double largest_settling_error = 1e-5;
+/* So small that what is averaged, or corrected afterwards, is near enough. */
+static const double rough = 1e-7;
 
 double pendres_accuracy_first(const pendres_context *ctx)
 {
@@ -19,24 +24,24 @@ double pendres_accuracy_of_run(const pendres_context *ctx, double that_count)
 
 double pendres_accuracy_to_settle(const pendres_context *ctx)
 {
-  return fmin(10.0 * ctx->options.tolerance, 1e-5);
+  return fmin(pendres_accuracy_first(ctx), largest_settling_error);
 }
 
 double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing)
 {
-  const double finest = 10.0 * ctx->options.tolerance;
+  const double finest = pendres_accuracy_first(ctx);
   if (ctx->options.tolerance < PENDRES_ACCURACY_DEFAULT || !isfinite(spacing)) return finest;
-  return fmax(finest, fmin(1e-3 * spacing, 1e-5));
+  return fmax(finest, fmin(1e-3 * spacing, largest_settling_error));
 }
 
 double pendres_accuracy_to_sample(void)
 {
-  return 1e-7;
+  return rough;
 }
 
 double pendres_accuracy_to_average(const pendres_context *ctx)
 {
-  return fmax(1e-7, ctx->options.tolerance);
+  return fmax(rough, ctx->options.tolerance);
 }
 
 double pendres_accuracy_to_follow(const pendres_context *ctx)
@@ -56,7 +61,7 @@ double pendres_accuracy_with_noise(const pendres_context *ctx)
 
 double pendres_accuracy_of_arcs(void)
 {
-  return 1e-7;
+  return rough;
 }
 
 double pendres_accuracy_second(const pendres_context *ctx)

@@ -1,5 +1,5 @@
 /* block.c -- a block of pendulums on one ARKODE problem; see block.h. */
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/block.h"
 
 #include <math.h>

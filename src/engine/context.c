@@ -1,5 +1,5 @@
 /* context.c -- options, workspace and last message; see context.h. */
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/context_internal.h"
 
 #include <math.h>
@@ -11,10 +11,9 @@
 #include "engine/accuracy.h"
 #include "engine/block.h"
 #include "engine/compat.h"
+#include "engine/numbers.h"
 #include "engine/steps.h"
 #include "engine/tables.h"
-
-enum { DEFAULT_LANES = 512, MOST_LANES = 4096 };
 
 /* NULL if the options are valid, otherwise what is wrong. */
 static const char *resolve(pendres_options *o)
@@ -28,8 +27,8 @@ static const char *resolve(pendres_options *o)
   if (o->table == PENDRES_TABLE_DEFAULT) o->table = PENDRES_TABLE_TP8;
   if (o->steps_per_period < 0 || o->steps_per_period > PENDRES_MOST_STEPS)
     return "the steps a period must be 1 to 1000000";
-  if (o->block_lanes == 0) o->block_lanes = DEFAULT_LANES;
-  if (o->block_lanes < 8 || o->block_lanes > MOST_LANES || o->block_lanes % 8 != 0)
+  if (o->block_lanes == 0) o->block_lanes = LANES_USUAL;
+  if (o->block_lanes < 8 || o->block_lanes > LANES_MOST || o->block_lanes % 8 != 0)
     return "a block must have a multiple of 8 lanes, 8 to 4096";
   if (o->period_budget < 0) return "the budget of periods must be positive";
   if (!(o->exponent_error >= 0.0 && o->exponent_error <= 1.0))

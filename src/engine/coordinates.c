@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/angles.h"
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "model/model.h"
 
 /* What two_pi lacks, so that taking out many turns costs no digits. */

@@ -1,5 +1,5 @@
 /* lanes.c -- the N_Vector of a block of pendulums; see lanes.h. */
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/lanes.h"
 
 #include <math.h>

@@ -5,14 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/numbers.h"
+
 enum {
   MOST_OPERATIONS = 16384, /* operations of one record, a thousand steps; longer periods are not
                               kept */
   MOST_SUMS = 64,          /* different sums of one record: those of a few steps, as the last step
                               of a period is unlike the others */
   MOST_KINDS = 64,
-  MOST_KEPT = 65536,       /* operations of all records together, 4 MB */
-  MOST_TRIES = 4           /* a kind is given up after this many recordings that differ */
+  MOST_KEPT = 65536        /* operations of all records together, 4 MB */
 };
 
 typedef struct entry {
@@ -209,7 +210,7 @@ void pendres_lanes_replays_end(pendres_lanes_replays *r, const pendres_lanes_rep
   r->recording = 0;
   if (!recorded || !whole) return;
   entry *e = place_for(r, kind);
-  if (e->agreed || e->tries == MOST_TRIES) return;
+  if (e->agreed || e->tries == TRIES) return;
   e->tries++;
   if (e->replay.operations > 0 && same(&e->replay, &r->record)) {
     e->agreed = 1;

@@ -1,14 +1,12 @@
 /* lanes_shape.c -- the strips of a block, and operations on them; see lanes_shape.h. */
 #include "engine/lanes_shape.h"
 
-/*
- * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
- * vectors of a state than the kernels keep in registers at once. Measured; twice or half as many
- * cost a few per cent.
- */
+#include "engine/numbers.h"
+
 static size_t most_lanes(size_t rows)
 {
-  return rows <= PENDRES_ROWS_STATE ? 80 : rows <= PENDRES_ROWS_VARIATIONAL ? 48 : 24;
+  if (rows <= PENDRES_ROWS_STATE) return LANES_OF_STATES;
+  return rows <= PENDRES_ROWS_VARIATIONAL ? LANES_OF_TANGENTS : LANES_OF_MORE;
 }
 
 void pendres_lanes_shape_cut(pendres_lanes_shape *s, size_t lanes)

@@ -8,7 +8,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/compat.h"
 #include "engine/method_one.h"
 #include "model/model.h"

@@ -1,5 +1,5 @@
 /* method_one.c -- one ARKODE or CVODE problem a pendulum; see method_one.h. */
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/method_one.h"
 
 #include <math.h>

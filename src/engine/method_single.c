@@ -1,7 +1,7 @@
 /* method_single.c -- one adaptive ARKODE problem a pendulum; see method_one.h. */
 #include <arkode/arkode_erkstep.h>
 
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/compat.h"
 #include "engine/flow_table.h"
 #include "engine/method_one.h"

@@ -1,5 +1,4 @@
 /* steps.c -- how many fixed steps a drive period needs; see steps.h. */
-#include "base/limits.h"
 #include "engine/steps.h"
 
 #include <float.h>
@@ -11,20 +10,12 @@
 #include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/block.h"
+#include "engine/numbers.h"
 #include "engine/tables.h"
-
-enum {
-  PROBES = 16,          /* initial states a cell is probed with, two vectors of eight */
-  FEWEST_STEPS = 8,
-  POINTS = 65           /* of a period at which probes are compared */
-};
-
-/* Growth of an error of the start beyond which a probe is not followed. */
-static const double wild = 100.0;
 
 int pendres_steps_rung(int n)
 {
-  int rung = FEWEST_STEPS;
+  int rung = STEPS_FEWEST;
   while (rung < n) {
     /* Multiples of 2 up to 24, then eight rungs an octave. */
     int octave = 1;
@@ -36,7 +27,7 @@ int pendres_steps_rung(int n)
 
 int pendres_steps_finer(int n)
 {
-  return pendres_steps_rung((int)ceil(1.4 * n));
+  return pendres_steps_rung((int)ceil(finer_steps * n));
 }
 
 /* Index of a logarithmic lattice of the given ratio; everything below `least` shares one cell. */
@@ -51,20 +42,15 @@ static double lattice_upper(int index, double least, double ratio)
   return least * pow(ratio, index);
 }
 
-/* The lattice: finer for frequencies, which the steps follow most closely. */
-static const double damping_least = 0.05, drive_least = 0.25, tolerance_least = 1e-18, ratio = 1.25;
-static const double frequency_least = 1e-4, frequency_ratio = 1.06;
-static const double speed_least = 2.0, speed_ratio = 1.5;
-
 /* The index of a term that most pendulums do not have; -1 if it is 0. */
 static int lattice_or_none(double value)
 {
-  return value != 0.0 ? lattice(fabs(value), drive_least, ratio) : -1;
+  return value != 0.0 ? lattice(fabs(value), lattice_drive, lattice_ratio) : -1;
 }
 
 static double lattice_or_none_upper(int index)
 {
-  return index >= 0 ? lattice_upper(index, drive_least, ratio) : 0.0;
+  return index >= 0 ? lattice_upper(index, lattice_drive, lattice_ratio) : 0.0;
 }
 
 /* A cell of the lattice: indices of damping, frequency, drive, speed, tolerance, torque (-1: none),
@@ -77,11 +63,11 @@ typedef struct cell {
 
 static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 {
-  cell c = {.damping = lattice(p->damping, damping_least, ratio),
-            .frequency = lattice(p->drive_frequency, frequency_least, frequency_ratio),
-            .drive = lattice(fabs(p->drive_amplitude), drive_least, ratio),
-            .speed = lattice(speed, speed_least, speed_ratio),
-            .tolerance = lattice(tolerance, tolerance_least, ratio),
+  cell c = {.damping = lattice(p->damping, lattice_damping, lattice_ratio),
+            .frequency = lattice(p->drive_frequency, lattice_frequency, lattice_frequency_ratio),
+            .drive = lattice(fabs(p->drive_amplitude), lattice_drive, lattice_ratio),
+            .speed = lattice(speed, lattice_speed, lattice_speed_ratio),
+            .tolerance = lattice(tolerance, lattice_tolerance, lattice_ratio),
             .torque = lattice_or_none(p->torque),
             .parametric = lattice_or_none(p->parametric_amplitude),
             .force = p->force};
@@ -93,10 +79,12 @@ static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *tolerance)
 {
   *p = (pendres_pendulum){
-    .damping = lattice_upper(c->damping, damping_least, ratio),
+    .damping = lattice_upper(c->damping, lattice_damping, lattice_ratio),
     .drive_frequency =
-      c->frequency > 0 ? lattice_upper(c->frequency - 1, frequency_least, frequency_ratio) : 0.0,
-    .drive_amplitude = lattice_upper(c->drive, drive_least, ratio),
+      c->frequency > 0
+        ? lattice_upper(c->frequency - 1, lattice_frequency, lattice_frequency_ratio)
+        : 0.0,
+    .drive_amplitude = lattice_upper(c->drive, lattice_drive, lattice_ratio),
     .torque = lattice_or_none_upper(c->torque),
     .parametric_amplitude = lattice_or_none_upper(c->parametric),
     .force = c->force};
@@ -104,9 +92,10 @@ static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *
     p->force_coefficients[i] = c->coefficients[i];
   /* Below the least damping the corner of the cell has none. */
   if (c->damping == 0) p->damping = 0.0;
-  *speed = lattice_upper(c->speed, speed_least, speed_ratio);
-  *tolerance = tolerance_least;
-  if (c->tolerance > 0) *tolerance = lattice_upper(c->tolerance - 1, tolerance_least, ratio);
+  *speed = lattice_upper(c->speed, lattice_speed, lattice_speed_ratio);
+  *tolerance = lattice_tolerance;
+  if (c->tolerance > 0)
+    *tolerance = lattice_upper(c->tolerance - 1, lattice_tolerance, lattice_ratio);
 }
 
 /* ---- the scale of a force whose coordinate has no period ---- */
@@ -121,7 +110,7 @@ static double reach_of(const pendres_pendulum *p, double speed)
 {
   const double energy = 0.5 * speed * speed;
   double low = 0.0, high = 1.0;
-  while (pendres_model_climb(p, high) < energy && high < 1e15) high *= 2.0;
+  while (pendres_model_climb(p, high) < energy && high < pendres_farthest) high *= 2.0;
   for (int i = 0; i < 60; i++) {
     const double middle = 0.5 * (low + high);
     if (pendres_model_climb(p, middle) < energy) low = middle;
@@ -136,11 +125,11 @@ static double reach_of(const pendres_pendulum *p, double speed)
 static double pace_of(const pendres_pendulum *p, double speed, double reach)
 {
   const double modulation = 1.0 + fabs(p->parametric_amplitude);
-  if (p->force == PENDRES_FORCE_PENDULUM) return sqrt(modulation) * fmax(1.0, speed / 4.0);
+  if (p->force == PENDRES_FORCE_PENDULUM) return sqrt(modulation) * fmax(1.0, speed / probe_fast);
   const double stiffest = pendres_model_stiffest(p, open_ended(p) ? reach : PENDRES_PI);
   const double pace = sqrt(modulation * stiffest);
-  if (!open_ended(p)) return pace * fmax(1.0, speed / 4.0);
-  return pendres_model_of(p->force)->angle ? fmax(pace, speed / 4.0) : pace;
+  if (!open_ended(p)) return pace * fmax(1.0, speed / probe_fast);
+  return pendres_model_of(p->force)->angle ? fmax(pace, speed / probe_fast) : pace;
 }
 
 double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
@@ -148,7 +137,7 @@ double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
   if (!open_ended(p)) return fabs(v);
   /* At resonance a drive may lead to a speed that is limited by friction; beyond some speed the
      oscillation gets out of phase instead. */
-  const double most = 4.0, driven = fmin(most, fabs(p->drive_amplitude) / p->damping);
+  const double driven = fmin(probe_fast, fabs(p->drive_amplitude) / p->damping);
   return fmax(driven, sqrt(fma(v, v, 2.0 * pendres_model_climb(p, x - pendres_model_origin(p)))));
 }
 
@@ -187,14 +176,14 @@ typedef struct sight {
   int unbound; /* probes may be on their way to infinity: what is wild from the start is left out */
   size_t first, lanes; /* probes in the block */
   double omega;
-  double y[POINTS][PROBES], v[POINTS][PROBES], growth[POINTS][PROBES];
+  double y[PROBE_POINTS][PROBES], v[PROBE_POINTS][PROBES], growth[PROBE_POINTS][PROBES];
 } sight;
 
 static sight sight_of(const pendres_pendulum *p, int steps, int stride, int growing)
 {
   sight s = {.steps = steps, .stride = stride, .growing = growing,
              .unbound = open_ended(p), .omega = p->drive_frequency};
-  s.dense = steps / stride < POINTS - 1 ? steps / stride : POINTS - 1;
+  s.dense = steps / stride < PROBE_POINTS - 1 ? steps / stride : PROBE_POINTS - 1;
   s.points = s.dense + (s.dense * stride < steps);
   return s;
 }
@@ -263,7 +252,7 @@ static double probe_error(const sight *coarse, const sight *fine, size_t i)
   double largest = 0.0;
   int k = 0;
   for (; k < coarse->points; k++) {
-    if ((k > 0 || coarse->unbound) && !(fine->growth[k][i] <= wild)) break;
+    if ((k > 0 || coarse->unbound) && !(fine->growth[k][i] <= probe_wild)) break;
     const double dy = fabs(coarse->y[k][i] - fine->y[k][i]);
     const double dv = fabs(coarse->v[k][i] - fine->v[k][i]);
     if (!(dy + dv < INFINITY)) return INFINITY;
@@ -284,8 +273,7 @@ static double largest_error(const sight *coarse, const sight *fine)
 static double least_steps(const probed *of)
 {
   const double period = two_pi / of->pendulum.drive_frequency;
-  /* The real stability interval of the order-8 tables is about 4 to 5. */
-  return fmax(period * of->pendulum.damping / 4.0, period * of->pace / 1.5);
+  return fmax(period * of->pendulum.damping / step_stable, period * of->pace / step_longest);
 }
 
 /* With a drive that moves a pendulum this far in a period there are less than two steps a turn. */
@@ -306,9 +294,9 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
 
   worst_of(c, &of.pendulum, &of.speed, &tolerance);
   if (p->drive_frequency == 0.0 || shaken(p)) return PENDRES_TOLERANCE_UNREACHABLE;
-  of.reach = open_ended(p) ? reach_of(p, of.speed) : 2.75;
+  of.reach = open_ended(p) ? reach_of(p, of.speed) : probe_reach;
   of.pace = pace_of(p, of.speed, of.reach);
-  double wanted = fmax(FEWEST_STEPS, least_steps(&of)), last_error = INFINITY;
+  double wanted = fmax(STEPS_FEWEST, least_steps(&of)), last_error = INFINITY;
   while (wanted <= PENDRES_MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
     const int stride = stride_of(&of, n);
@@ -317,18 +305,17 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
     if (status == PENDRES_OK) status = run_probes(ctx, &of, &fine);
     if (status != PENDRES_OK) return status;
     const double error = largest_error(&coarse, &fine);
-    /* Where the error no longer falls it is rounding alone: more steps would not help. */
-    const int rounding = error < 1e-9 && error > 0.5 * last_error;
+    const int rounding = error < probe_rounding && error > 0.5 * last_error;
     if (error <= tolerance || rounding) {
       *steps = n;
       return PENDRES_OK;
     }
     last_error = error;
-    /* Before the asymptotic regime take the next rung; within it the one that follows from the
-       order, less one. */
-    const double growth =
-      error < 1e-2 ? pow(error / tolerance, 1.0 / order) * 0.95 : 1.5;
-    wanted = n * fmax(1.01, fmin(growth, 4.0));
+    const double growth = error < probe_regular
+                            ? probe_less * pow(error / tolerance, 1.0 / order)
+                            : probe_more;
+    /* The next rung at least. */
+    wanted = fmax(n + 1.0, n * fmin(growth, probe_most));
   }
   return PENDRES_TOLERANCE_UNREACHABLE;
 }
@@ -342,8 +329,8 @@ static pendres_status too_many(pendres_context *ctx, const cell *c, const pendre
   worst_of(c, &worst, &fastest, &tolerance);
   const char *why = "the drive frequency at this tolerance";
   if (worst.drive_frequency > 0.0 && shaken(&worst)) why = "the drive amplitude";
-  else if (fmax(p->damping, 0.25 * speed) > 2.0)
-    why = p->damping > 0.25 * speed ? "the damping" : "the speed";
+  else if (fmax(p->damping, speed / probe_fast) > 2.0)
+    why = p->damping > speed / probe_fast ? "the damping" : "the speed";
   else if (fabs(p->drive_amplitude) > 2.0) why = "the drive amplitude at this tolerance";
   return pendres_context_fail(
     ctx, PENDRES_TOLERANCE_UNREACHABLE,

@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "model/forces.h"
+#include "model/numbers.h"
 #include "model/parameter.h"
 
 /* All bottoms and tops are centres: y is an angle, and the bottom represents all of them. */
@@ -42,14 +43,12 @@ static double polynomial_outward(const double *a, double side, double need)
 
 /*
  * In z = y - c the powers n and n - 1 of a polynomial of degree n have the coefficients a_n and
- * a_(n-1) + n a_n c: the latter is 0 at one c alone, where all other even powers must be 0, too.
- * Of each term c brings up to four roundings a power, of which there are five or fewer, and they
- * mostly cancel; its coefficient was rounded from decimals, and each product and sum is. Sixteen
- * roundings of the sum of their sizes are allowed.
+ * a_(n-1) + n a_n c: the latter is 0 at one c alone, where all other even powers must be 0, too,
+ * but for roundings of the sum of their sizes.
  */
 static double polynomial_centre(const double *a, double torque, double near)
 {
-  static const double rounding = 16.0 * 0x1p-53;
+  const double rounding = model_roundings * 0x1p-53;
   double taylor[PENDRES_FORCE_COEFFICIENTS + 1] = {-torque};
   int n = PENDRES_FORCE_COEFFICIENTS;
   (void)near;
@@ -191,9 +190,6 @@ double pendres_model_origin(const pendres_pendulum *p)
 
 /* ---- the scale of a force ---- */
 
-/* Points of Simpson's rule on each side, for a force that is not a sum of powers. */
-enum { SAMPLES = 64 };
-
 /* For a polynomial as if all its terms had the same sign; for other forces the larger of both
    sides, by Simpson's rule. */
 double pendres_model_climb(const pendres_pendulum *p, double reach)
@@ -204,12 +200,12 @@ double pendres_model_climb(const pendres_pendulum *p, double reach)
       sum = fma(sum, fabs(reach), fabs(p->force_coefficients[i]) / (i + 2));
     return sum * reach * reach;
   }
-  const double h = fabs(reach) / SAMPLES;
-  for (int i = 0; i <= SAMPLES; i++)
+  const double h = fabs(reach) / MODEL_SAMPLES;
+  for (int i = 0; i <= MODEL_SAMPLES; i++)
     for (int k = 0; k < 2; k++) {
       double force, slope;
       pendres_model_force(p, k == 0 ? i * h : -i * h, &force, &slope);
-      const double weight = i == 0 || i == SAMPLES ? 1.0 : i % 2 != 0 ? 4.0 : 2.0;
+      const double weight = i == 0 || i == MODEL_SAMPLES ? 1.0 : i % 2 != 0 ? 4.0 : 2.0;
       side[k] += weight * h / 3.0 * fabs(force);
     }
   return fmax(side[0], side[1]);
@@ -223,9 +219,9 @@ double pendres_model_stiffest(const pendres_pendulum *p, double reach)
       most = fma(most, reach, (i + 1) * fabs(p->force_coefficients[i]));
     return most;
   }
-  for (int i = -SAMPLES; i <= SAMPLES; i++) {
+  for (int i = -MODEL_SAMPLES; i <= MODEL_SAMPLES; i++) {
     double force, slope;
-    pendres_model_force(p, reach * i / SAMPLES, &force, &slope);
+    pendres_model_force(p, reach * i / MODEL_SAMPLES, &force, &slope);
     most = fmax(most, fabs(slope));
   }
   return most;
@@ -254,16 +250,15 @@ static int reached(const pendres_pendulum *p, double reach)
 
 pendres_model_units pendres_model_units_of(const pendres_pendulum *p)
 {
-  enum { DOUBLINGS = 100, HALVINGS = 4 };
   const double stiffer = sqrt(1.0 + fabs(p->parametric_amplitude));
   pendres_model_units u = {1.0, stiffer};
   if (p->force == PENDRES_FORCE_PENDULUM) return u;
   /* A single power has no length of its own. */
   const double own = pendres_model_scale(p);
-  double reach = 0x1p-40 * own;
-  for (int k = 0; k < DOUBLINGS && reached(p, 2.0 * reach); k++) reach *= 2.0;
+  double reach = ldexp(own, -UNITS_NEGLIGIBLE);
+  for (int k = 0; k < ITERATIONS && reached(p, 2.0 * reach); k++) reach *= 2.0;
   double step = reach;
-  for (int k = 0; k < HALVINGS; k++) {
+  for (int k = 0; k < MODEL_HALVINGS; k++) {
     step *= 0.5;
     if (reached(p, reach + step)) reach += step;
   }

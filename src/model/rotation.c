@@ -16,24 +16,10 @@
 #include <gsl/gsl_roots.h>
 
 #include "base/angles.h"
+#include "model/numbers.h"
 #include "model/rotation_stiff.h"
 
-static const double least_damping = 1e-9, most_damping = 100.0;
-/* Series of a velocity below this converge in too short an interval to start with. */
-static const double slow = 0.1;
-/* From about the damping `strong` on, rotations at a torque close to 1 may be arbitrarily slow, and
-   series take ever shorter steps. They need more of them than collocation does when
-   1/sqrt(torque^2 - 1), which is the time of the slow passage up to a factor of the damping, is
-   longer than `much`/damping. */
-static const double strong = 1.0, much = 100.0;
-/* A motion that comes to rest before the end makes ever shorter steps. */
-static const double least_step = 1e-14;
-/* What rounding adds to the velocity in a turn, and to its time, in units of the last place: a
-   third more than the most that was seen in 1300 turns beside long doubles, the change of the time
-   with the velocity apart. */
-static const double rounded_velocity = 4.0, rounded_period = 10.0;
-
-enum { ORDER = 28 /* of series */, ITERATIONS = 200 };
+enum { ORDER = 28 /* of series */ };
 
 /* The order of series, and how small their last terms are relative to the velocity; of what panels
    collocation makes where friction is strong. */
@@ -42,7 +28,7 @@ typedef struct finesse {
   double rest, panel;
 } finesse;
 
-static const finesse fine = {ORDER, 1e-17, 0.35}, coarser = {ORDER - 6, 1e-15, 0.5};
+static const finesse fine = {ORDER, 1e-17, 0.35}, coarser = {ORDER - 6, rotation_finest, 0.5};
 
 typedef struct motion {
   double damping, torque;
@@ -123,7 +109,7 @@ static double velocity_at(const motion *m, double from, double v, double to, dou
     const double left = fabs(to - s), reach = longest(m, c);
     const double step = time != NULL ? fmin(reach, longest(m, inverse)) : reach;
     const double h = way * fmin(step, left);
-    if (!(step > least_step)) return NAN;
+    if (!(step > rotation_shortest)) return NAN;
     if (time != NULL) *time += integral_over(m, inverse, h);
     v = c[m->how.order];
     for (int k = m->how.order - 1; k >= 0; k--) v = fma(v, h, c[k]);
@@ -246,7 +232,7 @@ static double least_angle(double damping, finesse how, double *rounding)
 
 static int sound_damping(double damping)
 {
-  return damping >= least_damping && damping <= most_damping;
+  return damping >= rotation_least_damping && damping <= rotation_most_damping;
 }
 
 /* Whether there is no rotation at a torque of 1, and then at no smaller one. There manifolds come
@@ -292,7 +278,8 @@ static double gain(double v, void *params)
 static int by_collocation(const motion *m)
 {
   const double passage = sqrt((m->torque - 1.0) * (m->torque + 1.0));
-  return m->torque > 1.0 && m->damping >= strong && m->damping * m->damping > much * passage;
+  return m->torque > 1.0 && m->damping >= rotation_strong &&
+         m->damping * m->damping > rotation_much * passage;
 }
 
 /* The velocity at y = 0 and the period; NaN if there is no rotation. */
@@ -309,8 +296,9 @@ static double rotation_at(const motion *m, double *period)
   if (m->torque <= 1.0) {
     if (none_at_one(m->damping, m->how) || !(gap(m) > 0.0)) return NAN;
     low = unstable_at(m, from + two_pi);
-  } else if (low < slow) { /* for a series; what leaves the equilibrium at a torque of 1 is slower
-                              than the rotations above, too */
+  } else if (low < rotation_slow) {
+    /* For a series. What leaves the equilibrium at a torque of 1 is slower than the rotations
+       above, too. */
     const motion at_one = at_torque(m->damping, 1.0, m->how);
     low = fmax(low, unstable_at(&at_one, pi + at_one.angle));
   }
@@ -372,9 +360,9 @@ pendres_status pendres_rotation_find(const pendres_pendulum *p, pendres_rotation
     return PENDRES_NOT_FOUND;
   }
   /* What rounding adds in a turn shrinks by the multiplier from turn to turn. */
-  const double rounding = rounded_velocity * DBL_EPSILON / -expm1(-p->damping * period);
+  const double rounding = rotation_rounded_velocity * DBL_EPSILON / -expm1(-p->damping * period);
   out->period = period;
-  out->period_error = 2.0 * fabs(period - other) + rounded_period * DBL_EPSILON * period +
+  out->period_error = 2.0 * fabs(period - other) + rotation_rounded_period * DBL_EPSILON * period +
                       longer_by(&m, v, rounding * v, period);
   out->mean_velocity = sign * two_pi / period;
   out->mean_velocity_error = fabs(out->mean_velocity) * (out->period_error / period + DBL_EPSILON);

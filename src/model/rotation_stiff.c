@@ -13,17 +13,12 @@
 #include <math.h>
 
 #include "base/angles.h"
+#include "model/numbers.h"
 
 enum {
   NODES = 16,
-  LAST = 3, /* coefficients from which the error of the polynomial is estimated */
-  ITERATIONS = 12,
-  TURNS = 20
+  LAST = 3 /* coefficients from which the error of the polynomial is estimated */
 };
-
-/* The error of a polynomial, relative to the velocity; its slope is less exact. */
-static const double finest = 1e-15;
-static const double narrowest = 1e-12;
 
 /* Nodes between 0 and 1, and what does not depend on the panel. */
 typedef struct rule {
@@ -154,7 +149,7 @@ static int improve(const stiff *m, double v, double h, const double force[NODES]
 {
   const rule *r = &m->rule;
   double change = INFINITY, before = INFINITY;
-  for (int k = 0; k < ITERATIONS; k++) {
+  for (int k = 0; k < NEWTON_STEPS; k++) {
     double a[NODES][NODES], b[1][NODES];
     if (!(velocities(r, v, h, slope, velocity) > 0.0)) return 0;
     for (int i = 0; i < NODES; i++) {
@@ -194,7 +189,8 @@ static double panel(const stiff *m, double s, double v, double h, double *time)
     largest = fmax(largest, inverse[i]);
     passed += r->integral[NODES - 1][i] * inverse[i];
   }
-  if (missing(r, velocity) > finest * least || missing(r, inverse) > finest * largest) return NAN;
+  if (missing(r, velocity) > rotation_finest * least ||
+      missing(r, inverse) > rotation_finest * largest) return NAN;
   *time += h * passed;
   return velocity[NODES - 1];
 }
@@ -208,7 +204,7 @@ static double turn(const stiff *m, double v, double widest, double *time)
   while (s < end) {
     const double to = fmin(end, s + h), next = panel(m, s, v, to - s, time);
     if (isnan(next)) h = 0.6 * (to - s);
-    if (isnan(next) && !(h > narrowest)) return NAN;
+    if (isnan(next) && !(h > rotation_shortest)) return NAN;
     if (isnan(next)) continue;
     v = next;
     s = to;
@@ -223,7 +219,7 @@ double pendres_rotation_stiff(double damping, double torque, double widest, doub
   double v = torque / damping;
   make_rule(&m.rule);
   *period = NAN;
-  for (int i = 0; i < TURNS; i++) {
+  for (int i = 0; i < NEWTON_STEPS; i++) {
     const double next = turn(&m, v, widest, period);
     if (isnan(next)) return NAN;
     /* By how much a turn changes what is added to the velocity: Liouville's formula. */

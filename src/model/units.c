@@ -3,13 +3,7 @@
 
 #include <math.h>
 
-enum {
-  FARTHEST = 120,  /* exponents of units are limited to this: products of a few of them stay far
-                      from overflow */
-  NEGLIGIBLE = 40  /* a power that is smaller than another by this number of bits does not matter at
-                      the tolerances that are requested: it may be what rounding leaves of a
-                      coefficient that passes through 0 */
-};
+#include "model/numbers.h"
 
 /* A positive number as m 2^e with 1 <= m < 2. */
 typedef struct binary {
@@ -52,7 +46,8 @@ static binary square(binary a)
 static int share(int e, int d)
 {
   const int floored = e >= 0 ? e / d : -((-e + d - 1) / d);
-  return floored > FARTHEST ? FARTHEST : floored < -FARTHEST ? -FARTHEST : floored;
+  if (floored < -UNITS_FARTHEST) return -UNITS_FARTHEST;
+  return floored > UNITS_FARTHEST ? UNITS_FARTHEST : floored;
 }
 
 /*
@@ -92,7 +87,7 @@ static int lowest_that_counts(const pendres_pendulum *p, int lowest, int highest
     if (next == highest && !held) break;
     const int length = length_of(p, next, highest), size = size_of(p, lowest, length);
     for (int k = next; k <= highest; k++)
-      if (a[k - 1] != 0.0 && size_of(p, k, length) > size + NEGLIGIBLE) counts = 0;
+      if (a[k - 1] != 0.0 && size_of(p, k, length) > size + UNITS_NEGLIGIBLE) counts = 0;
     if (counts) break;
     lowest = next;
   }

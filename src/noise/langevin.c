@@ -1,5 +1,5 @@
 /* langevin.c -- advancing noisy trajectories; see langevin.h. */
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "noise/langevin_internal.h"
 
 #include <math.h>

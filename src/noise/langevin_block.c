@@ -28,7 +28,7 @@
  * order. One that does not close has a linear ramp besides, whose sum is known exactly and
  * corrected for.
  */
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "noise/langevin_block.h"
 
 #include <math.h>

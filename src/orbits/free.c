@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"

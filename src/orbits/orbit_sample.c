@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/limits.h"
+#include "base/numbers.h"
 #include "orbits/attractor_internal.h"
 #include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"

@@ -1,0 +1,65 @@
+/*
+ * numbers.h -- numbers that were chosen for the integration, each with its reason. Tolerances that
+ * follow from the caller's are in accuracy.h.
+ */
+#ifndef PENDRES_ENGINE_NUMBERS_H
+#define PENDRES_ENGINE_NUMBERS_H
+
+#include "base/numbers.h"
+
+/* ---- blocks of lanes: these change the time, and no result ---- */
+
+enum {
+  LANES_USUAL = 512, /* of a block, unless asked: more is hardly faster */
+  LANES_MOST = 4096,
+  /*
+   * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
+   * vectors of a state than the kernels keep in registers at once. Measured; twice or half as many
+   * cost a few per cent.
+   */
+  LANES_OF_STATES = 80,
+  LANES_OF_TANGENTS = 48,
+  LANES_OF_MORE = 24
+};
+
+/* ---- how many steps: the lattice of cells that share a number of steps (steps.c) ---- */
+
+/* Below these values all pendulums share a cell, and those that follow are so much larger each: as
+   a step moves by about as much as these ratios. The lattice is finer for frequencies, which the
+   steps follow most closely. Speeds, which count by their bounds, may be coarse. */
+static const double lattice_damping = 0.05, lattice_drive = 0.25, lattice_tolerance = 1e-18;
+static const double lattice_ratio = 1.25;
+static const double lattice_frequency = 1e-4, lattice_frequency_ratio = 1.06;
+static const double lattice_speed = 2.0, lattice_speed_ratio = 1.5;
+
+/* ---- how many steps: probes of a cell ---- */
+
+enum {
+  PROBES = 16,       /* initial states a cell is probed with, two vectors of eight */
+  PROBE_POINTS = 65, /* of a period at which they are compared: 64 intervals and the end */
+  STEPS_FEWEST = 8
+};
+
+/* Growth of an error of the start beyond which a probe is not followed. */
+static const double probe_wild = 100.0;
+
+/* Half of the probes start at rest so far from the bottom: short of the top, where there is little
+   force. */
+static const double probe_reach = 2.75;
+
+/* A speed, in the unit of small oscillations, at which turning over takes as many steps as swinging
+   does; drives do not lead beyond it, since faster oscillations get out of phase. */
+static const double probe_fast = 4.0;
+
+/* A step is at most so long, in units of time, and in those of friction: the real stability
+   interval of tables of order 8 is about 4 to 5. */
+static const double step_longest = 1.5, step_stable = 4.0;
+
+/* Errors below this that do not fall to half are rounding: more steps would not help. */
+static const double probe_rounding = 1e-9;
+
+/* Errors below this fall as the order of the method says. Then the steps are those that follow from
+   the order, less a twentieth; before, half as many more. Four times as many at most are tried. */
+static const double probe_regular = 1e-2, probe_less = 0.95, probe_more = 1.5, probe_most = 4.0;
+
+#endif
