@@ -398,7 +398,7 @@ static void random_operation(block *b, const model *m, N_Vector *v, const int *u
     model_sum(m, n, c, x, z);
   } else if (what < 6 && from != z) {
     const double cosine = 0.1 * draw(10);
-    pendres_lanes_slope(v[from], v[z], cosine);
+    pendres_lanes_tape_slope(v[from], v[z], cosine);
     model_slope(m, &b->shape.coefficients, from, z, cosine);
   } else {
     N_VScale(1.0, v[from], v[z]);

@@ -23,7 +23,7 @@
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
 {
   pendres_block *b = arg;
-  pendres_lanes_slope(y, slope, pendres_block_drive_cosine(&b->drive, theta));
+  pendres_lanes_tape_slope(y, slope, pendres_block_drive_cosine(&b->drive, theta));
   b->evaluations += (double)b->lanes;
   return 0;
 }
@@ -52,7 +52,7 @@ static int after_step(sunrealtype theta, N_Vector y, void *arg)
     const double phase = pendres_block_drive_phase(&b->drive, theta);
     const double step = two_pi / b->drive.steps;
     const int second = b->load == PENDRES_FLOW_TANGENTS && lrint(phase / step) % 2 == 0;
-    pendres_lanes_carry(y, step, driven ? cos(phase) : 1.0, second);
+    pendres_lanes_tape_carry(y, step, driven ? cos(phase) : 1.0, second);
   }
   return count_steps(b, 1);
 }

@@ -2,18 +2,12 @@
 #include "engine/door.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/accuracy.h"
 #include "model/parameter.h"
 
 static const pendres_units none = {1.0, 1.0};
-
-struct pendres_door_memory {
-  struct pendres_door_memory *next;
-  max_align_t bytes[];
-};
 
 void pendres_door_move(pendres_door *d, pendres_parameter first, pendres_parameter second)
 {
@@ -24,7 +18,8 @@ void pendres_door_move(pendres_door *d, pendres_parameter first, pendres_paramet
 /* Enter the context; nonzero if that is refused. */
 static int enter(pendres_door *d, pendres_context *ctx)
 {
-  *d = (pendres_door){.ctx = ctx, .scales = {none, 1.0, 1.0}};
+  *d = (pendres_door){.ctx = ctx, .scales = {none, 1.0, 1.0},
+                      .room = pendres_room_open(ctx, "set of arguments")};
   pendres_guard *guard = ctx != NULL ? &ctx->guard : NULL;
   d->entered = pendres_guard_enter(guard);
   if (!d->entered) {
@@ -59,11 +54,7 @@ static void end(pendres_door *d)
 {
   for (int i = 0; i < d->outs; i++)
     pendres_units_out(&d->scales, d->out[i].kind, d->out[i].n, d->out[i].records);
-  while (d->memory != NULL) {
-    struct pendres_door_memory *next = d->memory->next;
-    free(d->memory);
-    d->memory = next;
-  }
+  (void)pendres_room_close(&d->room, d->status);
   d->outs = 0;
   if (!d->outermost) return;
   d->ctx->options.tolerance = d->tolerance;
@@ -166,14 +157,9 @@ int pendres_door_changes(const pendres_door *d)
 void *pendres_door_memory(pendres_door *d, size_t size)
 {
   if (d->status != PENDRES_OK) return NULL;
-  struct pendres_door_memory *m = malloc(sizeof *m + size);
-  if (m == NULL) {
-    d->status = pendres_context_fail(d->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for arguments");
-    return NULL;
-  }
-  m->next = d->memory;
-  d->memory = m;
-  return m->bytes;
+  void *memory = pendres_room_take(&d->room, 1, size);
+  d->status = d->room.status;
+  return memory;
 }
 
 void *pendres_door_copy(pendres_door *d, const void *bytes, size_t size)

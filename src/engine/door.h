@@ -22,11 +22,10 @@
 #include <pendres/strobe.h>
 
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "model/units.h"
 
 enum { PENDRES_DOOR_RESULTS = 16 /* most results of a call */ };
-
-struct pendres_door_memory;
 
 typedef struct pendres_door {
   pendres_context *ctx;
@@ -41,7 +40,7 @@ typedef struct pendres_door {
   double largest;   /* ... and its value of the largest size */
   const char *pendulums;
   size_t n, stride;
-  struct pendres_door_memory *memory;
+  pendres_room room; /* of pendres_door_memory() */
   int outs;
   struct {
     const pendres_dimensions *kind;

@@ -1,8 +1,8 @@
 /*
  * kernels_force.h -- the forces of all models, of vectors and of single lanes.
  *
- * Owns: which force a model has. Included by kernels.c alone, which is compiled once for each
- * instruction set.
+ * Owns: which force a model has. Included by what is compiled once for each instruction set alone:
+ * kernels.c, and the kicks of noise (noise/kernels_langevin.c).
  */
 #ifndef PENDRES_KERNELS_FORCE_H
 #define PENDRES_KERNELS_FORCE_H

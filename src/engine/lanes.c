@@ -143,20 +143,10 @@ void pendres_lanes_read(N_Vector v, double *rows)
   copy(v, rows, 0);
 }
 
-void pendres_lanes_slope(N_Vector y, N_Vector slope, double cos_theta)
-{
-  pendres_lanes_tape_slope(of(y)->shape, y, slope, cos_theta);
-}
-
-void pendres_lanes_carry(N_Vector y, double step, double cos_theta, int second)
-{
-  pendres_lanes_tape_carry(of(y)->shape, y, step, cos_theta, second);
-}
-
 static int linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
   if (n > PENDRES_KERNELS_TERMS) return -1;
-  pendres_lanes_tape_sum(of(z)->shape, n, c, x, z);
+  pendres_lanes_tape_sum(n, c, x, z);
   return 0;
 }
 
@@ -164,15 +154,15 @@ static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_V
 {
   const double c[2] = {a, b};
   const N_Vector terms[2] = {x, y};
-  pendres_lanes_tape_sum(of(z)->shape, 2, c, terms, z);
+  pendres_lanes_tape_sum(2, c, terms, z);
 }
 
 static void scale(sunrealtype a, N_Vector x, N_Vector z)
 {
   if (a == 1.0)
-    pendres_lanes_tape_copy(of(z)->shape, x, z);
+    pendres_lanes_tape_copy(x, z);
   else
-    pendres_lanes_tape_sum(of(z)->shape, 1, &a, &x, z);
+    pendres_lanes_tape_sum(1, &a, &x, z);
 }
 
 static double sum_of_squares(const double *x, const double *w, size_t rows, size_t lanes)
@@ -205,72 +195,26 @@ static sunrealtype wrms_norm(N_Vector x, N_Vector w)
   return sqrt(largest / (double)s->rows);
 }
 
-static void each(N_Vector x, N_Vector z, double (*map)(double, double), double argument)
-{
-  const size_t n = length(z);
-  const double *from = numbers(x);
-  double *to = numbers(z);
-  for (size_t i = 0; i < n; i++) to[i] = map(from[i], argument);
-}
-
-static double map_absolute(double x, double unused)
-{
-  (void)unused;
-  return fabs(x);
-}
-
-static double map_inverse(double x, double unused)
-{
-  (void)unused;
-  return 1.0 / x;
-}
-
-static double map_add(double x, double b)
-{
-  return x + b;
-}
-
-static double map_constant(double x, double c)
-{
-  (void)x;
-  return c;
-}
-
-static void absolute(N_Vector x, N_Vector z)
-{
-  each(x, z, map_absolute, 0.0);
-}
-
-static void inverse(N_Vector x, N_Vector z)
-{
-  each(x, z, map_inverse, 0.0);
-}
-
-static void add_constant(N_Vector x, sunrealtype b, N_Vector z)
-{
-  each(x, z, map_add, b);
-}
-
-static void constant(sunrealtype c, N_Vector z)
-{
-  each(z, z, map_constant, c);
-}
-
-static void divide(N_Vector x, N_Vector y, N_Vector z)
-{
-  const size_t n = length(z);
-  const double *a = numbers(x), *b = numbers(y);
-  double *to = numbers(z);
-  for (size_t i = 0; i < n; i++) to[i] = a[i] / b[i];
-}
-
-static void product(N_Vector x, N_Vector y, N_Vector z)
-{
-  const size_t n = length(z);
-  const double *a = numbers(x), *b = numbers(y);
-  double *to = numbers(z);
-  for (size_t i = 0; i < n; i++) to[i] = a[i] * b[i];
-}
+/* z, number by number, from a of one vector and b of another. */
+#define EACH(name, arguments, first, second, value)                     \
+  static void name arguments                                            \
+  {                                                                     \
+    const size_t n = length(z);                                         \
+    const double *const of_first = numbers(first), *const of_second = numbers(second); \
+    double *const to = numbers(z);                                      \
+    for (size_t i = 0; i < n; i++) {                                    \
+      const double a = of_first[i], b = of_second[i];                   \
+      (void)a, (void)b;                                                 \
+      to[i] = value;                                                    \
+    }                                                                   \
+  }
+EACH(absolute, (N_Vector x, N_Vector z), x, x, fabs(a))
+EACH(inverse, (N_Vector x, N_Vector z), x, x, 1.0 / a)
+EACH(add_constant, (N_Vector x, sunrealtype c, N_Vector z), x, x, a + c)
+EACH(constant, (sunrealtype c, N_Vector z), z, z, c)
+EACH(divide, (N_Vector x, N_Vector y, N_Vector z), x, y, a / b)
+EACH(product, (N_Vector x, N_Vector y, N_Vector z), x, y, a * b)
+#undef EACH
 
 static sunrealtype max_norm(N_Vector x)
 {

@@ -40,10 +40,4 @@ N_Vector pendres_lanes_create(pendres_lanes_shape *shape, SUNContext sun);
 void pendres_lanes_write(N_Vector v, const double *rows);
 void pendres_lanes_read(N_Vector v, double *rows);
 
-/* slope = the right-hand side at y, of the equation that belongs to the number of rows. */
-void pendres_lanes_slope(N_Vector y, N_Vector slope, double cos_theta);
-
-/* The errors of the lanes over a step of this length that has ended at y. */
-void pendres_lanes_carry(N_Vector y, double step, double cos_theta, int second);
-
 #endif

@@ -134,9 +134,9 @@ static const request *learn(pendres_lanes_shape *s, int n, const double *c, cons
   return q;
 }
 
-void pendres_lanes_tape_sum(pendres_lanes_shape *s, int n, const double *c, const N_Vector *x,
-                            N_Vector z)
+void pendres_lanes_tape_sum(int n, const double *c, const N_Vector *x, N_Vector z)
 {
+  pendres_lanes_shape *s = pendres_lanes_of(z)->shape;
   const request *q = find(s->tape, n, c, x, z);
   if (q == NULL) q = learn(s, n, c, x, z);
   pendres_operation *o = next(s);
@@ -144,17 +144,18 @@ void pendres_lanes_tape_sum(pendres_lanes_shape *s, int n, const double *c, cons
   note(s->tape, o, q->reads, z);
 }
 
-void pendres_lanes_tape_copy(pendres_lanes_shape *s, N_Vector from, N_Vector to)
+void pendres_lanes_tape_copy(N_Vector from, N_Vector to)
 {
+  pendres_lanes_shape *s = pendres_lanes_of(to)->shape;
   if (from == to) return;
   pendres_operation *o = next(s);
   *o = (pendres_operation){.from = data_of(from), .to = data_of(to)};
   note(s->tape, o, pendres_lanes_of(from)->bit, to);
 }
 
-void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, double cos_theta,
-                              int second)
+void pendres_lanes_tape_carry(N_Vector y, double step, double cos_theta, int second)
 {
+  pendres_lanes_shape *s = pendres_lanes_of(y)->shape;
   pendres_operation *o = next(s);
   *o = (pendres_operation){.from = data_of(y), .cos_theta = cos_theta, .carry = step,
                              .second = second};
@@ -176,8 +177,9 @@ static pendres_operation *made_by(pendres_lanes_tape *t, const double *y, const 
   return o - 1;
 }
 
-void pendres_lanes_tape_slope(pendres_lanes_shape *s, N_Vector y, N_Vector slope, double cos_theta)
+void pendres_lanes_tape_slope(N_Vector y, N_Vector slope, double cos_theta)
 {
+  pendres_lanes_shape *s = pendres_lanes_of(y)->shape;
   double *const from = data_of(y), *const to = data_of(slope);
   pendres_operation *o = made_by(s->tape, from, to);
   uint64_t reads = 0;

@@ -44,16 +44,14 @@ pendres_lanes_tape *pendres_lanes_tape_create(void);
 void pendres_lanes_tape_free(pendres_lanes_tape *tape);
 
 /* z = sum of c[i] x[i]; terms with c = 0 are left out. n up to PENDRES_KERNELS_TERMS. */
-void pendres_lanes_tape_sum(pendres_lanes_shape *s, int n, const double *c,
-                            const N_Vector *x, N_Vector z);
-void pendres_lanes_tape_copy(pendres_lanes_shape *s, N_Vector from, N_Vector to);
-void pendres_lanes_tape_slope(pendres_lanes_shape *s, N_Vector y, N_Vector slope,
-                              double cos_theta);
+void pendres_lanes_tape_sum(int n, const double *c, const N_Vector *x, N_Vector z);
+void pendres_lanes_tape_copy(N_Vector from, N_Vector to);
+/* slope = the right-hand side at y, of the equation that belongs to the number of rows. */
+void pendres_lanes_tape_slope(N_Vector y, N_Vector slope, double cos_theta);
 
 /* The errors or tangents of the lanes over a step that has ended at y; second: over two steps, too.
    */
-void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, double cos_theta,
-                              int second);
+void pendres_lanes_tape_carry(N_Vector y, double step, double cos_theta, int second);
 
 /* Carry out all deferred operations. To be called before a number is read or changed. */
 void pendres_lanes_tape_run(pendres_lanes_shape *s);

@@ -12,8 +12,7 @@
 #include <Random123/philox.h>
 
 #include "base/instructions.h"
-#include "base/sine.h"
-#include "model/forces.h"
+#include "engine/kernels_force.h"
 
 #if defined(__AVX2__)
 #include <immintrin.h>
@@ -157,21 +156,7 @@ static inline __attribute__((always_inline)) void
 force(pendres_model_terms terms, const pendres_langevin_rows *rows, size_t i, double y,
       double cosine, double *pull, double *stiffness)
 {
-  if (terms == PENDRES_MODEL_POLYNOMIAL) {
-    double sum = rows->coefficient[PENDRES_FORCE_COEFFICIENTS - 1][i], by = 0.0;
-    for (int k = PENDRES_FORCE_COEFFICIENTS - 2; k >= 0; k--) {
-      by = FMA(by, y, sum);
-      sum = FMA(sum, y, rows->coefficient[k][i]);
-    }
-    *stiffness = FMA(by, y, sum);
-    *pull = sum * y;
-  } else if (terms > PENDRES_MODEL_POLYNOMIAL) {
-    double a[PENDRES_FORCE_COEFFICIENTS];
-    for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) a[k] = rows->coefficient[k][i];
-    pendres_forces_at(PENDRES_MODEL_FORCE(terms), a, y, pull, stiffness);
-  } else {
-    pendres_kernels_sincos(y, pull, stiffness);
-  }
+  pendres_kernels_force(terms, rows->coefficient, i, y, pull, stiffness);
   if (terms != PENDRES_MODEL_PLAIN) {
     const double drive = FMA(rows->parametric[i], cosine, 1.0);
     *stiffness *= drive;

@@ -71,17 +71,14 @@ static void record(void *arg, int step, const pendres_rows *rows)
 
 const double pendres_newton_aside = 1e-6;
 
-static void load_lanes(pendres_block *b, size_t lanes, int companions, pendres_newton_candidate *c)
+/* Where lane k starts: those of the candidates come first, then those a little aside in y, and in
+   w. */
+static pendres_chain_start start_of(const pendres_newton_candidate *c, size_t lanes, size_t k)
 {
-  pendres_block_resize(b, lanes * (size_t)(1 + companions));
-  for (size_t i = 0; i < lanes; i++) {
-    const pendres_pendulum *p = &c[i].guess->pendulum;
-    c[i].lane = i;
-    pendres_block_load(b, i, p, c[i].y, c[i].w);
-    if (companions == 0) continue;
-    pendres_block_load(b, lanes + i, p, c[i].y + pendres_newton_aside, c[i].w);
-    pendres_block_load(b, 2 * lanes + i, p, c[i].y, c[i].w + pendres_newton_aside);
-  }
+  const pendres_newton_candidate *of = &c[k % lanes];
+  return (pendres_chain_start){of->guess->pendulum,
+                               k / lanes == 1 ? of->y + pendres_newton_aside : of->y,
+                               k / lanes == 2 ? of->w + pendres_newton_aside : of->w};
 }
 
 /* How the derivative of the map changes with the point: difference quotients, good to 1e-6. */
@@ -125,14 +122,7 @@ static pendres_status run_chain(pendres_context *ctx, pendres_flow_kind kind, si
   const pendres_chain chain = {.kind = kind, .steps = c[0].steps, .periods = c[0].guess->period,
                                .n = all, .from = from, .rows = at};
   pendres_status status = room.status;
-  for (size_t i = 0; i < lanes && status == PENDRES_OK; i++) {
-    const pendres_pendulum *p = &c[i].guess->pendulum;
-    c[i].lane = i;
-    from[i] = (pendres_chain_start){*p, c[i].y, c[i].w};
-    if (companions == 0) continue;
-    from[lanes + i] = (pendres_chain_start){*p, c[i].y + pendres_newton_aside, c[i].w};
-    from[2 * lanes + i] = (pendres_chain_start){*p, c[i].y, c[i].w + pendres_newton_aside};
-  }
+  for (size_t k = 0; k < all && status == PENDRES_OK; k++) from[k] = start_of(c, lanes, k);
   if (status == PENDRES_OK) status = pendres_chain_run(ctx, &chain);
   const pendres_rows rows = {.at = at, .stride = all};
   if (status == PENDRES_OK) read_lanes(&rows, lanes, kind, companions, c);
@@ -159,6 +149,7 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
          pendres_model_kind(&c[lanes].guess->pendulum) == model)
     lanes++;
   *count = lanes;
+  for (size_t i = 0; i < lanes; i++) c[i].lane = i;
   if (!sampled && pendres_chain_worth(q)) {
     status = run_chain(ctx, kind, lanes, companions, c);
     if (status == PENDRES_OK) ctx->cost.newton_steps += (double)lanes;
@@ -168,7 +159,12 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   const size_t kept = pendres_flow_kind_rows(kind);
   if (sampled && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
-  load_lanes(b, lanes, companions, c);
+  const size_t all = lanes * (size_t)(1 + companions);
+  pendres_block_resize(b, all);
+  for (size_t k = 0; k < all; k++) {
+    const pendres_chain_start from = start_of(c, lanes, k);
+    pendres_block_load(b, k, &from.pendulum, from.y, from.w);
+  }
   recorder r = {.taken = taken};
   const pendres_rows rows = pendres_block_rows(b);
   if (sampled) record(&r, 0, &rows);
@@ -283,12 +279,11 @@ pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
 /* One Newton step from what the latest pass found. */
 static void improve(pendres_newton_candidate *c)
 {
-  const double a = 1.0 - c->m[0][0], b = -c->m[0][1], d = -c->m[1][0], e = 1.0 - c->m[1][1];
-  const double det = a * e - b * d;
-  double dy = (e * c->residual[0] - b * c->residual[1]) / det;
-  double dw = (a * c->residual[1] - d * c->residual[0]) / det;
+  double by[2] = {NAN, NAN};
+  const pendres_newton_candidate *at = c;
+  (void)pendres_newton_solve(at->m, at->residual, by, NULL);
   const double omega = c->guess->pendulum.drive_frequency;
-  const double step = hypot(dy, omega * dw);
+  const double step = hypot(by[0], omega * by[1]);
   const int linear = pendres_model_is_linear(&c->guess->pendulum);
 
   c->iterations++;
@@ -298,11 +293,11 @@ static void improve(pendres_newton_candidate *c)
     return;
   }
   if (step > longest_step && !linear) {
-    dy *= longest_step / step;
-    dw *= longest_step / step;
+    by[0] *= longest_step / step;
+    by[1] *= longest_step / step;
   }
-  c->y += dy;
-  c->w += dw;
+  c->y += by[0];
+  c->w += by[1];
   /* Close to a fold rounding keeps steps from shrinking any further, and the iteration ends. */
   const int stalled = c->iterations > 8 && step < 1e-5 && step >= 0.5 * c->last_step;
   c->last_step = step;
