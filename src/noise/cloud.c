@@ -13,11 +13,6 @@
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = PENDRES_NOISE_LANES };
 
-/* What linear theory neglects is smaller than a covariance by a factor of about the variance
- * itself. Below this variance it is lost in rounding, and trajectories would only be less
- * accurate. */
-static const double least_variance = 2e-16;
-
 static const pendres_langevin_estimate none = {NAN, NAN};
 
 static const pendres_orbit *orbit_of(const pendres_cloud_request *q)
@@ -186,7 +181,7 @@ static void ask_theory(const pendres_langevin_request *r, const pendres_orbit *o
     pendres_langevin_linear_find(&r->pendulum, r->x, r->v, o->period, &linear);
   c->way = PENDRES_CLOUD_FOLLOWED;
   if (status != PENDRES_OK) return;
-  if (!(linear.covariance.xx > least_variance)) c->way = PENDRES_CLOUD_NARROW;
+  if (!(linear.covariance.xx > last_place_of_one)) c->way = PENDRES_CLOUD_NARROW;
   /* The cloud of an orbit of several periods lies around several points; theory is for one. */
   if (o->period != 1) return;
   c->linear = linear.covariance;
@@ -215,7 +210,7 @@ static pendres_cloud_verdict verdict_on(const pendres_cloud *c)
       isfinite(b.value) ? hypot(b.value, b.error) : pendres_noise_bias * fabs(linear[k]);
     const double error =
       sqrt(s.error * s.error + c->linear_error * c->linear_error + off * off);
-    if (!(fabs(s.value - linear[k]) <= 3.0 * error)) return PENDRES_CLOUD_TOO_HOT;
+    if (!(fabs(s.value - linear[k]) <= surely * error)) return PENDRES_CLOUD_TOO_HOT;
     if (error > 0.5 * scale[k]) verdict = PENDRES_CLOUD_UNCERTAIN;
   }
   return verdict;

@@ -5,18 +5,7 @@
 
 #include "base/angles.h"
 #include "model/model.h"
-
-enum { RING = 48 /* states on an ellipse's edge that are to settle inside */ };
-
-/* A core has this share of the width of the ellipse that is tested, which is at most this many
-   standard deviations wide: a trajectory at its edge will hardly leave immediately. */
-static const double share = 0.5, widest = 2.0;
-
-/* The number of ellipses that are tried, each smaller than the one before by this factor: a basin
-   narrower than the last one, a thousandth of the first, is negligible. The first is at most as
-   wide as a well or, where the force has no wells, as this multiple of its length. */
-enum { TRIALS = 21 };
-static const double narrower = 0.7071067811865476, lengths = 100.0;
+#include "noise/numbers.h"
 
 /* A symmetric matrix over (x, v): a covariance, or its inverse. */
 typedef pendres_langevin_covariance matrix;
@@ -49,11 +38,11 @@ static pendres_status settles(pendres_context *ctx, const pendres_attractors *se
   const matrix ellipse = ellipse_of(a);
   const double lower[3] = {sqrt(cloud->xx), cloud->xv / sqrt(cloud->xx),
                            sqrt(cloud->vv - cloud->xv * cloud->xv / cloud->xx)};
-  double x[RING], v[RING];
-  pendres_outcome outcome[RING];
+  double x[CORES_RING], v[CORES_RING];
+  pendres_outcome outcome[CORES_RING];
   size_t n = 0;
-  for (int k = 0; k < RING; k++) {
-    const double c = reach * cos(two_pi * k / RING), s = reach * sin(two_pi * k / RING);
+  for (int k = 0; k < CORES_RING; k++) {
+    const double c = reach * cos(two_pi * k / CORES_RING), s = reach * sin(two_pi * k / CORES_RING);
     const double dx = lower[0] * c, dv = lower[1] * c + lower[2] * s;
     if (form(&ellipse, dx, dv) <= 1.0) continue;
     x[n] = a->orbit.x + dx;
@@ -82,8 +71,9 @@ static pendres_status ellipse(pendres_context *ctx, const pendres_attractors *se
   if (temperature > 0.0 &&
       pendres_langevin_linear_find(&hot, a->orbit.x, a->orbit.v, a->orbit.period, &linear) ==
         PENDRES_OK) {
-    double reach = fmin(widest, fmin(0.5 * turn, lengths * length) / sqrt(linear.covariance.xx));
-    for (int k = 0; k < TRIALS && status == PENDRES_OK && !inside; k++, reach *= narrower) {
+    double reach =
+      fmin(cores_widest, fmin(0.5 * turn, cores_lengths * length) / sqrt(linear.covariance.xx));
+    for (int k = 0; k < CORES_TRIALS && status == PENDRES_OK && !inside; k++, reach *= sqrt(0.5)) {
       status = settles(ctx, set, i, &linear.covariance, reach, &inside);
       if (!inside) continue;
       *p = inverse(&linear.covariance);
@@ -96,7 +86,7 @@ static pendres_status ellipse(pendres_context *ctx, const pendres_attractors *se
 pendres_status pendres_cores_make(pendres_context *ctx, const pendres_attractors *set,
                                   double temperature, double size, pendres_cores *out)
 {
-  const double scale = share * (size > 0.0 ? size : 1.0), square = scale * scale;
+  const double scale = cores_share * (size > 0.0 ? size : 1.0), square = scale * scale;
   const size_t n = pendres_attractors_count(set);
   *out = (pendres_cores){0};
   for (size_t i = 0; i < n && out->count < PENDRES_SWITCHING_STATES; i++) {
@@ -116,7 +106,7 @@ pendres_status pendres_cores_make(pendres_context *ctx, const pendres_attractors
 
 const pendres_core *pendres_cores_locate(const pendres_cores *c, double x, double v, long *well)
 {
-  if (!(fabs(x) <= PENDRES_CORES_FARTHEST)) return NULL;
+  if (!(fabs(x) <= pendres_farthest)) return NULL;
   for (size_t i = 0; i < c->count; i++) {
     const pendres_core *s = &c->core[i];
     const double turns = rint((x - s->x) / s->turn);

@@ -17,9 +17,6 @@
 /* A running trajectory has no well. */
 #define PENDRES_NO_WELL LONG_MIN
 
-/* Positions beyond this are in no core: double precision does not resolve the angle there. */
-#define PENDRES_CORES_FARTHEST 1e15
-
 /* The core of an attractor. */
 typedef struct pendres_core {
   int attractor;

@@ -1,5 +1,4 @@
 /* langevin.c -- advancing noisy trajectories; see langevin.h. */
-#include "base/numbers.h"
 #include "noise/langevin_internal.h"
 
 #include <math.h>

@@ -28,7 +28,6 @@
  * order. One that does not close has a linear ramp besides, whose sum is known exactly and
  * corrected for.
  */
-#include "base/numbers.h"
 #include "noise/langevin_block.h"
 
 #include <math.h>
@@ -38,13 +37,11 @@
 #include "base/angles.h"
 #include "base/instructions.h"
 #include "base/sine.h"
+#include "noise/numbers.h"
 
 static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
 
 enum { ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };
-
-/* Beyond this an angle in the shaken frame loses more than 1e-9 to rounding. */
-static const double largest_pivot = 1e7;
 
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
 {
@@ -134,19 +131,18 @@ const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps)
 {
   double c, s;
   pivot_of(p, &c, &s);
-  if (!(fabs(c) <= largest_pivot && fabs(s) <= largest_pivot))
+  if (!(fabs(c) <= noise_farthest && fabs(s) <= noise_farthest))
     return "with noise, the drive must not shake a free particle farther than 1e7";
   /* Noise alone makes velocities of sqrt(T), which carry a pendulum by that over the larger of the
    * drive frequency and the damping. */
-  if (!(sqrt(p->temperature) <= largest_pivot * fmax(p->drive_frequency, p->damping)))
+  if (!(sqrt(p->temperature) <= noise_farthest * fmax(p->drive_frequency, p->damping)))
     return "so hot a pendulum is beyond 1e7 within a period";
   /* The speed that a torque leads to within a period, or against friction. */
   const double period = two_pi / p->drive_frequency;
   const double speed = fabs(p->torque) * fmin(period, 1.0 / p->damping);
-  if (!(speed * period <= largest_pivot))
+  if (!(speed * period <= noise_farthest))
     return "with noise, the torque must not move a free particle farther than 1e7 within a period";
-  /* The correction 1 - bend cos y must stay positive; the motion is not resolved well before. */
-  if (!(period / steps <= 3.0))
+  if (!(period / steps <= noise_longest_step))
     return "with noise, a step must not be longer than 3: more steps a period are needed";
   return NULL;
 }

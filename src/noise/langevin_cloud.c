@@ -18,7 +18,7 @@
 #include "engine/room.h"
 #include "noise/noise_common.h"
 
-enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, GROWTH = 64, TRIALS = 12, ORDER = 4 };
+enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, ORDER = 4 };
 
 /* Sums over the strobes of one trajectory that count; x and v relative to the starting point. */
 typedef struct sums {
@@ -419,7 +419,7 @@ static void worst_of(const pendres_langevin_bias *bias, unsigned statistics, dou
 static int first_steps(const pendres_pendulum *p)
 {
   const double period = two_pi / p->drive_frequency;
-  return (int)ceil(fmin(5e5, fmax(4.0, period * fmax(1.0, p->damping))));
+  return (int)ceil(fmin(PENDRES_MOST_STEPS / 2, fmax(4.0, period * fmax(1.0, p->damping))));
 }
 
 static pendres_status choose_steps(pendres_context *ctx, const pendres_langevin_request *request,
@@ -435,7 +435,7 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_langevin_
                                 "choosing steps needs a positive tolerance, temperature and "
                                 "damping, and a statistic");
   int steps = first_steps(&request->pendulum);
-  for (int trial = 0; trial < TRIALS; trial++) {
+  for (int trial = 0; trial < NOISE_TRIALS; trial++) {
     pendres_status status = accept(ctx, request, steps);
     if (status == PENDRES_OK) status = measure_bias(ctx, request, steps, trajectories, bias);
     if (status != PENDRES_OK) return status;
@@ -444,11 +444,12 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_langevin_
     /* More steps or more trajectories do not help where the bias is NaN. */
     if (isnan(value + error)) break;
     /* The bias goes down with more steps, and its error with these and with more trajectories. */
-    if (error > 0.25 * tolerance && trajectories < GROWTH * request->trajectories)
+    if (error > 0.25 * tolerance && trajectories < NOISE_GROWTH * request->trajectories)
       trajectories *= 4;
-    const double ratio = value / (0.7 * tolerance);
-    const double factor = fmin(4.0, fmax(1.1, pow(ratio, 1.0 / ORDER)));
-    if (value > 0.5 * tolerance) steps = (int)fmin(5e5, ceil(steps * factor));
+    const double ratio = value / (noise_aim * tolerance);
+    const double factor =
+      fmin(noise_most_growth, fmax(noise_least_growth, pow(ratio, 1.0 / ORDER)));
+    if (value > 0.5 * tolerance) steps = (int)fmin(PENDRES_MOST_STEPS / 2, ceil(steps * factor));
   }
   return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
                               "with %d steps a period the bias is %.2g of its scale, known to "

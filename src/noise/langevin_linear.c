@@ -17,6 +17,7 @@
 #include "model/model.h"
 #include "model/units.h"
 #include "noise/noise_common.h"
+#include "noise/numbers.h"
 
 /* What is integrated: the orbit, its variation row by row, and the covariance. */
 enum { X, V, MXX, MXV, MVX, MVV, CXX, CXV, CVV, SIZE };
@@ -106,26 +107,25 @@ static int is_resolved(const pendres_pendulum *p, int cycle, const pendres_lange
 {
   const double *m = l->monodromy, ad = m[0] * m[3], bc = m[1] * m[2];
   const double want = exp(-p->damping * cycle * two_pi / p->drive_frequency);
-  return fabs(ad - bc - want) <= 1e-6 * (1.0 + fabs(ad) + fabs(bc));
+  return fabs(ad - bc - want) <= linear_resolved * (1.0 + fabs(ad) + fabs(bc));
 }
 
 static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, double v,
                                     int cycle, pendres_langevin_linear *out)
 {
-  const double most = 1e8; /* steps in all */
   pendres_langevin_linear coarse;
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
       pendres_coordinates_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
-  /* 128 steps a unit of time in the finer computation: an error near 1e-11, rounding well below. */
   const double unit = two_pi / pendulum->drive_frequency * fmax(1.0, pendulum->damping);
-  const double fewest = fmin(1e6, ceil(64.0 * unit));
+  const double fewest = fmin(PENDRES_MOST_STEPS, ceil(linear_steps * unit));
   double steps = fewest;
-  if (!(cycle * steps <= most)) return PENDRES_TOLERANCE_UNREACHABLE;
+  if (!(cycle * steps <= PENDRES_MOST_SOLVER_STEPS)) return PENDRES_TOLERANCE_UNREACHABLE;
   pendres_status status = theory(pendulum, x, v, cycle, (int)steps, &coarse);
   while (!is_resolved(pendulum, cycle, &coarse)) {
     steps *= 2.0;
-    if (!(cycle * steps <= most && steps <= 4096.0 * fewest)) return PENDRES_TOLERANCE_UNREACHABLE;
+    if (!(cycle * steps <= PENDRES_MOST_SOLVER_STEPS && steps <= linear_most_doubling * fewest))
+      return PENDRES_TOLERANCE_UNREACHABLE;
     status = theory(pendulum, x, v, cycle, (int)steps, &coarse);
   }
   if (status == PENDRES_OK) status = theory(pendulum, x, v, cycle, (int)(2.0 * steps), out);

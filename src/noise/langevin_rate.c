@@ -9,6 +9,7 @@
 
 #include "base/student.h"
 #include "noise/noise_common.h"
+#include "noise/numbers.h"
 
 /*
  * A point of the gamma distribution of unit scale: beyond it, or up to it, lies a share `tail`.
@@ -38,10 +39,9 @@ static double gamma_point_of_many(const gamma_tail *g)
 
 static pendres_status gamma_point(gamma_tail g, double *x)
 {
-  enum { MANY = 500, MOST_STEPS = 200 };
   const double tiniest = -740.0, largest = log(g.shape + 40.0 * sqrt(g.shape) + 800.0);
   *x = 0.0;
-  if (g.shape >= MANY) {
+  if (g.shape >= noise_many_events) {
     *x = gamma_point_of_many(&g);
     return PENDRES_OK;
   }
@@ -51,7 +51,7 @@ static pendres_status gamma_point(gamma_tail g, double *x)
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
   if (solver == NULL) return PENDRES_OUT_OF_MEMORY;
   int gsl = gsl_root_fsolver_set(solver, &f, tiniest, largest);
-  for (int i = 0; i < MOST_STEPS && gsl == GSL_SUCCESS; i++) {
+  for (int i = 0; i < ITERATIONS && gsl == GSL_SUCCESS; i++) {
     gsl = gsl_root_fsolver_iterate(solver);
     if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver),
                                1e-14, 0.0) == GSL_SUCCESS)

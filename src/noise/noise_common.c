@@ -48,9 +48,9 @@ const char *pendres_noise_refuses(const pendres_pendulum *p)
 long pendres_noise_settle(const pendres_orbit *orbit)
 {
   const double contraction = hypot(orbit->multiplier_re[0], orbit->multiplier_im[0]);
-  const double periods = orbit->period * log(1e-5) / log(contraction);
-  if (!(contraction < 1.0)) return 10000; /* not known: chaotic, or about to vanish */
-  return (long)fmin(1e5, fmax(4.0, ceil(periods)));
+  const double periods = orbit->period * log(noise_settled) / log(contraction);
+  if (!(contraction < 1.0)) return (long)noise_unknown_settling;
+  return (long)fmin(noise_longest_settling, fmax(4.0, ceil(periods)));
 }
 
 pendres_status pendres_noise_choose_steps(pendres_context *ctx,

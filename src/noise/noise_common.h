@@ -10,22 +10,7 @@
 #include <pendres/langevin.h>
 #include <pendres/orbit.h>
 
-enum {
-  PENDRES_NOISE_LANES = 192, /* trajectories together; more do not fit into the fastest memory */
-  PENDRES_NOISE_RECORD = 60  /* strobes of each from which steps are chosen */
-};
-
-/* Bound on the bias by finite steps, relative to a cloud's widths and their products. */
-static const double pendres_noise_bias = 0.01;
-/* Relative to a cloud's width the bias is the same at all small temperatures, as up to this one. At
-   high ones a coarse and a fine trajectory soon separate, and their difference says little about
-   the steps. */
-static const double pendres_noise_coldest = 1e-4;
-/* Of confidence intervals, unless told. */
-static const double pendres_noise_level = 0.95;
-/* The logarithm of a rate from fewer events is far from Gaussian, and with fewer events or fewer
-   trajectories nothing is known of their scatter. */
-static const double pendres_noise_fewest = 10.0;
+#include "noise/numbers.h"
 
 /* The first id of trajectories of a pendulum that start on attractor number `attractor` of its
  * set. Ids follow from the parameters, so that results do not depend on what else is computed. */

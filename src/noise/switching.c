@@ -20,10 +20,6 @@ enum { STATES = PENDRES_SWITCHING_STATES, WELL = PENDRES_SWITCHING_WELL };
 /* The state of a trajectory that has gone to infinity. */
 enum { GONE = -1 };
 
-/* A trajectory counts as escaped where the force leads away and the potential is lower than its
-   attractor's by this multiple of the temperature: one of exp(30) would return. */
-static const double no_return = 30.0;
-
 /* ---- Counting ------------------------------------------------------------------------------ */
 
 /* Where a trajectory belongs. */
@@ -174,7 +170,7 @@ static void start(const pendres_switching_request *q, counting *c)
   c->bottom = !pendres_pendulum_leaves(&q->pendulum)
                 ? NAN
                 : pendres_model_potential(&q->pendulum, home->x) -
-                    no_return * q->pendulum.temperature;
+                    switching_no_return * q->pendulum.temperature;
 }
 
 /* In which basins the trajectories end. */
@@ -189,7 +185,7 @@ static pendres_status look_at_ends(pendres_context *ctx, const pendres_switching
   double *v = pendres_room_take(&room, all, sizeof *v);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < all; i++) {
-    if (c->tracks[i].state == GONE || !(fabs(c->x[i]) <= PENDRES_CORES_FARTHEST)) continue;
+    if (c->tracks[i].state == GONE || !(fabs(c->x[i]) <= pendres_farthest)) continue;
     x[n] = c->x[i];
     v[n++] = c->x[all + i];
   }
@@ -282,11 +278,6 @@ static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
   return square * n / (n - 1.0) / events;
 }
 
-/* The fraction of the missed share of transitions that is added to the error, for effects of second
-   order: in a double well with barriers of 3 to 5 temperatures they were a tenth. Where half of the
-   transitions are missed, second order is not known, and all of the share is added. */
-static const double second_order = 0.125, most_missed = 0.5;
-
 /*
  * The share of the transitions that is missed: a trajectory is seen on its new state only when it
  * has come to the core, and may be back by then, which for the exact rates are two transitions.
@@ -309,7 +300,7 @@ static double missed(const pendres_switching_tally *y, size_t s, size_t t)
   if (t == s || t == WELL) back = wells > 0.0 ? 0.5 * rate : 0.0;
   else if (y->exposure[t] > 0.0) back = y->events[t][s] / y->exposure[t];
   const double late = y->passage[s][t] / events - 0.5 * y->absence2[s] / y->exposure[s];
-  return fmin(fmax(0.0, late) * (rate + back), most_missed);
+  return fmin(fmax(0.0, late) * (rate + back), switching_most_missed);
 }
 
 pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, size_t s, size_t t,
@@ -329,7 +320,8 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
   const pendres_status status =
     pendres_langevin_rate(rate->events / d, rate->exposure / d, level, &i);
   if (status != PENDRES_OK) return status;
-  const double lost = missed(tally, s, t), off = lost < most_missed ? second_order * lost : lost;
+  const double lost = missed(tally, s, t);
+  const double off = lost < switching_most_missed ? switching_second_order * lost : lost;
   rate->value = i.value / (1.0 - lost);
   rate->lower = i.lower / (1.0 - lost) * (1.0 - off);
   rate->upper = i.upper / (1.0 - lost) * (1.0 + off);

@@ -82,17 +82,14 @@ static void fill_rows(const sample *s, gsl_matrix *rows, gsl_vector *wanted, gsl
   }
 }
 
-/* A barrier below this multiple of the temperature is not an activation energy. */
-static const double least_barrier = 2.0;
-
 static pendres_switching_verdict verdict_on(const pendres_switching_activation *f)
 {
   const double freedom = (double)f->points - 2.0;
   if (isnan(f->energy)) return PENDRES_SWITCHING_TOO_FEW;
-  if (!(f->least_barrier >= least_barrier)) return PENDRES_SWITCHING_NO_BARRIER;
+  if (!(f->least_barrier >= switching_least_barrier)) return PENDRES_SWITCHING_NO_BARRIER;
   if (f->points < 3) return PENDRES_SWITCHING_UNCHECKED;
-  /* Three standard deviations of chi squared above its mean. */
-  return f->chi2 > freedom + 3.0 * sqrt(2.0 * freedom) ? PENDRES_SWITCHING_BENT
+  /* The mean and the standard deviation of chi squared. */
+  return f->chi2 > freedom + surely * sqrt(2.0 * freedom) ? PENDRES_SWITCHING_BENT
                                                        : PENDRES_SWITCHING_STRAIGHT;
 }
 

@@ -152,9 +152,6 @@ pendres_status pendres_switching_follow(pendres_context *ctx,
 
 /* ---- Rates and energies -------------------------------------------------------------------- */
 
-/* Shares of trajectories differ from what rates imply if they do by more standard errors. */
-static const double unlikely = 3.0;
-
 /* The share of trajectories on the second state after a time, by rates forth and back. */
 static double share_on_second(double start, double forth, double back, double time)
 {
@@ -191,7 +188,7 @@ static int balanced(const pendres_switching_rates *r)
 {
   for (int s = 0; s < 2; s++)
     if (fabs(r->occupation[s].value - r->implied[s].value) >
-        unlikely * hypot(r->occupation[s].error, r->implied[s].error))
+        surely * hypot(r->occupation[s].error, r->implied[s].error))
       return 0;
   return 1; /* also where nothing is known */
 }
