@@ -373,7 +373,7 @@ static int answer(const options *o)
 /* A store that is not closed by now is given up, without a trace. */
 static void let_go(job *j)
 {
-  scene_end(&j->run);
+  scene_room_end(&j->run.room);
   pendres_store_free(j->run.store);
   j->run.store = NULL;
   if (j->run.table != NULL) (void)fclose(j->run.table);

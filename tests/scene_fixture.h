@@ -70,7 +70,7 @@ static inline size_t scene_run_marked(scene_runner *runner, const char *text, in
   if (status != PENDRES_OK) print_error("%s\n", run.message);
   check_ok(status);
   strcpy(scene_told, run.told_count > 0 ? run.told[0] : "");
-  scene_end(&run);
+  scene_room_end(&run.room);
   check_ok(pendres_store_close(run.store));
   pendres_store_free(run.store);
   farm_free(run.farm);

@@ -52,7 +52,7 @@ static void reasons_of_statuses(void **state)
   assert_int_equal(f.reason[0], SCENE_FAILURE_NONE);
   assert_int_equal(f.reason[1], SCENE_FAILURE_NOT_FOUND);
   assert_string_equal(f.words[1], "nothing there");
-  scene_end(&run);
+  scene_room_end(&run.room);
 }
 
 static const char *colours(int value)

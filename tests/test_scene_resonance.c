@@ -37,7 +37,7 @@ static pendres_status run_until(stopper *s)
   scene_path("stopped", path);
   check_ok(pendres_store_create(path, NULL, &run.store));
   const pendres_status status = scene_find(d.kind)->run(&run);
-  scene_end(&run);
+  scene_room_end(&run.room);
   check_ok(pendres_store_close(run.store));
   pendres_store_free(run.store);
   farm_free(run.farm);
@@ -210,7 +210,8 @@ static void amplitudes_up_to_the_top(void **state)
     const pendres_resonance r = {
       .frequency = 0.8, .response = {.mean_loop_amplitude = loop,
                                      .mean_loop_amplitude_error = 3.2}};
-    const scene_peak p = scene_peak_of(0.01, PENDRES_OK, &r);
+    scene_peak p;
+    scene_peak_set(&p, 0.01, PENDRES_OK, &r);
     const double free = pendres_free_frequency(loop);
     check_near(p.free_frequency, free, 0.0);
     check_near(p.free_frequency_error, fmax(free, 1.0 - free), 1e-15);

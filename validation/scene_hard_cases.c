@@ -119,11 +119,9 @@ static const char *yes_or_no(int value)
   "these are uncertain by"
 
 static const scene_column columns[] = {
-  {.name = "case_name", .long_name = "case", .type = SCENE_TEXT, .value = offsetof(row, of.name)},
-  {.name = "quantity", .long_name = "what was measured", .type = SCENE_TEXT,
-   .value = offsetof(row, of.quantity)},
-  {.name = "bound", .long_name = "what the figure must not exceed", .type = SCENE_PLAIN,
-   .value = offsetof(row, of.bound)},
+  {SCENE_TYPED(SCENE_TEXT, "case_name", row, of.name, "case")},
+  {SCENE_TYPED(SCENE_TEXT, "quantity", row, of.quantity, "what was measured")},
+  {SCENE_TYPED(SCENE_PLAIN, "bound", row, of.bound, "what the figure must not exceed")},
   {.name = "figure", .long_name = "what was measured", .value = offsetof(row, of.figure),
    .error = offsetof(row, figure_error), .units = "1", .comment = NO_ERROR},
   SCENE_CODE(row, holds, "is the figure within its bound", holds_names),

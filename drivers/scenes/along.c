@@ -288,17 +288,16 @@ void scene_along_write_jumps(scene_run *run, const scene_along_path *path, const
 }
 
 static const scene_column verdicts[] = {
-  { .name = "label", .long_name = "kind of attractor that the pendulum is on", .type = SCENE_FLAG,
-    .value = offsetof(scene_along_row, of.attractor.label), .names = scene_motion_names },
+  {SCENE_TYPED(SCENE_FLAG, "label", scene_along_row, of.attractor.label,
+               "kind of attractor that the pendulum is on"), .names = scene_motion_names},
   SCENE_CODE(scene_along_row, failed, "why there is no attractor", scene_failure_names),
 };
 
 /* Only where it is: files of starts that are sure have none. */
 static const scene_column doubts[] = {
-  { .name = "uncertain", .type = SCENE_FLAG, .value = offsetof(scene_along_row, uncertain),
-    .names = scene_doubt_names,
-    .long_name = "whether errors that the start amplifies may have chosen the state on which the "
-                 "path begins" },
+  {SCENE_TYPED(SCENE_FLAG, "uncertain", scene_along_row, uncertain, "whether errors that the "
+               "start amplifies may have chosen the state on which the path begins"),
+   .names = scene_doubt_names},
 };
 
 int scene_along_uncertain(const scene_along_path *path)

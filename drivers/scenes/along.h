@@ -54,11 +54,6 @@ typedef struct scene_along_row {
   int uncertain, failed;                               /* a scene_failure */
 } scene_along_row;
 
-#define SCENE_ALONG_COLUMN(label, field, words, unit)                                           \
-  {.name = #label, .long_name = words, .units = unit,                                            \
-   .value = offsetof(scene_along_row, of.field),                                                 \
-   .error = offsetof(scene_along_row, of.field##_error)}
-
 /* What ends a state, as a row of results. */
 typedef struct scene_along_jump {
   double parameter, parameter_error, period, period_error; /* period: of the orbit jumped to; NaN */

@@ -97,13 +97,10 @@ static pendres_status find_states(const scene_some *some)
   if (s->index != NULL)
     return pendres_basin_states(some->ctx, b->set, &b->grid, some->n, s->index + some->first,
                                 some->rows);
-  size_t *index = malloc(some->n * sizeof *index);
+  size_t *index = scene_room_take(some->room, some->n, sizeof *index);
   if (index == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < some->n; i++) index[i] = some->first + i;
-  const pendres_status status =
-    pendres_basin_states(some->ctx, b->set, &b->grid, some->n, index, some->rows);
-  free(index);
-  return status;
+  return pendres_basin_states(some->ctx, b->set, &b->grid, some->n, index, some->rows);
 }
 
 /* ---- whole grids ---- */
@@ -116,17 +113,14 @@ static pendres_status finish_rows(const scene_some *some)
   size_t deferred = 0, k = 0;
   for (size_t i = 0; i < some->n; i++) deferred += state[i].how == PENDRES_BASIN_DEFERRED;
   if (deferred == 0) return PENDRES_OK;
-  size_t *index = malloc(deferred * sizeof *index);
-  pendres_basin_state *rest = malloc(deferred * sizeof *rest);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (index == NULL || rest == NULL) goto done;
+  size_t *index = scene_room_take(some->room, deferred, sizeof *index);
+  pendres_basin_state *rest = scene_room_take(some->room, deferred, sizeof *rest);
+  if (index == NULL || rest == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < some->n; i++)
     if (state[i].how == PENDRES_BASIN_DEFERRED) index[k++] = some->first + i;
-  status = pendres_basin_states(some->ctx, b->set, &b->grid, k, index, rest);
+  const pendres_status status =
+    pendres_basin_states(some->ctx, b->set, &b->grid, k, index, rest);
   for (size_t i = 0; i < k && status == PENDRES_OK; i++) state[index[i] - some->first] = rest[i];
-done:
-  free(index);
-  free(rest);
   return status;
 }
 

@@ -185,18 +185,14 @@ typedef struct row {
   double xx_error, xv_error, vv_error; /* of linear theory's covariance */
 } row;
 
-#define OF(field) offsetof(row, of.field)
-#define STATISTIC(label, s, words)                                                   \
-  {.name = #label, .long_name = words, .value = OF(measured.statistics[s].value),    \
-   .error = OF(measured.statistics[s].error)}
-#define LINEAR(label, field, words)                                                  \
-  {.name = #label, .long_name = words " by linear noise theory",                     \
-   .value = OF(linear.field), .error = offsetof(row, field##_error)}
-#define BIAS(what, s)                                                                \
-  {.name = "bias_" #what, .long_name = "bias of strobe_" #what " by finite steps",   \
-   .value = OF(bias.statistics[s].value), .error = OF(bias.statistics[s].error)}
-#define PLAIN(label, place, words) \
-  {.name = #label, .long_name = words, .type = SCENE_PLAIN, .value = place}
+#define STATISTIC(label, s, words) \
+  {SCENE_ESTIMATE(#label, row, of.measured.statistics[s], words, NULL)}
+#define LINEAR(label, field, words)                                \
+  {.name = #label, .long_name = words " by linear noise theory",   \
+   .value = offsetof(row, of.linear.field), .error = offsetof(row, field##_error)}
+#define BIAS(what, s)                                              \
+  {SCENE_ESTIMATE("bias_" #what, row, of.bias.statistics[s],       \
+                  "bias of strobe_" #what " by finite steps", NULL)}
 enum { X = PENDRES_LANGEVIN_MEAN_X, V = PENDRES_LANGEVIN_MEAN_V, XX = PENDRES_LANGEVIN_COV_XX,
        XV = PENDRES_LANGEVIN_COV_XV, VV = PENDRES_LANGEVIN_COV_VV };
 
@@ -210,20 +206,24 @@ static const scene_column columns[] = {
   LINEAR(linear_cov_xv, xv, "covariance of position and velocity"),
   LINEAR(linear_cov_vv, vv, "variance of velocity"),
   BIAS(mean_x, X), BIAS(mean_v, V), BIAS(cov_xx, XX), BIAS(cov_xv, XV), BIAS(cov_vv, VV),
-  {.name = "linear_theory", .type = SCENE_FLAG, .value = OF(verdict), .names = scene_cloud_names,
-   .long_name = "whether the cloud's covariance agrees with linear noise theory",
+  {SCENE_TYPED(SCENE_FLAG, "linear_theory", row, of.verdict,
+               "whether the cloud's covariance agrees with linear noise theory"),
+   .names = scene_cloud_names,
    .comment = "too_hot: one of the three differs by more than 3 of its standard errors, "
               "which include the bias by finite steps; uncertain: an error above half the "
               "width; below_rounding: so narrow that what linear theory leaves out is below "
               "rounding, so that nothing is followed and the covariance is that of theory"},
-  {.name = "noise_steps_per_period", .type = SCENE_NUMBER, .value = OF(bias.steps_per_period),
-   .long_name = "steps a drive period of the noisy integrator"},
-  PLAIN(escapes, offsetof(row, escapes), "trajectories that left for another attractor or well"),
-  PLAIN(escape_exposure, OF(escape_exposure), "time that trajectories were watched"),
-  {.name = "escape_rate", .long_name = "escapes per unit time", .value = OF(escape_rate.value),
-   .error = OF(escape_rate.error)},
-  PLAIN(escape_rate_lower, OF(escape_rate.lower), "lower end of its 95 % confidence interval"),
-  PLAIN(escape_rate_upper, OF(escape_rate.upper), "upper end of its 95 % confidence interval"),
+  {SCENE_TYPED(SCENE_NUMBER, "noise_steps_per_period", row, of.bias.steps_per_period,
+               "steps a drive period of the noisy integrator")},
+  SCENE_COLUMN_OF(SCENE_PLAIN, row, escapes,
+                  "trajectories that left for another attractor or well"),
+  {SCENE_TYPED(SCENE_PLAIN, "escape_exposure", row, of.escape_exposure,
+               "time that trajectories were watched")},
+  {SCENE_ESTIMATE("escape_rate", row, of.escape_rate, "escapes per unit time", NULL)},
+  {SCENE_TYPED(SCENE_PLAIN, "escape_rate_lower", row, of.escape_rate.lower,
+               "lower end of its 95 % confidence interval")},
+  {SCENE_TYPED(SCENE_PLAIN, "escape_rate_upper", row, of.escape_rate.upper,
+               "upper end of its 95 % confidence interval")},
 };
 
 /* What the table says of the verdicts. */

@@ -9,10 +9,8 @@ typedef struct count {
 } count;
 
 static const scene_column of_attractors[] = {
-  {.name = "basin_states", .long_name = "states of the grid that go there", .type = SCENE_COUNT,
-   .value = offsetof(count, states)},
-  {.name = "basin_wells", .long_name = "wells that these states settle in", .type = SCENE_COUNT,
-   .value = offsetof(count, wells)},
+  {SCENE_TYPED(SCENE_COUNT, "basin_states", count, states, "states of the grid that go there")},
+  {SCENE_TYPED(SCENE_COUNT, "basin_wells", count, wells, "wells that these states settle in")},
 };
 
 static void write_counts(basins *b, size_t attractors, size_t n, const pendres_basin_well *wells)
@@ -41,16 +39,13 @@ static int ends_are_wells(const deck *d)
 }
 
 static const scene_column of_wells[] = {
-  {.name = "attractor", .long_name = "number of the attractor", .type = SCENE_NUMBER,
-   .value = offsetof(well, attractor)},
-  {.name = "number", .long_name = "number of the well; 0 for running and chaotic attractors",
-   .type = SCENE_NUMBER, .value = offsetof(well, number)},
-  {.name = "states", .long_name = "states of the grid that settle there", .type = SCENE_COUNT,
-   .value = offsetof(well, states)},
+  {SCENE_TYPED(SCENE_NUMBER, "attractor", well, attractor, "number of the attractor")},
+  {SCENE_TYPED(SCENE_NUMBER, "number", well, number,
+               "number of the well; 0 for running and chaotic attractors")},
+  {SCENE_TYPED(SCENE_COUNT, "states", well, states, "states of the grid that settle there")},
   /* Where boundaries are those between wells. */
-  {.name = "fraction", .long_name = "share of the window that settles there",
-   .when = ends_are_wells, .value = offsetof(well, fraction),
-   .error = offsetof(well, fraction_error)},
+  {SCENE_AS("fraction", well, fraction, "share of the window that settles there", NULL),
+   .when = ends_are_wells},
 };
 
 static void write_each(basins *b, size_t n, const pendres_basin_well *wells)

@@ -17,19 +17,19 @@ typedef struct state_row {
 
 static const scene_column of_states[BASINS_VARIABLES] = {
   SCENE_CODE(state_row, label, "what the pendulum settles on", scene_label_names),
-  {.name = "attractor_index", .long_name = "number of the attractor that the pendulum settles on",
-   .type = SCENE_NUMBER, .value = offsetof(state_row, attractor), .comment = "-1: unresolved"},
-  {.name = "well", .long_name = "number of the well that the pendulum settles in",
-   .type = SCENE_NUMBER, .value = offsetof(state_row, well),
+  {SCENE_TYPED(SCENE_NUMBER, "attractor_index", state_row, attractor,
+               "number of the attractor that the pendulum settles on"),
+   .comment = "-1: unresolved"},
+  {SCENE_TYPED(SCENE_NUMBER, "well", state_row, well,
+               "number of the well that the pendulum settles in"),
    .comment = "0 for running and chaotic pendulums"},
-  {.name = "settling_periods", .type = SCENE_NUMBER, .value = offsetof(state_row, settling_periods),
-   .long_name = "drive periods until the pendulum is inside its attractor's trapping region",
+  {SCENE_TYPED(SCENE_NUMBER, "settling_periods", state_row, settling_periods,
+               "drive periods until the pendulum is inside its attractor's trapping region"),
    .comment = "-1: unresolved; -2: filled in by refinement, not integrated; -3: ended by --budget"},
   SCENE_CODE(state_row, failed, "why there is no label for the state", scene_failure_names),
-  {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(state_row, uncertain),
-   .names = scene_doubt_names,
-   .long_name = "whether the errors that the pendulum carried may change where it settles",
-   .comment = "no: they may not, or the state was not integrated"},
+  {SCENE_TYPED(SCENE_FLAG, "uncertain", state_row, uncertain,
+               "whether the errors that the pendulum carried may change where it settles"),
+   .names = scene_doubt_names, .comment = "no: they may not, or the state was not integrated"},
 };
 
 static void state_rows(size_t n, const pendres_basin_state *state, state_row *rows)
@@ -115,31 +115,25 @@ typedef struct row {
   double period, winding; /* of the orbit; NaN for chaos, which has none */
 } row;
 
-#define OF_ORBIT(field, words, unit)                                                  \
-  {.name = "attractor_" #field, .long_name = words, .units = unit,                    \
-   .value = offsetof(row, of.orbit.field), .error = offsetof(row, of.orbit.field##_error)}
-#define OF_ATTRACTOR(label, field, words)                                             \
-  {.name = "attractor_" #label, .long_name = words, .units = "1",                     \
-   .value = offsetof(row, of.field), .error = offsetof(row, of.field##_error)}
-#define PLAIN(label, what, field, words)                                              \
-  {.name = "attractor_" #label, .long_name = words, .type = what, .value = offsetof(row, of.field)}
 static const scene_column of_attractors[] = {
-  {.name = "attractor_label", .long_name = "kind of attractor", .type = SCENE_FLAG,
-   .value = offsetof(row, of.label), .names = scene_label_names},
-  PLAIN(period, SCENE_NUMBER, orbit.period, "drive periods until the orbit closes; 0: it does not"),
-  PLAIN(winding, SCENE_NUMBER, orbit.winding, "whole turns in that time"),
-  OF_ORBIT(x, "position at drive phase 0, in well 0", "rad"),
-  OF_ORBIT(v, "velocity at drive phase 0", "1"),
-  OF_ATTRACTOR(lyapunov, lyapunov, "largest Lyapunov exponent per unit time"),
-  OF_ATTRACTOR(drift, drift, "mean whole turns a drive period, of chaos"),
-  PLAIN(watched_periods, SCENE_PLAIN, watched_periods,
-        "drive periods that chaos was watched for without ending, all walkers together"),
-  PLAIN(escape_rate_bound, SCENE_PLAIN, escape_rate_bound,
-        "largest rate of ending of chaos, a drive period, that is not excluded at 95 %"),
-  {.name = "basin_fraction", .long_name = "share of the window's area", .units = "1",
+  {SCENE_TYPED(SCENE_FLAG, "attractor_label", row, of.label, "kind of attractor"),
+   .names = scene_label_names},
+  {SCENE_TYPED(SCENE_NUMBER, "attractor_period", row, of.orbit.period,
+               "drive periods until the orbit closes; 0: it does not")},
+  {SCENE_TYPED(SCENE_NUMBER, "attractor_winding", row, of.orbit.winding,
+               "whole turns in that time")},
+  {SCENE_AS("attractor_x", row, of.orbit.x, "position at drive phase 0, in well 0", "rad")},
+  {SCENE_AS("attractor_v", row, of.orbit.v, "velocity at drive phase 0", "1")},
+  {SCENE_AS("attractor_lyapunov", row, of.lyapunov, "largest Lyapunov exponent per unit time",
+            "1")},
+  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of chaos", "1")},
+  {SCENE_TYPED(SCENE_PLAIN, "attractor_watched_periods", row, of.watched_periods,
+               "drive periods that chaos was watched for without ending, all walkers together")},
+  {SCENE_TYPED(SCENE_PLAIN, "attractor_escape_rate_bound", row, of.escape_rate_bound,
+               "largest rate of ending of chaos, a drive period, that is not excluded at 95 %")},
+  {SCENE_AS("basin_fraction", row, basin_fraction, "share of the window's area", "1"),
    .comment = "each state stands for what is nearest to it: ends of a range count half; plain "
-              "counts are basin_states",
-   .value = offsetof(row, basin_fraction), .error = offsetof(row, basin_fraction_error)},
+              "counts are basin_states"},
 };
 
 static void make_rows(const basins *b, const double *fraction, const double *error, row *rows)
@@ -176,21 +170,20 @@ static void look_closer(basins *b, pendres_basin_statistics *s)
                                                         &b->random_states));
 }
 
-#define STATISTIC(label, field, words)                                          \
-  {.name = #label, .long_name = words,                                          \
-   .value = offsetof(pendres_basin_statistics, field),                          \
-   .error = offsetof(pendres_basin_statistics, field##_error)}
 static const scene_column of_statistics[] = {
-  STATISTIC(basin_entropy, entropy, "basin entropy over boxes of 5 x 5 states"),
-  STATISTIC(boundary_basin_entropy, boundary_entropy,
-            "basin entropy over boxes with a boundary; above log 2 it is fractal"),
-  STATISTIC(uncertainty_exponent, uncertainty_exponent,
-            "exponent of the share of uncertain states over distance"),
+  {SCENE_AS("basin_entropy", pendres_basin_statistics, entropy,
+            "basin entropy over boxes of 5 x 5 states", NULL)},
+  {SCENE_AS("boundary_basin_entropy", pendres_basin_statistics, boundary_entropy,
+            "basin entropy over boxes with a boundary; above log 2 it is fractal", NULL)},
+  SCENE_COLUMN(pendres_basin_statistics, uncertainty_exponent,
+               "exponent of the share of uncertain states over distance", NULL),
 };
 
 /* The statistics hold shares as arrays of doubles: one row is one double away from the next. */
-static const scene_column of_distances =
-  STATISTIC(uncertain_fraction, uncertain, "share of states with an unlike one so far off");
+static const scene_column of_distances[] = {
+  {SCENE_AS("uncertain_fraction", pendres_basin_statistics, uncertain,
+            "share of states with an unlike one so far off", NULL)},
+};
 
 static void write_statistics(basins *b, const pendres_basin_statistics *s)
 {
@@ -207,39 +200,38 @@ static void write_statistics(basins *b, const pendres_basin_statistics *s)
   scene_columns_write(b->run, &states, 1, &random);
   if (s->scales == 0) return;
   scene_put_dimension(b->run, &distance, s->distance, distances.n);
-  scene_columns_write(b->run, &distances, 1, &of_distances);
+  SCENE_WRITE(b->run, &distances, of_distances);
 }
 
 /* How many states there are of each kind. */
 typedef struct counts {
-  size_t unresolved, uncertain, integrated, filled, verified, missed, suspected;
+  size_t unresolved_states, uncertain_states;
+  size_t integrated_states, filled_states, verified_states, verification_misses, suspected_states;
 } counts;
 
-#define STATES(label, field, words) \
-  {.name = #label, .long_name = words, .type = SCENE_COUNT, .value = offsetof(counts, field)}
 static const scene_column of_counts[] = {
-  STATES(unresolved_states, unresolved, "states without an attractor"),
-  STATES(uncertain_states, uncertain,
-         "integrated states that may go to another attractor, or well"),
+  SCENE_COLUMN_OF(SCENE_COUNT, counts, unresolved_states, "states without an attractor"),
+  SCENE_COLUMN_OF(SCENE_COUNT, counts, uncertain_states,
+                  "integrated states that may go to another attractor, or well"),
 };
 static const scene_column of_refinement[] = {
-  STATES(integrated_states, integrated, "states that were integrated"),
-  STATES(filled_states, filled, "states that were filled in"),
-  STATES(verified_states, verified, "filled states that were integrated as a check"),
-  STATES(verification_misses, missed,
-         "verified states that had been filled in wrongly, and were put right with their "
-         "surroundings until a fresh sample was clean"),
-  STATES(suspected_states, suspected,
-         "filled states that may be wrong at most, with a confidence of 95 %"),
+  SCENE_COLUMN_OF(SCENE_COUNT, counts, integrated_states, "states that were integrated"),
+  SCENE_COLUMN_OF(SCENE_COUNT, counts, filled_states, "states that were filled in"),
+  SCENE_COLUMN_OF(SCENE_COUNT, counts, verified_states,
+                  "filled states that were integrated as a check"),
+  SCENE_COLUMN_OF(SCENE_COUNT, counts, verification_misses,
+                  "verified states that had been filled in wrongly, and were put right with their "
+                  "surroundings until a fresh sample was clean"),
+  SCENE_COLUMN_OF(SCENE_COUNT, counts, suspected_states,
+                  "filled states that may be wrong at most, with a confidence of 95 %"),
 };
 
 /* The states that go to infinity, where a force may drive them there. */
 static const scene_column of_escapes[] = {
-  {.name = "escaped_states", .long_name = "states that escape to infinity", .type = SCENE_COUNT,
-   .value = offsetof(pendres_basin_statistics, escaped)},
-  {.name = "escape_fraction", .long_name = "share of the window's area that escapes", .units = "1",
-   .value = offsetof(pendres_basin_statistics, escape_fraction),
-   .error = offsetof(pendres_basin_statistics, escape_fraction_error)},
+  {SCENE_TYPED(SCENE_COUNT, "escaped_states", pendres_basin_statistics, escaped,
+               "states that escape to infinity")},
+  {SCENE_AS("escape_fraction", pendres_basin_statistics, escape_fraction,
+            "share of the window's area that escapes", "1")},
 };
 
 static void write_escapes(basins *b, const pendres_basin_statistics *s)
@@ -251,10 +243,8 @@ static void write_escapes(basins *b, const pendres_basin_statistics *s)
 static void write_counts(basins *b)
 {
   const counts of = {
-    .unresolved = b->unresolved, .uncertain = b->uncertain, .integrated = b->integrated,
-    .filled = b->grid.nx * b->grid.nv - b->integrated, .verified = b->verified,
-    .missed = b->missed,
-    .suspected = (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean))};
+    b->unresolved, b->uncertain, b->integrated, b->grid.nx * b->grid.nv - b->integrated,
+    b->verified, b->missed, (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean))};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
   SCENE_WRITE(b->run, &table, of_counts);
   if (b->d->basins.refine) SCENE_WRITE(b->run, &table, of_refinement);

@@ -182,14 +182,12 @@ static pendres_status collect_strobes(const scene_points *p, size_t first, size_
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-#define STROBE(field, words)                                                                     \
-  {.name = #field, .long_name = words, .units = "1", .value = offsetof(strobe, field),            \
-   .error = offsetof(strobe, field##_error),                                                      \
-   .comment = "errors are NaN in chaos: its points are on the attractor, but no two runs have "    \
-              "the same ones"}
+static const char of_chaos[] =
+  "errors are NaN in chaos: its points are on the attractor, but no two runs have the same ones";
 static const scene_column of_strobes[] = {
-  STROBE(x, "position at drive phase 0, within one turn"),
-  STROBE(v, "velocity at drive phase 0"),
+  {SCENE_AS("x", strobe, x, "position at drive phase 0, within one turn", "1"),
+   .comment = of_chaos},
+  {SCENE_AS("v", strobe, v, "velocity at drive phase 0", "1"), .comment = of_chaos},
 };
 
 static int has_exponents(const deck *d)
@@ -198,9 +196,8 @@ static int has_exponents(const deck *d)
 }
 
 static const scene_column of_points[] = {
-  {.name = "lyapunov", .long_name = "largest Lyapunov exponent per unit time", .units = "1",
-   .when = has_exponents, .value = offsetof(scene_along_row, of.attractor.lyapunov),
-   .error = offsetof(scene_along_row, of.attractor.lyapunov_error)},
+  {SCENE_AS("lyapunov", scene_along_row, of.attractor.lyapunov,
+            "largest Lyapunov exponent per unit time", "1"), .when = has_exponents},
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
 };
 
@@ -217,9 +214,8 @@ static const scene_column of_bifurcations[] = {
 
 /* The doublings are two arrays of the cascade, not one of structs: a step is that of its
    doubles. */
-static const scene_column of_doublings = {
-  .name = "parameter", .long_name = "value at which the period doubles",
-  .value = offsetof(pendres_cascade, value), .error = offsetof(pendres_cascade, value_error)};
+static const scene_column of_doublings = {SCENE_AS("parameter", pendres_cascade, value,
+    "value at which the period doubles", NULL)};
 
 static const scene_column of_cascade[] = {
   SCENE_COLUMN(pendres_cascade, limit, "value at which doublings accumulate", "1"),

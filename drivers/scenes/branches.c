@@ -54,11 +54,7 @@ typedef struct row {
   int kind, doubt, number;
 } row;
 
-static const char *stabilities(int value)
-{
-  static const char *const names[] = {"unstable", "stable"};
-  return value < 2 ? names[value] : NULL;
-}
+SCENE_NAMES(stabilities, "unstable", "stable")
 
 static const int8_t doubt_bits[] = {0, PENDRES_DOUBT_SIGN, PENDRES_DOUBT_TURN,
                                     PENDRES_DOUBT_BIFURCATION};
@@ -75,16 +71,14 @@ static const scene_column of_points[] = {
    .value = offsetof(row, of.multiplier_re), .error = offsetof(row, multiplier_error)},
   {.name = "multiplier_im", .long_name = "imaginary part of the Floquet multiplier", .pairs = 1,
    .value = offsetof(row, of.multiplier_im), .error = offsetof(row, multiplier_error)},
-  {.name = "stable", .long_name = "whether the orbit attracts", .type = SCENE_FLAG,
-   .value = offsetof(row, of.stable), .names = stabilities},
+  {SCENE_TYPED(SCENE_FLAG, "stable", row, of.stable, "whether the orbit attracts"),
+   .names = stabilities},
   SCENE_CODE(row, kind, "what happens at the point", scene_special_names),
-  {.name = "doubt", .long_name = "what the bifurcations do not explain there: sum of the flags",
-   .type = SCENE_FLAG, .value = offsetof(row, doubt), .names = doubts,
+  {SCENE_TYPED(SCENE_FLAG, "doubt", row, doubt,
+               "what the bifurcations do not explain there: sum of the flags"), .names = doubts,
    .codes = doubt_bits},
-  {.name = "number", .long_name = "number of the branch", .type = SCENE_NUMBER,
-   .value = offsetof(row, number)},
-  {.name = "period", .long_name = "drive periods until the orbit closes", .type = SCENE_NUMBER,
-   .value = offsetof(row, of.period)},
+  {SCENE_TYPED(SCENE_NUMBER, "number", row, number, "number of the branch")},
+  {SCENE_TYPED(SCENE_NUMBER, "period", row, of.period, "drive periods until the orbit closes")},
 };
 
 static row row_of(const scene_lines *l, const pendres_branch_point *p, int number)
@@ -224,16 +218,18 @@ static void write_free(scene_run *run)
  */
 
 typedef struct rotation {
-  double period, period_error, mean_velocity, mean_velocity_error, multiplier, multiplier_error;
-  double least_torque, least_torque_error;
+  pendres_rotation of;
+  pendres_rotation_onset onset;
 } rotation;
 
 static const scene_column of_rotations[] = {
-  SCENE_COLUMN(rotation, period, "period of the rotation, in which x grows or falls by 2 pi", "1"),
-  SCENE_COLUMN(rotation, mean_velocity, "mean velocity of the rotation", "1"),
-  SCENE_COLUMN(rotation, multiplier, "Floquet multiplier of the rotation; the other one is 1", "1"),
-  SCENE_COLUMN(rotation, least_torque, "least torque, of either sign, that keeps a rotation up",
-               "1")};
+  {SCENE_AS("period", rotation, of.period,
+            "period of the rotation, in which x grows or falls by 2 pi", "1")},
+  {SCENE_AS("mean_velocity", rotation, of.mean_velocity, "mean velocity of the rotation", "1")},
+  {SCENE_AS("multiplier", rotation, of.multiplier,
+            "Floquet multiplier of the rotation; the other one is 1", "1")},
+  {SCENE_AS("least_torque", rotation, onset.torque,
+            "least torque, of either sign, that keeps a rotation up", "1")}};
 
 /* Whether the lines are those of a pendulum under a torque, without a drive of either kind. */
 static int are_rotations(const scene_lines *l)
@@ -248,20 +244,10 @@ static int are_rotations(const scene_lines *l)
 /* No rotation is given for dampings below 1e-9 and above 100. */
 static rotation rotation_at(const pendres_pendulum *p)
 {
-  pendres_rotation r;
-  pendres_rotation_onset onset;
-  rotation out = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-  if (pendres_rotation_onset_find(p->damping, &onset) == PENDRES_OK) {
-    out.least_torque = onset.torque;
-    out.least_torque_error = onset.torque_error;
-  }
-  if (pendres_rotation_find(p, &r, NULL) != PENDRES_OK) return out;
-  out.period = r.period;
-  out.period_error = r.period_error;
-  out.mean_velocity = r.mean_velocity;
-  out.mean_velocity_error = r.mean_velocity_error;
-  out.multiplier = r.multiplier;
-  out.multiplier_error = r.multiplier_error;
+  rotation found, out = {.of = {.period = NAN}};
+  SCENE_BLANK(of_rotations, &out);
+  if (pendres_rotation_onset_find(p->damping, &found.onset) == PENDRES_OK) out.onset = found.onset;
+  if (pendres_rotation_find(p, &found.of, NULL) == PENDRES_OK) out.of = found.of;
   return out;
 }
 

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/temporary.h"
-
 /* Bytes of rows that are gathered at a time, or those of one value of the first dimension. */
 enum { PIECE = 1 << 20 };
 
@@ -197,16 +195,6 @@ typedef struct piece {
   scene_table table;
 } piece;
 
-/* `rows` has room for them. */
-static void take_piece(scene_run *run, const scene_table *t, void *rows, piece *p)
-{
-  const size_t each = t->n / (t->first > 0 ? t->first : 1), first = p->first * each;
-  p->table = *t;
-  p->table.n = p->values * each;
-  p->table.rows = t->temporary != NULL ? rows : field(t, first, 0);
-  if (t->temporary != NULL) scene_temporary_read(run, t->temporary, first, p->table.n, rows);
-}
-
 static void write_one(scene_run *run, const piece *p, int pairs, int id, const void *data)
 {
   const size_t n = pairs ? 2 * p->table.n : p->table.n;
@@ -225,15 +213,16 @@ static void write_piece(scene_run *run, const piece *p, const scene_column *c,
 
 /* A column, `most` values of the first dimension at a time. */
 static void write_column(scene_run *run, const scene_table *t, size_t most, const scene_column *c,
-                         void *rows, buffers *b)
+                         buffers *b)
 {
-  const size_t all = t->first > 0 ? t->first : 1;
+  const size_t all = t->first > 0 ? t->first : 1, each = t->n / all;
   scene_variable v = {-1, -1};
   if (c->when != NULL && !c->when(run->deck)) return;
   define(run, t, c, &v);
   for (size_t at = 0; at < all && scene_going(run); at += most) {
-    piece p = {.first = at, .values = all - at < most ? all - at : most};
-    take_piece(run, t, rows, &p);
+    piece p = {.first = at, .values = all - at < most ? all - at : most, .table = *t};
+    p.table.n = p.values * each;
+    p.table.rows = field(t, at * each, 0);
     write_piece(run, &p, c, &v, b);
   }
 }
@@ -269,13 +258,9 @@ void scene_columns_write(scene_run *run, const scene_table *t, size_t count,
   const size_t most = bytes > 0 && bytes < PIECE ? PIECE / bytes : 1;
   const size_t room = most * each < t->n ? most * each : t->n;
   buffers b;
-  char *rows = t->temporary != NULL ? malloc(room * t->stride + 1) : NULL;
   reserve(run, room, &b);
-  if (t->temporary != NULL && rows == NULL)
-    scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", room);
   for (size_t k = 0; k < count && scene_going(run); k++)
-    write_column(run, t, most, &columns[k], rows, &b);
-  free(rows);
+    write_column(run, t, most, &columns[k], &b);
   release(&b);
 }
 

@@ -25,6 +25,15 @@ typedef enum scene_column_type {
 /* The name of a value; NULL beyond the last. */
 typedef const char *(*scene_names)(int value);
 
+/* Names of one file's own codes, from 0 on, as such a function. */
+#define SCENE_NAMES(function, ...)                                                    \
+  static const char *function(int value)                                              \
+  {                                                                                   \
+    static const char *const names[] = {__VA_ARGS__};                                 \
+    return value >= 0 && value < (int)(sizeof names / sizeof *names) ? names[value]   \
+                                                                     : NULL;          \
+  }
+
 typedef struct scene_column {
   const char *name, *long_name, *units;
   scene_column_type type;
@@ -37,24 +46,27 @@ typedef struct scene_column {
   const char *comment;
 } scene_column;
 
-/* A column of a struct with the fields NAME and NAME_error. */
-#define SCENE_COLUMN(row, field, words, unit)                   \
-  {.name = #field, .long_name = words, .units = unit,           \
-   .value = offsetof(row, field), .error = offsetof(row, field##_error)}
+/* What a column begins with: of a field with its error, FIELD_error, beside it; of one that is a
+   struct of value and error; and of a field of another type than real. Other members may follow. */
+#define SCENE_AS(label, row, field, words, unit)              \
+  .name = label, .long_name = words, .units = unit,           \
+  .value = offsetof(row, field), .error = offsetof(row, field##_error)
+#define SCENE_ESTIMATE(label, row, field, words, unit)        \
+  .name = label, .long_name = words, .units = unit,           \
+  .value = offsetof(row, field.value), .error = offsetof(row, field.error)
+#define SCENE_TYPED(kind, label, row, field, words)           \
+  .name = label, .long_name = words, .type = kind, .value = offsetof(row, field)
 
-/* A column of another type than real, with the name of its field. */
-#define SCENE_COLUMN_OF(kind, row, field, words) \
-  {.name = #field, .long_name = words, .type = kind, .value = offsetof(row, field)}
-
-/* A column of an enum or a flag, with the names of its values. */
-#define SCENE_CODE(row, field, words, names_of)                   \
-  {.name = #field, .long_name = words, .type = SCENE_FLAG,        \
-   .value = offsetof(row, field), .names = names_of}
+/* Whole columns with the names of their fields; a code has the names of its values. */
+#define SCENE_COLUMN(row, field, words, unit) {SCENE_AS(#field, row, field, words, unit)}
+#define SCENE_COLUMN_OF(kind, row, field, words) {SCENE_TYPED(kind, #field, row, field, words)}
+#define SCENE_CODE(row, field, words, names_of) \
+  {SCENE_TYPED(SCENE_FLAG, #field, row, field, words), .names = names_of}
 
 /* The column that stands beside the means of an ensemble. */
-#define SCENE_UNCERTAIN(row, field)                                                             \
-  {.name = "uncertain_members", .long_name = "members that may belong to another state",       \
-   .type = SCENE_COUNT, .value = offsetof(row, field)}
+#define SCENE_UNCERTAIN(row, field)                           \
+  {SCENE_TYPED(SCENE_COUNT, "uncertain_members", row, field,  \
+               "members that may belong to another state")}
 
 typedef struct scene_table {
   const char *group;         /* NULL: the root */
@@ -65,7 +77,6 @@ typedef struct scene_table {
   const char *inner;         /* of columns that are pairs */
   size_t n, stride;          /* rows; bytes from one to the next */
   const void *rows;
-  const struct scene_temporary *temporary; /* not NULL: in the place of `rows` */
   size_t first;              /* values of the first dimension, written some at a time; 0: at once */
   int deflate;               /* level of compression; 0: as the file has it */
 } scene_table;

@@ -4,11 +4,7 @@
 #include <math.h>
 
 /* Which branch ends at a fold. */
-static const char *endings(int value)
-{
-  static const char *const names[] = {"sa", "la", "other"};
-  return value < 3 ? names[value] : NULL;
-}
+SCENE_NAMES(endings, "sa", "la", "other")
 
 /* ---- points of curves, and bifurcations along lines ---------------------------------------- */
 
@@ -25,19 +21,16 @@ static const scene_column columns[] = {
   {.name = "other_multiplier", .long_name = "Floquet multiplier of the smaller modulus",
    .units = "1", .value = offsetof(row, other_multiplier),
    .error = offsetof(row, multiplier_error)},
-  {.name = "period", .long_name = "drive periods until the orbit closes", .type = SCENE_NUMBER,
-   .value = offsetof(row, period)},
+  {SCENE_TYPED(SCENE_NUMBER, "period", row, period, "drive periods until the orbit closes")},
 };
 
 static const scene_column of_folds[] = {
-  {.name = "curve", .long_name = "number of the curve; its points are in order",
-   .type = SCENE_NUMBER, .value = offsetof(row, curve)},
+  {SCENE_TYPED(SCENE_NUMBER, "curve", row, curve, "number of the curve; its points are in order")},
   SCENE_CODE(row, branch, "which branch ends there", endings),
 };
 
 static const scene_column of_flips[] = {
-  {.name = "curve", .long_name = "number of the curve; its points are in order",
-   .type = SCENE_NUMBER, .value = offsetof(row, curve)},
+  {SCENE_TYPED(SCENE_NUMBER, "curve", row, curve, "number of the curve; its points are in order")},
   SCENE_CODE(row, kind, "what happens there", scene_special_names),
 };
 

@@ -23,10 +23,11 @@ static void compute(scene_run *run, deck_axis_id axis, scene_along_path *path)
 /* ---- results ------------------------------------------------------------------------------- */
 
 static const scene_column of_points[] = {
-  SCENE_ALONG_COLUMN(mean_velocity, mean_velocity, "mean velocity of x", "1"),
+  {SCENE_AS("mean_velocity", scene_along_row, of.mean_velocity, "mean velocity of x", "1")},
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(scene_along_row, winding, "whole turns until the orbit closes", "1"),
-  SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent per unit time", "1"),
+  {SCENE_AS("lyapunov", scene_along_row, of.attractor.lyapunov,
+            "largest Lyapunov exponent per unit time", "1")},
 };
 
 static const char *const directions[SCENE_DIRECTIONS] = {"up", "down"};
@@ -36,15 +37,8 @@ static const char *direction_names(int value)
   return value < SCENE_DIRECTIONS ? directions[value] : NULL;
 }
 
-static const char *gradual_names(int value)
-{
-  return value == 0 ? "jump" : value == 1 ? "gradual" : NULL;
-}
-
-static const char *certain_names(int value)
-{
-  return value == 0 ? "uncertain" : value == 1 ? "certain" : NULL;
-}
+SCENE_NAMES(gradual_names, "jump", "gradual")
+SCENE_NAMES(certain_names, "uncertain", "certain")
 
 static const scene_column of_jumps[] = {
   SCENE_COLUMN(scene_along_jump, parameter, "value at which the state ends", "1"),

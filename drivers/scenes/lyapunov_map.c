@@ -3,7 +3,6 @@
  * motion that one start leads to.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include "scenes/points.h"
 
@@ -62,25 +61,22 @@ static pendres_status compute(const scene_some *some)
                                             .periods = (long)w->d->lyapunov.periods};
   const size_t n = some->n;
   row *rows = some->rows;
-  pendres_pendulum *p = malloc(n * sizeof *p);
-  pendres_lyapunov *found = malloc(n * sizeof *found);
-  double *x = malloc(2 * n * sizeof *x);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n && p != NULL && x != NULL; i++) {
+  pendres_pendulum *p = scene_room_take(some->room, n, sizeof *p);
+  pendres_lyapunov *found = scene_room_take(some->room, n, sizeof *found);
+  double *x = scene_room_take(some->room, 2 * n, sizeof *x);
+  if (p == NULL || found == NULL || x == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) {
     p[i] = pendres_sweep_pendulum(&w->sweep, some->first + i, NULL, NULL);
     x[i] = w->d->orbit.x;
     x[n + i] = w->d->orbit.v;
   }
-  if (p != NULL && found != NULL && x != NULL)
-    status = pendres_lyapunov_find(some->ctx, n, p, x, x + n, &options, found);
+  const pendres_status status =
+    pendres_lyapunov_find(some->ctx, n, p, x, x + n, &options, found);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     rows[i] = row_of(&found[i]);
     if (found[i].label == PENDRES_LABEL_UNRESOLVED)
       scene_mark(some, i, SCENE_FAILURE_UNRESOLVED, NULL);
   }
-  free(p);
-  free(found);
-  free(x);
   return status;
 }
 
@@ -107,10 +103,9 @@ static const scene_column columns[] = {
   SCENE_COLUMN(row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(row, winding, "whole turns until the orbit closes", "1"),
   SCENE_CODE(row, label, "kind of motion", scene_motion_names),
-  {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(row, uncertain),
-   .names = scene_doubt_names,
-   .long_name = "whether errors that the start amplifies may have chosen the motion",
-   .comment = "no: they have not, or there is no verdict"},
+  {SCENE_TYPED(SCENE_FLAG, "uncertain", row, uncertain,
+               "whether errors that the start amplifies may have chosen the motion"),
+   .names = scene_doubt_names, .comment = "no: they have not, or there is no verdict"},
 };
 
 static void tabulate(FILE *out, const work *w)

@@ -40,20 +40,14 @@ static pendres_record samples_in(const orbit_work *w, double *first)
 /* ---- what the pendulum settles on ---------------------------------------------------------- */
 
 static const orbit_found nothing = {
-  .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
-  .drift = NAN, .drift_error = NAN, .watched_periods = NAN, .escape_rate_bound = NAN};
+  .of = {.label = PENDRES_LABEL_UNRESOLVED, .lyapunov = NAN, .lyapunov_error = NAN, .drift = NAN,
+         .drift_error = NAN, .watched_periods = NAN, .escape_rate_bound = NAN},
+  .settling_periods = -1};
 
 static void keep_orbit(const pendres_attractor *a, orbit_found *out)
 {
-  out->label = a->label;
+  out->of = *a;
   out->closed = a->label != PENDRES_LABEL_CHAOTIC;
-  out->orbit = a->orbit;
-  out->lyapunov = a->lyapunov;
-  out->lyapunov_error = a->lyapunov_error;
-  out->drift = a->drift;
-  out->drift_error = a->drift_error;
-  out->watched_periods = a->watched_periods;
-  out->escape_rate_bound = a->escape_rate_bound;
 }
 
 static int is_named(const orbit_work *w)
@@ -87,7 +81,7 @@ static pendres_status find_from_start(const scene_some *some, orbit_found *out)
     out->settling_periods = outcome.settling_periods;
   }
   out->uncertain = outcome.attractor != PENDRES_ATTRACTOR_UNKNOWN && !outcome.certain;
-  if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE) out->label = outcome.label;
+  if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE) out->of.label = outcome.label;
   pendres_attractors_free(set);
   return status;
 }
@@ -127,10 +121,9 @@ static void name_search(const scene_points *p, size_t point, char *text, size_t 
 static int check_found(const scene_points *p, const void *row)
 {
   const orbit_found *f = row;
-  const pendres_attractor a = { .label = f->label, .orbit = f->orbit };
   (void)p;
-  return scene_check_attractor(&a) && scene_check_code(f->closed, 2) &&
-         scene_check_code(f->uncertain, 2) && (!f->closed || f->orbit.period > 0);
+  return scene_check_attractor(&f->of) && scene_check_code(f->closed, 2) &&
+         scene_check_code(f->uncertain, 2) && (!f->closed || f->of.orbit.period > 0);
 }
 
 /* ---- the trajectory ------------------------------------------------------------------------ */
@@ -138,7 +131,7 @@ static int check_found(const scene_points *p, const void *row)
 /* From the deck's start or, on the chaotic attractor, from a point of that. */
 static pendres_status begin_trajectory(const orbit_work *w, pendres_context *ctx, orbit_way *way)
 {
-  const pendres_orbit *o = &w->found.orbit;
+  const pendres_orbit *o = &w->found.of.orbit;
   double x = is_named(w) ? o->x : w->d->orbit.x, v = is_named(w) ? o->v : w->d->orbit.v;
   double error = 0.0;
   pendres_status status = PENDRES_OK;
@@ -210,11 +203,11 @@ static pendres_status sample(const scene_some *some)
   const pendres_orbit_stretch stretch = { f->well, (long)some->first * w->chunk, periods,
                                           (int)w->d->orbit.samples };
   memcpy(&r->way, &w->way, sizeof r->way);
-  if (w->transient && f->label == PENDRES_LABEL_ESCAPE)
+  if (w->transient && f->of.label == PENDRES_LABEL_ESCAPE)
     return sample_escape(w, some->ctx, some->first, &r->way, &out);
-  if (w->transient || f->label == PENDRES_LABEL_CHAOTIC)
+  if (w->transient || f->of.label == PENDRES_LABEL_CHAOTIC)
     return sample_trajectory(w, some->ctx, some->first, &r->way, &out);
-  if (f->closed) return pendres_orbit_record(some->ctx, &f->orbit, &stretch, &out);
+  if (f->closed) return pendres_orbit_record(some->ctx, &f->of.orbit, &stretch, &out);
   no_samples((size_t)periods * (size_t)w->d->orbit.samples, &out);
   return PENDRES_OK;
 }

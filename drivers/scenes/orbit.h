@@ -11,13 +11,10 @@
 
 /* What is found of the pendulum. */
 typedef struct orbit_found {
-  pendres_label label;
+  pendres_attractor of;          /* its label is that of an escape, too */
   long well, settling_periods;   /* -1: no start to settle from */
   int closed;                    /* nonzero: there is a closed orbit */
   int uncertain;                 /* nonzero: errors that the start amplifies may have chosen it */
-  pendres_orbit orbit;
-  double lyapunov, lyapunov_error;
-  double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */
 } orbit_found;
 
 /* How far the record is, if a trajectory is recorded. */

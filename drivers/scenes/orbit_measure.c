@@ -32,7 +32,7 @@ void scene_orbit_measure_begin(orbit_work *w)
   orbit_measures *m = &w->measures;
   const deck *d = w->d;
   if (!scene_going(w->run)) return;
-  if (d->orbit.spectrum && (w->transient || w->found.label != PENDRES_LABEL_UNRESOLVED)) {
+  if (d->orbit.spectrum && (w->transient || w->found.of.label != PENDRES_LABEL_UNRESOLVED)) {
     const size_t length = (size_t)segment_of(d) * (size_t)d->orbit.samples;
     const double interval =
       2.0 * PENDRES_PI / (w->pendulum.drive_frequency * (double)d->orbit.samples);
@@ -41,7 +41,7 @@ void scene_orbit_measure_begin(orbit_work *w)
       scene_fail(w->run, status, "no spectrum of segments of %zu samples: 4 or more, an even "
                  "number, and what memory has room for", length);
   }
-  if (d->orbit.dimension && w->found.label == PENDRES_LABEL_CHAOTIC) {
+  if (d->orbit.dimension && w->found.of.label == PENDRES_LABEL_CHAOTIC) {
     m->room = d->orbit.periods < POINTS ? (size_t)d->orbit.periods : POINTS;
     m->stride = ((long)d->orbit.periods + POINTS - 1) / POINTS;
     m->x = scene_array(w->run, 2 * m->room, sizeof *m->x);
@@ -129,7 +129,7 @@ static void put_dimensions(orbit_work *w)
   dimensions d = {.lyapunov_dimension_error = NAN};
   measure_correlation(w);
   d.lyapunov_dimension = pendres_lyapunov_dimension(
-    &w->pendulum, w->found.lyapunov, w->found.lyapunov_error, &d.lyapunov_dimension_error);
+    &w->pendulum, w->found.of.lyapunov, w->found.of.lyapunov_error, &d.lyapunov_dimension_error);
   d.correlation_dimension = c->dimension;
   d.correlation_dimension_error = c->dimension_error;
   const scene_table table = {.n = 1, .stride = sizeof d, .rows = &d};

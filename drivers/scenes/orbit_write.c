@@ -47,19 +47,19 @@ static int is_shown(const orbit_work *w, const pendres_orbit_quantity *q)
 static void put_quantities(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
-  const int there = f->closed || f->label == PENDRES_LABEL_CHAOTIC;
+  const int there = f->closed || f->of.label == PENDRES_LABEL_CHAOTIC;
   const pendres_orbit_quantity *q;
   for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
     const scene_column column = SCALAR(q->name, q->long_name, q->units);
-    const double value = there ? number_at(&f->orbit, q->value) : NAN;
-    if (is_shown(w, q)) put_scalar(run, &column, value, error_of(&f->orbit, q));
+    const double value = there ? number_at(&f->of.orbit, q->value) : NAN;
+    if (is_shown(w, q)) put_scalar(run, &column, value, error_of(&f->of.orbit, q));
   }
 }
 
 static void put_scalars(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
-  const pendres_orbit *o = &f->orbit;
+  const pendres_orbit *o = &f->of.orbit;
   const double waited = f->settling_periods >= 0 ? (double)f->settling_periods : NAN;
   const struct {
     scene_column column;
@@ -72,21 +72,21 @@ static void put_scalars(scene_run *run, const orbit_work *w)
       o->winding == 0 ? (double)f->well : NAN, 0.0, CLOSED },
     { SCALAR("settling_periods", "drive periods from the start to the trapping region", "1"),
       waited, 0.0, ALWAYS },
-    { SCALAR("lyapunov_exponent", "largest Lyapunov exponent per unit time", "1"), f->lyapunov,
-      f->lyapunov_error, ALWAYS },
-    { SCALAR("drift", "mean whole turns a drive period, of chaos", "1"), f->drift,
-      f->drift_error, CHAOTIC },
+    { SCALAR("lyapunov_exponent", "largest Lyapunov exponent per unit time", "1"), f->of.lyapunov,
+      f->of.lyapunov_error, ALWAYS },
+    { SCALAR("drift", "mean whole turns a drive period, of chaos", "1"), f->of.drift,
+      f->of.drift_error, CHAOTIC },
     { SCALAR("watched_periods",
              "drive periods that chaos was watched for without ending, all walkers", "1"),
-      f->watched_periods, 0.0, CHAOTIC },
+      f->of.watched_periods, 0.0, CHAOTIC },
     { SCALAR("escape_rate_bound",
              "largest rate of ending, a drive period, that is not excluded at 95 %", "1"),
-      f->escape_rate_bound, 0.0, CHAOTIC },
+      f->of.escape_rate_bound, 0.0, CHAOTIC },
   };
   put_quantities(run, w);
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
     const int there = f->closed || scalars[i].of == ALWAYS ||
-                      (scalars[i].of == CHAOTIC && f->label == PENDRES_LABEL_CHAOTIC);
+                      (scalars[i].of == CHAOTIC && f->of.label == PENDRES_LABEL_CHAOTIC);
     put_scalar(run, &scalars[i].column, there ? scalars[i].value : NAN, scalars[i].error);
   }
 }
@@ -102,23 +102,22 @@ static const scene_column of_failures[] = {
 
 /* Written only where it is 1: files of starts that are certain have no such variable. */
 static const scene_column of_doubts[] = {
-  {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(verdict, uncertain),
-   .names = scene_doubt_names,
-   .long_name = "whether errors that the start amplifies may have chosen the attractor"},
+  {SCENE_TYPED(SCENE_FLAG, "uncertain", verdict, uncertain,
+               "whether errors that the start amplifies may have chosen the attractor"),
+   .names = scene_doubt_names},
 };
 
 static void put_label(scene_run *run, const orbit_work *w)
 {
   const scene_failures *late = &w->search.failed;
-  const int unresolved = w->found.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
+  const int unresolved = w->found.of.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
   const int failed = late->reason[0] != SCENE_FAILURE_NONE ? late->reason[0]
                      : unresolved                          ? SCENE_FAILURE_UNRESOLVED
                                                            : SCENE_FAILURE_NONE;
-  const verdict of = {(int)w->found.label, w->found.uncertain, failed};
+  const verdict of = {(int)w->found.of.label, w->found.uncertain, failed};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
-  const scene_column label = {
-    .name = "label", .long_name = "kind of attractor", .type = SCENE_FLAG,
-    .value = offsetof(verdict, label),
+  const scene_column label = {SCENE_TYPED(SCENE_FLAG, "label", verdict, label,
+                                          "kind of attractor"),
     .names = pendres_pendulum_leaves(&w->pendulum) ? scene_fate_names : scene_label_names};
   run->failed_points = failed != SCENE_FAILURE_NONE;
   if (run->failed_points > 0)
@@ -146,8 +145,8 @@ static void put_multipliers(scene_run *run, const orbit_work *w)
   const scene_table table = {.dimensions = {"multiplier"}, .n = MULTIPLIERS,
                              .stride = sizeof *rows, .rows = rows};
   for (int i = 0; i < MULTIPLIERS; i++)
-    rows[i] = f->closed ? (multiplier){f->orbit.multiplier_re[i], f->orbit.multiplier_im[i],
-                                       f->orbit.multiplier_error}
+    rows[i] = f->closed ? (multiplier){f->of.orbit.multiplier_re[i], f->of.orbit.multiplier_im[i],
+                                       f->of.orbit.multiplier_error}
                         : (multiplier){NAN, NAN, NAN};
   scene_numbering(run, "multiplier", MULTIPLIERS, "number of the Floquet multiplier");
   SCENE_WRITE(run, &table, of_multipliers);
@@ -210,8 +209,8 @@ static void tabulate_dimensions(FILE *out, const orbit_work *w)
 {
   const pendres_correlation *c = &w->measures.correlation;
   double error = NAN;
-  const double value = pendres_lyapunov_dimension(&w->pendulum, w->found.lyapunov,
-                                                  w->found.lyapunov_error, &error);
+  const double value = pendres_lyapunov_dimension(&w->pendulum, w->found.of.lyapunov,
+                                                  w->found.of.lyapunov_error, &error);
   if (w->measures.points == 0) return;
   fprintf(out, "%-26s %.4f +- %.0e\n%-26s %.4f +- %.0e\n", "Lyapunov dimension", value, error,
           "correlation dimension", c->dimension, c->dimension_error);
@@ -220,19 +219,19 @@ static void tabulate_dimensions(FILE *out, const orbit_work *w)
 void scene_orbit_tabulate(FILE *out, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
-  const pendres_orbit *o = &f->orbit;
-  fprintf(out, "%-26s %s%s\n", "label", pendres_name_get(PENDRES_NAMES_LABEL, f->label),
+  const pendres_orbit *o = &f->of.orbit;
+  fprintf(out, "%-26s %s%s\n", "label", pendres_name_get(PENDRES_NAMES_LABEL, f->of.label),
           f->uncertain ? " (uncertain: errors as small as rounding choose it)" : "");
   if (f->settling_periods >= 0)
     fprintf(out, "%-26s %ld\n", "settling periods", f->settling_periods);
-  if (isfinite(f->lyapunov))
-    fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", f->closed ? 12 : 6, f->lyapunov,
-            f->lyapunov_error);
-  if (f->label == PENDRES_LABEL_CHAOTIC)
+  if (isfinite(f->of.lyapunov))
+    fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", f->closed ? 12 : 6, f->of.lyapunov,
+            f->of.lyapunov_error);
+  if (f->of.label == PENDRES_LABEL_CHAOTIC)
     fprintf(out, "%-26s %.4g drive periods; ends at less than %.1g a period, if at all\n"
                  "%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n",
-            "watched for", f->watched_periods, f->escape_rate_bound, "drift", f->drift,
-            f->drift_error, "mean loop area", o->loop_area, o->loop_area_error,
+            "watched for", f->of.watched_periods, f->of.escape_rate_bound, "drift", f->of.drift,
+            f->of.drift_error, "mean loop area", o->loop_area, o->loop_area_error,
             "mean amplitude", o->amplitude, o->amplitude_error);
   tabulate_dimensions(out, w);
   if (!f->closed) return;

@@ -15,48 +15,26 @@ static double free_error(double amplitude, double error)
   return fmax(free, pendres_free_frequency(fmax(0.0, amplitude - error)) - free);
 }
 
-/* Without a resonance. */
-static scene_peak no_peak(double at, pendres_status outcome)
+void scene_peak_set(scene_peak *p, double at, pendres_status outcome, const pendres_resonance *r)
 {
-  scene_peak p = {.at = at, .outcome = outcome, .kind = PENDRES_PEAK_COUNT};
-  p.resonance_frequency = p.resonance_frequency_error = NAN;
-  p.resonance_period = p.resonance_period_error = NAN;
-  p.mean_loop_area = p.mean_loop_area_error = NAN;
-  p.mean_loop_amplitude = p.mean_loop_amplitude_error = NAN;
-  p.mean_amplitude = p.mean_amplitude_error = p.phase_lag = p.phase_lag_error = NAN;
-  p.mean_power = p.mean_power_error = p.sa_fraction = p.sa_fraction_error = NAN;
-  p.free_frequency = p.free_frequency_error = p.fold_frequency = p.fold_frequency_error = NAN;
-  return p;
-}
-
-scene_peak scene_peak_of(double at, pendres_status outcome, const pendres_resonance *r)
-{
-  if (outcome != PENDRES_OK) return no_peak(at, outcome);
+  p->at = at;
+  p->outcome = outcome;
+  p->kind = PENDRES_PEAK_COUNT;
+  if (outcome != PENDRES_OK) return;
   const pendres_response *a = &r->response;
-  scene_peak p = {.at = at, .outcome = outcome, .uncertain = a->uncertain, .kind = (int)r->peak};
-  const double loop = a->mean_loop_amplitude, loop_error = a->mean_loop_amplitude_error;
   const double period = 2.0 * PENDRES_PI / r->frequency;
-  p.resonance_frequency = r->frequency;
-  p.resonance_frequency_error = r->frequency_error;
-  p.resonance_period = period;
-  p.resonance_period_error = period * r->frequency_error / r->frequency;
-  p.mean_loop_area = r->loop_area;
-  p.mean_loop_area_error = r->loop_area_error;
-  p.mean_loop_amplitude = loop;
-  p.mean_loop_amplitude_error = loop_error;
-  p.mean_amplitude = a->mean_amplitude;
-  p.mean_amplitude_error = a->mean_amplitude_error;
-  p.phase_lag = a->phase_lag;
-  p.phase_lag_error = a->phase_lag_error;
-  p.mean_power = a->mean_power;
-  p.mean_power_error = a->mean_power_error;
-  p.sa_fraction = a->sa_fraction;
-  p.sa_fraction_error = a->sa_fraction_error;
-  p.free_frequency = pendres_free_frequency(loop);
-  p.free_frequency_error = free_error(loop, loop_error);
-  p.fold_frequency = r->fold_frequency;
-  p.fold_frequency_error = r->fold_frequency_error;
-  return p;
+#define PAIR(field, from) .field = from, .field##_error = from##_error
+  *p = (scene_peak){
+    .at = at, .outcome = outcome, .uncertain = a->uncertain, .kind = (int)r->peak,
+    PAIR(resonance_frequency, r->frequency), PAIR(mean_loop_area, r->loop_area),
+    PAIR(mean_loop_amplitude, a->mean_loop_amplitude), PAIR(mean_amplitude, a->mean_amplitude),
+    PAIR(phase_lag, a->phase_lag), PAIR(mean_power, a->mean_power),
+    PAIR(sa_fraction, a->sa_fraction), PAIR(fold_frequency, r->fold_frequency),
+    .resonance_period = period,
+    .resonance_period_error = period * r->frequency_error / r->frequency,
+    .free_frequency = pendres_free_frequency(a->mean_loop_amplitude),
+    .free_frequency_error = free_error(a->mean_loop_amplitude, a->mean_loop_amplitude_error)};
+#undef PAIR
 }
 
 size_t scene_peak_printed(const deck *d, size_t n, const scene_peak *rows,

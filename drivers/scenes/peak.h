@@ -22,8 +22,9 @@ typedef struct scene_peak {
   pendres_status outcome;
 } scene_peak;
 
-/* Of what a search came to; r is not looked at without a resonance, of which all is NaN. */
-scene_peak scene_peak_of(double at, pendres_status outcome, const pendres_resonance *r);
+/* What a search came to, into a row whose columns are blank; r is not looked at without a
+   resonance. */
+void scene_peak_set(scene_peak *p, double at, pendres_status outcome, const pendres_resonance *r);
 
 /*
  * The resonant periods that the paper prints, beside those of the rows: how many of them. Its

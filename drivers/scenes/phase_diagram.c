@@ -29,12 +29,11 @@ static const char *others(int value)
 static const scene_column columns[] = {
   SCENE_CODE(pendres_phase_point, regime,
              "state of motion that the members of the ensemble settle on", scene_regime_names),
-  {.name = "regime_exact", .long_name = "states of motion that exist as attractors, by the "
-                                        "branches, whether members reach them or not",
-   .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, exact),
+  {SCENE_TYPED(SCENE_FLAG, "regime_exact", pendres_phase_point, exact, "states of motion that "
+               "exist as attractors, by the branches, whether members reach them or not"),
    .names = scene_regime_names},
-  {.name = "other", .long_name = "what else members settle on: sum of the flags",
-   .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, other), .names = others,
+  {SCENE_TYPED(SCENE_FLAG, "other", pendres_phase_point, other,
+               "what else members settle on: sum of the flags"), .names = others,
    .codes = other_bits},
   SCENE_COLUMN(pendres_phase_point, sa_fraction,
                "share of the members on the small-amplitude state", NULL),

@@ -103,6 +103,7 @@ typedef struct work {
   pendres_context *ctx;
   farm_record *out;
   struct scene_marks marks;
+  scene_room room;
 } work;
 
 /* Whether one of the points is left out. */
@@ -119,11 +120,13 @@ static int too_long(const scene_points *p, size_t first, size_t n, char *words, 
 static scene_failure attempt(work *w, size_t first, size_t n, void *rows, char words[SCENE_TOLD],
                              pendres_status *status)
 {
-  const scene_some some = {w->p, w->ctx, first, n, rows, w->out->message, &w->marks};
+  const scene_some some = {w->p, w->ctx, first, n, rows, w->out->message, &w->marks,
+                           &w->room};
   *status = PENDRES_OK;
   if (too_long(w->p, first, n, words, SCENE_TOLD)) return SCENE_FAILURE_TOO_LONG;
   scene_points_begin(w->run, w->p, first, n, w->out);
   *status = w->p->compute(&some);
+  scene_room_end(&w->room);
   if (farm_gave_up(w->out, *status)) {
     if (n == 1) farm_lost(w->out, words, SCENE_TOLD);
     return SCENE_FAILURE_OUT_OF_TIME;
@@ -135,21 +138,29 @@ static scene_failure attempt(work *w, size_t first, size_t n, void *rows, char w
   return reason;
 }
 
+static void make_blank(const work *w, size_t n, char *rows)
+{
+  const scene_points *p = w->p;
+  memset(rows, 0, n * p->size);
+  for (size_t i = 0; i < n; i++)
+    scene_columns_blank(p->column_count, p->columns, rows + i * p->size);
+}
+
 static pendres_status find(work *w, size_t first, size_t n, char *rows)
 {
   char words[SCENE_TOLD] = "";
   const size_t before = w->marks.count, half = n / 2;
   pendres_status status;
+  make_blank(w, n, rows);
   const scene_failure reason = attempt(w, first, n, rows, words, &status);
   if (reason == SCENE_FAILURE_NONE) return status;
   w->marks.count = before;
-  memset(rows, 0, n * w->p->size);
   if (n > 1) {
     status = find(w, first, half, rows);
     return status == PENDRES_OK ? find(w, first + half, n - half, rows + half * w->p->size)
                                 : status;
   }
-  scene_columns_blank(w->p->column_count, w->p->columns, rows);
+  make_blank(w, 1, rows);
   if (w->p->leave_out != NULL) w->p->leave_out(w->p, first, rows);
   if (!w->p->unmarked) add_mark(&w->marks, first, reason, w->p->words == NULL ? words : NULL);
   return PENDRES_OK;
@@ -215,7 +226,6 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
     scene_failures_mark(&p->failed, m.point, (scene_failure)m.reason, m.words);
   if (p->collect != NULL) return p->collect(p, t.first, t.n, in->data);
-  if (p->large != NULL) return scene_temporary_put(s->run, p->large, t.first, t.n, in->data);
   memcpy((char *)p->rows + t.first * p->size, in->data, t.n * p->size);
   return PENDRES_OK;
 }
@@ -227,9 +237,7 @@ void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
   farm_stage whole = *stage;
   for (size_t k = 0; k < count; k++) {
     scene_points *p = points[k];
-    if (p->collect == NULL && p->large != NULL)
-      scene_temporary_create(run, p->n, p->size, SCENE_TEMPORARY_MEMORY, p->large);
-    else if (p->collect == NULL && p->rows == NULL)
+    if (p->collect == NULL && p->rows == NULL)
       p->rows = scene_array(run, p->n, p->size);
     if (!p->unmarked) scene_failures_create(run, p->n, &p->failed);
     whole.tasks += tasks_of(p);
@@ -280,7 +288,7 @@ void scene_points_write_failed(scene_run *run, const scene_points *p, const char
 
 scene_table scene_points_table(const scene_points *p, const deck *d)
 {
-  scene_table table = {.n = p->n, .stride = p->size, .rows = p->rows, .temporary = p->large,
+  scene_table table = {.n = p->n, .stride = p->size, .rows = p->rows,
                        .first = d->axis[p->axis[0]].count};
   for (int i = 0; i < p->axes; i++) table.dimensions[i] = deck_axis_name(p->axis[i]);
   return table;

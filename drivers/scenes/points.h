@@ -11,7 +11,6 @@
 
 #include "scenes/columns.h"
 #include "scenes/failed.h"
-#include "scenes/temporary.h"
 
 enum {
   SCENE_MESSAGE = sizeof((farm_record *)0)->message,
@@ -26,9 +25,10 @@ typedef struct scene_some {
   const scene_points *of;
   pendres_context *ctx;
   size_t first, n;          /* their numbers */
-  void *rows;               /* [n] their records, all zero, to be filled */
+  void *rows;               /* [n] their records, all zero but for columns, which are blank */
   char *message;            /* [SCENE_MESSAGE] why it fails, where that is not the points' own */
   struct scene_marks *marks;
+  scene_room *room;         /* see scene_room_take(): what lasts until the points are computed */
 } scene_some;
 
 struct scene_points {
@@ -45,18 +45,14 @@ struct scene_points {
   /* Whether a point would take longer than anybody waits, see scene_failure_too_long(); it is not
      computed then. May be NULL. */
   int (*too_long)(const scene_points *p, size_t point, char *words, size_t size);
-  /* Fill what is not NaN in the record of a point that has no result, all of whose columns are
-     blank; NULL: it stays so. */
+  /* Fill what is not NaN in the record of a point that has no result; NULL: it stays blank. */
   void (*leave_out)(const scene_points *p, size_t point, void *row);
   /* Can this be a record, by the numbers in it? NULL: what the columns say. */
   int (*check)(const scene_points *p, const void *row);
   const scene_column *columns;
   size_t column_count;
-  /* Take over finished points, in their order; NULL: they are kept in `rows` or, if there are
-     more of them than memory may hold, in `large`, which is not owned. */
+  /* Take over finished points, in their order; NULL: they are kept in `rows`. */
   pendres_status (*collect)(const scene_points *p, size_t first, size_t n, const void *rows);
-
-  scene_temporary *large;
 
   /* What they are called: "WHAT at damping 0.24, drive_period 7"; what may be NULL. Points that are
      not a grid of the deck's axes have a function for their names, or none: they have no budget

@@ -2,7 +2,6 @@
 #include "scenes/along.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/points.h"
@@ -134,11 +133,7 @@ static void leave_out(const scene_points *p, size_t point, void *out)
 /* What the pendulum does at a point of the ramp. */
 enum { FOLLOWED, ESCAPED, FAILED };
 
-static const char *state_names(int value)
-{
-  static const char *const names[] = {"followed", "escape", "failed"};
-  return value >= FOLLOWED && value <= FAILED ? names[value] : NULL;
-}
+SCENE_NAMES(state_names, "followed", "escape", "failed")
 
 static pendres_status collect(const scene_points *p, size_t first, size_t n, const void *in)
 {
@@ -164,13 +159,12 @@ static pendres_status scatter(const scene_some *some)
 {
   const work *w = some->of->arg;
   const size_t n = some->n, jumps = w->ramp.jumps;
-  double *row = some->rows, *value = malloc(2 * jumps * n * sizeof *value);
+  double *row = some->rows, *value = scene_room_take(some->room, 2 * jumps * n, sizeof *value);
   if (value == NULL) return PENDRES_OUT_OF_MEMORY;
   const pendres_status status =
     pendres_ramp_scatter(some->ctx, &w->ramp, n, some->first, value + jumps * n, value);
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < jumps; k++) row[i * jumps + k] = value[k * n + i];
-  free(value);
   return status;
 }
 
@@ -191,8 +185,7 @@ static void put_way(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
     SCENE_COLUMN_OF(SCENE_PLAIN, row, time, "drive periods since the ramp's start"),
-    {.name = "parameter", .type = SCENE_PLAIN, .value = offsetof(row, value),
-     .long_name = "value of the parameter that moves"},
+    {SCENE_TYPED(SCENE_PLAIN, "parameter", row, value, "value of the parameter that moves")},
     SCENE_COLUMN(row, x, "position at the strobe, without noise", "rad"),
     SCENE_COLUMN(row, v, "velocity at the strobe, without noise", "1"),
     SCENE_CODE(row, state, "whether the ramp's pendulum is still there, without noise",
@@ -212,12 +205,10 @@ static void put_way(scene_run *run, const work *w)
 static void put_delays(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
-    {.name = "jump_delay", .units = "1", .value = offsetof(pendres_ramp_jump, delay),
-     .error = offsetof(pendres_ramp_jump, delay_error),
-     .long_name = "how far beyond the state's end the ramp's pendulum leaves it, without noise"},
-    {.name = "jump_ramp_parameter", .units = "1", .value = offsetof(pendres_ramp_jump, value),
-     .error = offsetof(pendres_ramp_jump, value_error),
-     .long_name = "value at which the ramp's pendulum leaves the state, without noise"},
+    {SCENE_AS("jump_delay", pendres_ramp_jump, delay,
+              "how far beyond the state's end the ramp's pendulum leaves it, without noise", "1")},
+    {SCENE_AS("jump_ramp_parameter", pendres_ramp_jump, value,
+              "value at which the ramp's pendulum leaves the state, without noise", "1")},
     {.name = "jump_ramp_time", .units = "1", .type = SCENE_PLAIN,
      .value = offsetof(pendres_ramp_jump, time),
      .long_name = "drive periods since the ramp's start until then"},
@@ -230,14 +221,12 @@ static void put_delays(scene_run *run, const work *w)
 static void put_scatter(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
-    {.name = "jump_mean", .units = "1", .value = offsetof(pendres_ramp_summary, mean),
-     .error = offsetof(pendres_ramp_summary, mean_error),
-     .long_name = "mean over noisy trajectories of the value at which they leave the state"},
-    {.name = "jump_deviation", .units = "1", .value = offsetof(pendres_ramp_summary, deviation),
-     .error = offsetof(pendres_ramp_summary, deviation_error),
-     .long_name = "standard deviation of that value"},
-    {.name = "jump_count", .type = SCENE_COUNT, .value = offsetof(pendres_ramp_summary, count),
-     .long_name = "trajectories that leave the state"},
+    {SCENE_AS("jump_mean", pendres_ramp_summary, mean,
+              "mean over noisy trajectories of the value at which they leave the state", "1")},
+    {SCENE_AS("jump_deviation", pendres_ramp_summary, deviation,
+              "standard deviation of that value", "1")},
+    {SCENE_TYPED(SCENE_COUNT, "jump_count", pendres_ramp_summary, count,
+                 "trajectories that leave the state")},
   };
   const scene_table table = {.dimensions = {"jump"}, .n = w->ramp.jumps,
                              .stride = sizeof *w->summary, .rows = w->summary};

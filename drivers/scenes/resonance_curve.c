@@ -6,7 +6,6 @@
  * &sweep there is one point for each of these instead, at one damping.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include "scenes/peak.h"
 #include "scenes/points.h"
@@ -52,7 +51,7 @@ static pendres_status judge(const scene_some *some, size_t i, const pendres_reso
 {
   const curve *c = some->of->arg;
   scene_peak *peak = some->rows;
-  peak[i] = scene_peak_of(c->d->axis[c->axis].value[some->first + i], s->outcome, &s->resonance);
+  scene_peak_set(&peak[i], c->d->axis[c->axis].value[some->first + i], s->outcome, &s->resonance);
   if (s->outcome == PENDRES_OK && !s->resonance.complete)
     scene_mark(some, i, SCENE_FAILURE_BUDGET, NULL);
   return scene_mark_status(some, i, s->outcome, s->message);
@@ -62,7 +61,7 @@ static pendres_status judge(const scene_some *some, size_t i, const pendres_reso
 static pendres_status compute(const scene_some *some)
 {
   const curve *c = some->of->arg;
-  pendres_resonance_search *s = calloc(some->n, sizeof *s);
+  pendres_resonance_search *s = scene_room_take(some->room, some->n, sizeof *s);
   if (s == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < some->n; i++) {
     s[i].pendulum = pendres_sweep_pendulum(&c->sweep, some->first + i, NULL, NULL);
@@ -71,14 +70,13 @@ static pendres_status compute(const scene_some *some)
   }
   pendres_status status = pendres_resonance_find_many(some->ctx, some->n, s, &c->ensemble);
   for (size_t i = 0; i < some->n && status == PENDRES_OK; i++) status = judge(some, i, &s[i]);
-  free(s);
   return status;
 }
 
 static void leave_out(const scene_points *p, size_t point, void *row)
 {
   const curve *c = p->arg;
-  *(scene_peak *)row = scene_peak_of(c->d->axis[c->axis].value[point], PENDRES_INTERRUPTED, NULL);
+  scene_peak_set(row, c->d->axis[c->axis].value[point], PENDRES_INTERRUPTED, NULL);
 }
 
 /* ---- results ---- */
@@ -93,15 +91,13 @@ static const scene_column columns[] = {
   SCENE_COLUMN(scene_peak, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
   SCENE_COLUMN(scene_peak, mean_power, "mean power taken up from the drive", "1"),
   SCENE_COLUMN(scene_peak, sa_fraction, "share of the members on the small-amplitude state", "1"),
-  {.name = "free_frequency", .units = "1", .when = deck_is_plain,
-   .long_name = "frequency of the free undamped pendulum of that loop amplitude",
-   .value = offsetof(scene_peak, free_frequency),
-   .error = offsetof(scene_peak, free_frequency_error)},
+  {SCENE_AS("free_frequency", scene_peak, free_frequency,
+            "frequency of the free undamped pendulum of that loop amplitude", "1"),
+   .when = deck_is_plain},
   SCENE_COLUMN(scene_peak, fold_frequency, "drive frequency of the fold that makes the edge", "1"),
   SCENE_UNCERTAIN(scene_peak, uncertain),
-  {.name = "peak", .long_name = "a smooth maximum, the largest value at a jump, or the largest "
-                                "found where jumps have no end",
-   .type = SCENE_FLAG, .value = offsetof(scene_peak, kind), .names = scene_peak_names},
+  {SCENE_TYPED(SCENE_FLAG, "peak", scene_peak, kind, "a smooth maximum, the largest value at a "
+               "jump, or the largest found where jumps have no end"), .names = scene_peak_names},
 };
 
 static void print_table(FILE *out, const curve *c)

@@ -18,15 +18,6 @@
 
 enum { CHUNK = 16 /* points a task */ };
 
-/* What is written of a point: see pendres_response. */
-typedef struct response_row {
-  double mean_loop_area, mean_loop_area_error, mean_loop_amplitude, mean_loop_amplitude_error;
-  double mean_amplitude, mean_amplitude_error, phase_lag, phase_lag_error;
-  double mean_power, mean_power_error, sa_fraction, sa_fraction_error;
-  double la_fraction, la_fraction_error;
-  size_t uncertain;
-} response_row;
-
 typedef struct grid {
   scene_run *run;
   const deck *d;
@@ -35,8 +26,6 @@ typedef struct grid {
   deck_axis_id axis[DECK_AXES]; /* from line to line, and along them */
   int axes;
   size_t values;           /* points of a line */
-  scene_temporary kept;    /* [line][value] of pendres_response, until its line has names */
-  scene_temporary rows;    /* [line][value] of response_row */
   scene_points points;     /* [line][value] of pendres_response */
   scene_points peaks;      /* [line] of scene_peak; none where lines have no resonances */
 } grid;
@@ -129,18 +118,17 @@ static int peak_too_long(const scene_points *p, size_t line, char *words, size_t
 }
 
 /* The resonance of a line, whose parameters are the axes but the last. */
-static scene_peak peak_of(const grid *g, size_t line, pendres_status outcome,
-                          const pendres_resonance *r)
+static void set_peak(const grid *g, size_t line, pendres_status outcome,
+                     const pendres_resonance *r, scene_peak *p)
 {
   const deck_axis *last = &g->d->axis[g->axis[g->axes - 2]], *first = &g->d->axis[g->axis[0]];
-  scene_peak p = scene_peak_of(last->value[line % last->count], outcome, r);
-  p.beside = first->value[line / (g->peaks.n / first->count)];
-  return p;
+  scene_peak_set(p, last->value[line % last->count], outcome, r);
+  p->beside = first->value[line / (g->peaks.n / first->count)];
 }
 
 static void no_peak(const scene_points *p, size_t line, void *row)
 {
-  *(scene_peak *)row = peak_of(p->arg, line, PENDRES_NOT_CONVERGED, NULL);
+  set_peak(p->arg, line, PENDRES_NOT_CONVERGED, NULL, row);
 }
 
 static pendres_status find_peak(const scene_some *some)
@@ -153,44 +141,21 @@ static pendres_status find_peak(const scene_some *some)
   const pendres_status status = pendres_resonance_find_ensemble(some->ctx, &p, search[0], search[1],
                                                                 &g->ensemble, &found);
   if (status != PENDRES_OK && status != PENDRES_NOT_FOUND) return status;
-  *(scene_peak *)some->rows = peak_of(g, some->first, status, &found);
+  set_peak(g, some->first, status, &found, some->rows);
   if (status == PENDRES_OK && !found.complete) scene_mark(some, 0, SCENE_FAILURE_BUDGET, NULL);
   return scene_mark_status(some, 0, status, pendres_context_message(some->ctx));
 }
 
 /* ---- names --------------------------------------------------------------------------------- */
 
-static response_row row_of(const pendres_response *p)
-{
-#define PAIR(field) .field = p->field, .field##_error = p->field##_error
-  return (response_row){PAIR(mean_loop_area), PAIR(mean_loop_amplitude), PAIR(mean_amplitude),
-                              PAIR(phase_lag), PAIR(mean_power), PAIR(sa_fraction),
-                              PAIR(la_fraction), .uncertain = p->uncertain};
-#undef PAIR
-}
-
 /* States that are alone at a point have their names from the others of its line, whose points these
    are. */
 static pendres_status name_states(const scene_some *some)
 {
   const grid *g = some->of->arg;
-  const pendres_status status = scene_temporary_get(&g->kept, some->first, some->n, some->rows,
-                                                    some->message, SCENE_MESSAGE);
-  return status == PENDRES_OK ? pendres_response_label(some->ctx, some->n, some->rows) : status;
-}
-
-static pendres_status collect_names(const scene_points *p, size_t first, size_t n, const void *rows)
-{
-  const grid *g = p->arg;
-  const pendres_response *points = rows;
-  for (size_t i = 0; i < n; i++) {
-    const response_row row = row_of(&points[i]);
-    scene_temporary_put(g->run, &g->rows, first + i, 1, &row);
-  }
-  /* Noise is added to all that is known of a point. */
-  if (g->d->axis[DECK_AXIS_TEMPERATURE].count > 0)
-    scene_temporary_put(g->run, &g->kept, first, n, points);
-  return g->run->status;
+  const pendres_response *points = g->points.rows;
+  memcpy(some->rows, points + some->first, some->n * sizeof *points);
+  return pendres_response_label(some->ctx, some->n, some->rows);
 }
 
 /* ---- noise --------------------------------------------------------------------------------- */
@@ -206,45 +171,34 @@ static pendres_status add_noise(const scene_some *some)
   const noisy *w = some->of->arg;
   const deck *d = w->still->d;
   const double temperature = d->axis[DECK_AXIS_TEMPERATURE].value[some->first / w->plane];
-  pendres_response still;
-  const pendres_status status =
-    scene_temporary_get(&w->still->kept, some->first % w->plane, 1, &still, some->message,
-                        SCENE_MESSAGE);
-  if (status != PENDRES_OK) return status;
-  return pendres_response_noise_find(some->ctx, &still, temperature,
+  const pendres_response *still = w->still->points.rows;
+  return pendres_response_noise_find(some->ctx, &still[some->first % w->plane], temperature,
                                      (size_t)d->noise.trajectories, (long)d->noise.periods,
                                      some->rows);
 }
 
-#define MEAN(label, field, words, unit)                                                       \
-  {.name = #label, .long_name = words, .units = unit,                                         \
-   .value = offsetof(pendres_response_noise, field.value),                                    \
-   .error = offsetof(pendres_response_noise, field.error)}
-#define BIAS(label, field, words, unit)                                                       \
-  {.name = "bias_" #label, .long_name = "bias by finite steps: " words, .units = unit,        \
-   .value = offsetof(pendres_response_noise, field.bias),                                     \
-   .error = offsetof(pendres_response_noise, field.bias_error)}
+/* A mean, and what finite steps add to it. */
+#define NOISY(label, bias_label, field, words, unit)                                           \
+  {SCENE_ESTIMATE(label, pendres_response_noise, field, words, unit)},                         \
+  {SCENE_AS(bias_label, pendres_response_noise, field.bias, "bias by finite steps: " words, unit)}
 
 static const scene_column of_noise[] = {
-  MEAN(mean_loop_area, loop_area, "mean loop area of the ensemble", "1"),
-  BIAS(loop_area, loop_area, "mean loop area of the ensemble", "1"),
-  MEAN(first_harmonic_amplitude, amplitude, "amplitude of the mean loop's first harmonic", "rad"),
-  BIAS(first_harmonic_amplitude, amplitude, "amplitude of the mean loop's first harmonic", "rad"),
-  MEAN(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
-  BIAS(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
-  MEAN(mean_power, mean_power, "mean power taken up from the drive", "1"),
-  BIAS(mean_power, mean_power, "mean power taken up from the drive", "1"),
+  NOISY("mean_loop_area", "bias_loop_area", loop_area, "mean loop area of the ensemble", "1"),
+  NOISY("first_harmonic_amplitude", "bias_first_harmonic_amplitude", amplitude,
+        "amplitude of the mean loop's first harmonic", "rad"),
+  NOISY("phase_lag", "bias_phase_lag", phase_lag, "phase lag of the ensemble-averaged loop",
+        "rad"),
+  NOISY("mean_power", "bias_mean_power", mean_power, "mean power taken up from the drive", "1"),
 };
 
-static const scene_column steps = {
-  .name = "noise_steps_per_period", .long_name = "steps a drive period of the noisy integrator",
-  .type = SCENE_NUMBER, .value = offsetof(pendres_response_noise, steps_per_period)};
+static const scene_column steps[] = {
+  {SCENE_TYPED(SCENE_NUMBER, "noise_steps_per_period", pendres_response_noise, steps_per_period,
+               "steps a drive period of the noisy integrator")},
+};
 
 /* The columns of results that exist only without noise. */
-#define STILL(field, words, unit)                                                             \
-  {.name = #field, .long_name = words, .units = unit, .comment = "at temperature 0 alone",    \
-   .value = offsetof(response_row, field),                                              \
-   .error = offsetof(response_row, field##_error)}
+#define STILL(field, words, unit) \
+  {SCENE_AS(#field, pendres_response, field, words, unit), .comment = "at temperature 0 alone"}
 static const scene_column of_still[] = {
   STILL(mean_loop_amplitude, "amplitude of the ensemble-averaged loop", "rad"),
   STILL(mean_amplitude, "mean of the members' amplitudes", "rad"),
@@ -255,11 +209,10 @@ static const scene_column of_still[] = {
 static void write_still(scene_run *run, const noisy *w, const scene_table *table)
 {
   const double *temperature = w->still->d->axis[DECK_AXIS_TEMPERATURE].value;
-  response_row *rows = scene_array(run, table->n, sizeof *rows);
-  if (rows == NULL) return;
-  scene_temporary_read(run, &w->still->rows, 0, w->plane, rows);
-  for (size_t i = table->n; i-- > 0;) {
-    rows[i] = rows[i % w->plane];
+  const pendres_response *still = w->still->points.rows;
+  pendres_response *rows = scene_large(run, table->n, sizeof *rows);
+  for (size_t i = 0; rows != NULL && i < table->n; i++) {
+    rows[i] = still[i % w->plane];
     if (temperature[i / w->plane] > 0.0) SCENE_BLANK(of_still, &rows[i]);
   }
   scene_table without = *table;
@@ -274,22 +227,19 @@ static void write_noisy(scene_run *run, const noisy *w)
   scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
   scene_points_write(run, &w->points);
   write_still(run, w, &table);
-  scene_columns_write(run, &table, 1, &steps);
+  SCENE_WRITE(run, &table, steps);
   scene_points_write_failed(run, &w->points, "noise_failed",
                             "why there is no whole result for the response with noise");
 }
 
 /* Along the temperatures, at the first damping and the middle of the drive axis. */
-static void print_noisy(scene_run *run, const noisy *w)
+static void print_noisy(FILE *out, const noisy *w)
 {
-  FILE *out = run->table;
   const size_t drives = w->still->d->axis[w->points.axis[2]].count, at = drives / 2;
   const pendres_response_noise *points = w->points.rows;
-  pendres_response still;
-  scene_temporary_read(run, &w->still->kept, at, 1, &still);
-  if (!scene_prints(run)) return;
-  fprintf(out, "damping %g, drive period %g:\n", still.pendulum.damping,
-          2.0 * PENDRES_PI / still.pendulum.drive_frequency);
+  const pendres_pendulum *still = &((const pendres_response *)w->still->points.rows)[at].pendulum;
+  fprintf(out, "damping %g, drive period %g:\n", still->damping,
+          2.0 * PENDRES_PI / still->drive_frequency);
   fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");
   for (size_t i = at; i < w->points.n; i += w->plane) {
     const pendres_response_noise *q = &points[i];
@@ -312,31 +262,29 @@ static void write_noise(const grid *g)
   scene_points_over(&w.points, g->d, 1 + g->axes, axis);
   SCENE_COMPUTE(g->run, &w.points, "points with noise", .last = 1);
   write_noisy(g->run, &w);
-  print_noisy(g->run, &w);
+  if (scene_prints(g->run)) print_noisy(g->run->table, &w);
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(response_row, mean_loop_area, "mean loop area of the ensemble", "1"),
-  SCENE_COLUMN(response_row, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
+  SCENE_COLUMN(pendres_response, mean_loop_area, "mean loop area of the ensemble", "1"),
+  SCENE_COLUMN(pendres_response, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
                "rad"),
-  SCENE_COLUMN(response_row, mean_amplitude, "mean of the members' amplitudes", "rad"),
-  SCENE_COLUMN(response_row, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
-  SCENE_COLUMN(response_row, mean_power, "mean power taken up from the drive", "1"),
-  SCENE_COLUMN(response_row, sa_fraction, "share of the members on the small-amplitude state",
+  SCENE_COLUMN(pendres_response, mean_amplitude, "mean of the members' amplitudes", "rad"),
+  SCENE_COLUMN(pendres_response, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  SCENE_COLUMN(pendres_response, mean_power, "mean power taken up from the drive", "1"),
+  SCENE_COLUMN(pendres_response, sa_fraction, "share of the members on the small-amplitude state",
                "1"),
-  SCENE_COLUMN(response_row, la_fraction, "share of the members on the large-amplitude state",
+  SCENE_COLUMN(pendres_response, la_fraction, "share of the members on the large-amplitude state",
                "1"),
 };
 
-static const scene_column uncertain = SCENE_UNCERTAIN(response_row, uncertain);
+static const scene_column uncertain = SCENE_UNCERTAIN(pendres_response, uncertain);
 
 static void write_points(const grid *g, size_t count, const scene_column *some)
 {
-  scene_table table = scene_points_table(&g->points, g->d);
-  table.stride = sizeof(response_row);
-  table.temporary = &g->rows;
+  const scene_table table = scene_points_table(&g->points, g->d);
   scene_columns_write(g->run, &table, count, some);
 }
 
@@ -347,19 +295,15 @@ static int by_frequency(const deck *d)
   return axis[deck_axes(d, axis) - 1] == DECK_AXIS_DRIVE_FREQUENCY;
 }
 
-#define AT_RESONANCE(label, field, words, unit)                                               \
-  {.name = "resonance_" #label, .long_name = words, .units = unit,                            \
-   .value = offsetof(scene_peak, field), .error = offsetof(scene_peak, field##_error)}
 static const scene_column of_peaks[] = {
   SCENE_COLUMN(scene_peak, resonance_period, "drive period of the largest mean loop area", "1"),
-  {.name = "resonance_frequency", .when = by_frequency, .units = "1",
-   .long_name = "drive frequency of the largest mean loop area",
-   .value = offsetof(scene_peak, resonance_frequency),
-   .error = offsetof(scene_peak, resonance_frequency_error)},
-  AT_RESONANCE(loop_area, mean_loop_area, "mean loop area at resonance", "1"),
-  AT_RESONANCE(amplitude, mean_loop_amplitude,
-               "amplitude of the ensemble-averaged loop at resonance", "rad"),
-  AT_RESONANCE(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop at resonance", "rad"),
+  {SCENE_AS("resonance_frequency", scene_peak, resonance_frequency,
+            "drive frequency of the largest mean loop area", "1"), .when = by_frequency},
+  {SCENE_AS("resonance_loop_area", scene_peak, mean_loop_area, "mean loop area at resonance", "1")},
+  {SCENE_AS("resonance_amplitude", scene_peak, mean_loop_amplitude,
+            "amplitude of the ensemble-averaged loop at resonance", "rad")},
+  {SCENE_AS("resonance_phase_lag", scene_peak, phase_lag,
+            "phase lag of the ensemble-averaged loop at resonance", "rad")},
 };
 
 static void write_results(const grid *g)
@@ -408,10 +352,8 @@ static void print_table(FILE *out, const grid *g)
 static void compute_all(scene_run *run, grid *g)
 {
   scene_points names = {.n = g->points.n, .chunk = g->values, .size = sizeof(pendres_response),
-                        .compute = name_states, .check = check, .collect = collect_names,
-                        .unmarked = 1, .arg = g};
-  scene_temporary_create(run, g->points.n, sizeof(response_row), SCENE_TEMPORARY_MEMORY,
-                         &g->rows);
+                        .compute = name_states, .check = check, .unmarked = 1, .arg = g};
+  g->points.rows = names.rows = scene_large(run, g->points.n, sizeof(pendres_response));
   scene_points_compute(run, &(farm_stage){.what = "chunks"}, g->peaks.n > 0 ? 2 : 1,
                        (scene_points *[]){&g->points, &g->peaks});
   SCENE_COMPUTE(run, &names, "lines", .cheap = 1);
@@ -425,7 +367,7 @@ static pendres_status run_scene(scene_run *run)
             .ensemble = scene_ensemble(d),
             .points = {.size = sizeof(pendres_response), .chunk = CHUNK, .compute = compute,
                        .too_long = point_too_long, .leave_out = no_response, .check = check,
-                       .large = &g.kept, .what = "response", .arg = &g},
+                       .what = "response", .arg = &g},
             .peaks = {.size = sizeof(scene_peak), .chunk = 1, .compute = find_peak,
                       .too_long = peak_too_long, .leave_out = no_peak, SCENE_COLUMNS(of_peaks),
                       .what = "resonance", .arg = &g}};
@@ -436,17 +378,15 @@ static pendres_status run_scene(scene_run *run)
   compute_all(run, &g);
   write_results(&g);
   if (scene_prints(run)) print_table(run->table, &g);
-  scene_temporary_free(&g.kept);
-  scene_temporary_free(&g.rows);
   return run->status;
 }
 
-/* The records of all points are in memory as long as these are few (temporary.h). */
+/* The records of all points are in memory as long as these are few (scene_large()). */
 static double more_memory(const deck *d, const farm_trial *trial, double points)
 {
   (void)d;
   (void)trial;
-  return fmin(7e3 * points, (double)SCENE_TEMPORARY_MEMORY);
+  return fmin(7e3 * points, (double)SCENE_MEMORY);
 }
 
 const scene_kind scene_response = {

@@ -1,12 +1,17 @@
 /* scene.c -- the list of scenes, and what several of them need; see scene.h. */
+#define _POSIX_C_SOURCE 200809L /* mkstemp, posix_fallocate */
 #include "scenes/scene.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 /* A line for each kind. */
 #define SCENES(X)          \
@@ -125,31 +130,90 @@ void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const v
 /* Before the elements of an array, which are aligned as those of malloc are. */
 typedef struct scene_held {
   struct scene_held *next;
+  size_t mapped; /* bytes of the file that holds it; 0: it is in memory */
   max_align_t elements[];
 } scene_held;
 
-void *scene_array(scene_run *run, size_t n, size_t size)
+/* A file without a name, of that length; -1 after a failure, which is on record. */
+static int open_unnamed(scene_run *run, size_t bytes)
 {
-  if (!scene_going(run)) return NULL;
-  const size_t head = sizeof(scene_held);
-  scene_held *held = size == 0 || n < (SIZE_MAX - head) / size ? calloc(1, head + (n + 1) * size)
-                                                               : NULL;
-  if (held == NULL) {
-    (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
-    return NULL;
-  }
-  held->next = run->held;
-  run->held = held;
+  char path[DECK_PATH + 32];
+  const char *folder = getenv("TMPDIR"), *output = run->deck->output;
+  const char *slash = strrchr(output, '/');
+  if (folder != NULL && *folder != '\0')
+    snprintf(path, sizeof path, "%.1000s/resonance-XXXXXX", folder);
+  else
+    snprintf(path, sizeof path, "%.*s.resonance-XXXXXX",
+             slash != NULL ? (int)(slash - output) + 1 : 0, output);
+  const int file = mkstemp(path);
+  int why = file < 0 || unlink(path) != 0 ? errno : 0;
+  if (why == 0) why = posix_fallocate(file, 0, (off_t)bytes);
+  if (why == 0) return file;
+  (void)scene_fail(run, PENDRES_IO, "a temporary file, %s: %s", path, strerror(why));
+  if (file >= 0) (void)close(file);
+  return -1;
+}
+
+static scene_held *map_file(scene_run *run, size_t bytes)
+{
+  const int file = open_unnamed(run, bytes);
+  if (file < 0) return NULL;
+  scene_held *held = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  (void)close(file);
+  if (held == MAP_FAILED) return NULL;
+  held->mapped = bytes;
+  return held;
+}
+
+static void *hold(scene_room *room, scene_held *held)
+{
+  if (held == NULL) return NULL;
+  held->next = room->held;
+  room->held = held;
   return held->elements;
 }
 
-void scene_end(scene_run *run)
+/* Bytes of n elements, with one more, so that none is an array, too; 0: there cannot be as many. */
+static size_t bytes_of(size_t n, size_t size)
 {
-  while (run->held != NULL) {
-    scene_held *next = run->held->next;
-    free(run->held);
-    run->held = next;
+  const size_t head = sizeof(scene_held);
+  return size > 0 && n >= (SIZE_MAX - head) / size - 1 ? 0 : head + (n + 1) * size;
+}
+
+void *scene_room_take(scene_room *room, size_t n, size_t size)
+{
+  const size_t bytes = bytes_of(n, size);
+  return hold(room, bytes > 0 ? calloc(1, bytes) : NULL);
+}
+
+void scene_room_end(scene_room *room)
+{
+  while (room->held != NULL) {
+    scene_held *held = room->held;
+    room->held = held->next;
+    if (held->mapped > 0) (void)munmap(held, held->mapped);
+    else free(held);
   }
+}
+
+/* Of a run; NULL: why is on record. */
+static void *of_run(scene_run *run, void *elements, size_t n)
+{
+  if (elements == NULL)
+    (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+  return elements;
+}
+
+void *scene_array(scene_run *run, size_t n, size_t size)
+{
+  return scene_going(run) ? of_run(run, scene_room_take(&run->room, n, size), n) : NULL;
+}
+
+void *scene_large(scene_run *run, size_t n, size_t size)
+{
+  const size_t bytes = bytes_of(n, size);
+  if (bytes <= SCENE_MEMORY || !scene_going(run)) return scene_array(run, n, size);
+  return of_run(run, hold(&run->room, map_file(run, bytes)), n);
 }
 
 /* ---- axes, fixed parameters and ensembles -------------------------------------------------- */

@@ -20,6 +20,11 @@
 
 enum { SCENE_MOST_TOLD = 10, SCENE_TOLD = 400 };
 
+/* Arrays that are let go of together: those of a run, or of a task. All zero at first. */
+typedef struct scene_room {
+  struct scene_held *held;
+} scene_room;
+
 typedef struct scene_run {
   const deck *deck;
   farm *farm;
@@ -30,7 +35,7 @@ typedef struct scene_run {
   size_t told_count;
   pendres_status status; /* the first failure; nothing is computed or written any more after it */
   char message[512];     /* what it was */
-  struct scene_held *held; /* see scene_array() */
+  scene_room room;         /* see scene_array() */
 } scene_run;
 
 /*
@@ -106,12 +111,19 @@ pendres_status scene_stored(scene_run *run, pendres_status status);
 pendres_context *scene_context(scene_run *run);
 pendres_status scene_asked(scene_run *run, pendres_status status);
 
-/* Room for n elements, all zero, that lasts until scene_end(): not for tasks on threads. NULL if
-   there is no memory, which is then on record as the failure, or if something has failed before. */
+/* n elements, all zero, that last until scene_room_end(); NULL: no memory. */
+void *scene_room_take(scene_room *room, size_t n, size_t size);
+void scene_room_end(scene_room *room);
+
+/* The same in a run's room, until its end: not for tasks on threads. NULL if there is no memory,
+   which is then on record as the failure, or if something has failed before. */
 void *scene_array(scene_run *run, size_t n, size_t size);
 
-/* Let go of all arrays of a run. */
-void scene_end(scene_run *run);
+/* The same for what may be larger than memory: from SCENE_MEMORY bytes on an array is in a file
+   without a name, in TMPDIR or else in the folder of the output, which vanishes with the run
+   however that ends. Its room on the disk is taken at once. */
+enum { SCENE_MEMORY = 64 << 20 };
+void *scene_large(scene_run *run, size_t n, size_t size);
 
 /* Run a stage on the run's farm; on failure the run has the farm's words. */
 void scene_compute(scene_run *run, const farm_stage *stage);

@@ -241,43 +241,36 @@ static void compute(scene_run *run, work *w)
 /* ---- results ------------------------------------------------------------------------------- */
 
 /* Of a rate, against temperature, and of a fit; * is the way, whose words follow. */
-#define RATE(label, words, what, field) \
-  {.name = label, .long_name = words, .type = what, \
-   .value = offsetof(pendres_switching_rate, field)}
 static const scene_column of_rates[] = {
   {.name = "rate_*", .long_name = "transitions per unit time",
    .value = offsetof(pendres_switching_rate, value),
    .error = offsetof(pendres_switching_rate, error)},
-  RATE("rate_*_lower", "lower end of the rate's confidence interval,", SCENE_PLAIN, lower),
-  RATE("rate_*_upper", "upper end of the rate's confidence interval,", SCENE_PLAIN, upper),
-  RATE("events_*", "transitions counted", SCENE_PLAIN, events),
-  RATE("dispersion_*",
-       "variance of the trajectories' counts by that of independent events,", SCENE_PLAIN,
-       dispersion),
+  {SCENE_TYPED(SCENE_PLAIN, "rate_*_lower", pendres_switching_rate, lower,
+               "lower end of the rate's confidence interval,")},
+  {SCENE_TYPED(SCENE_PLAIN, "rate_*_upper", pendres_switching_rate, upper,
+               "upper end of the rate's confidence interval,")},
+  {SCENE_TYPED(SCENE_PLAIN, "events_*", pendres_switching_rate, events, "transitions counted")},
+  {SCENE_TYPED(SCENE_PLAIN, "dispersion_*", pendres_switching_rate, dispersion,
+               "variance of the trajectories' counts by that of independent events,")},
 };
 
-#define FIT(label, words, field)                                            \
-  {.name = label, .long_name = words,                                       \
-   .value = offsetof(pendres_switching_activation, field),                  \
-   .error = offsetof(pendres_switching_activation, field##_error)}
-#define OF_FIT(label, words, what, field)                  \
-  {.name = label, .long_name = words, .type = what,        \
-   .value = offsetof(pendres_switching_activation, field)}
 static const scene_column of_fits[] = {
-  FIT("activation_energy_*", "activation energy: rate = prefactor exp(-energy / temperature),",
-      energy),
-  FIT("log_prefactor_*", "ln of the rate's prefactor at the temperature of the fit,",
-      log_prefactor),
-  FIT("prefactor_exponent_*",
-      "power of the temperature in the prefactor (0 +- 1/2 where the rates do not tell),",
-      exponent),
-  OF_FIT("fit_temperature_*", "geometric mean of the fit's temperatures,", SCENE_PLAIN,
-         temperature),
-  OF_FIT("fit_chi2_*", "chi squared of the fit,", SCENE_PLAIN, chi2),
-  {.name = "fit_*", .long_name = "what became of the fit of ln rate against 1/temperature,",
-   .type = SCENE_FLAG, .value = offsetof(pendres_switching_activation, verdict),
+  {SCENE_AS("activation_energy_*", pendres_switching_activation, energy,
+            "activation energy: rate = prefactor exp(-energy / temperature),", NULL)},
+  {SCENE_AS("log_prefactor_*", pendres_switching_activation, log_prefactor,
+            "ln of the rate's prefactor at the temperature of the fit,", NULL)},
+  {SCENE_AS("prefactor_exponent_*", pendres_switching_activation, exponent,
+            "power of the temperature in the prefactor (0 +- 1/2 where the rates do not tell),",
+            NULL)},
+  {SCENE_TYPED(SCENE_PLAIN, "fit_temperature_*", pendres_switching_activation, temperature,
+               "geometric mean of the fit's temperatures,")},
+  {SCENE_TYPED(SCENE_PLAIN, "fit_chi2_*", pendres_switching_activation, chi2,
+               "chi squared of the fit,")},
+  {SCENE_TYPED(SCENE_FLAG, "fit_*", pendres_switching_activation, verdict,
+               "what became of the fit of ln rate against 1/temperature,"),
    .names = scene_switching_names},
-  OF_FIT("fit_points_*", "temperatures with 10 events or more,", SCENE_COUNT32, points),
+  {SCENE_TYPED(SCENE_COUNT32, "fit_points_*", pendres_switching_activation, points,
+               "temperatures with 10 events or more,")},
 };
 
 /* What the table says of a fit, after its energy if there is one. */
@@ -295,14 +288,11 @@ static const char *const verdicts[PENDRES_SWITCHING_VERDICTS] = {
 /* Where trajectories end, by their basins and by the rates. */
 static void write_occupation(scene_run *run, const work *w, int state)
 {
-#define OF_STATE(what, field) \
-  (offsetof(pendres_switching_rates, what) + offsetof(pendres_langevin_estimate, field))
   static const scene_column columns[] = {
-    {.name = "occupation_*", .long_name = "share of the trajectories that end in the basin of",
-     .value = OF_STATE(occupation, value), .error = OF_STATE(occupation, error)},
-    {.name = "implied_occupation_*",
-     .long_name = "the same as the rates imply it, from where trajectories started, for",
-     .value = OF_STATE(implied, value), .error = OF_STATE(implied, error)},
+    {SCENE_ESTIMATE("occupation_*", pendres_switching_rates, occupation[0],
+                    "share of the trajectories that end in the basin of", NULL)},
+    {SCENE_ESTIMATE("implied_occupation_*", pendres_switching_rates, implied[0],
+                    "the same as the rates imply it, from where trajectories started, for", NULL)},
   };
   const char *first = (const char *)w->rates;
   const scene_table table = {
@@ -321,12 +311,10 @@ static void write_circumstances(scene_run *run, const work *w)
     double level;
     int steps;
   } whole;
-  static const scene_column confidence = {
-    .name = "confidence_level", .long_name = "level of the confidence intervals",
-    .type = SCENE_PLAIN, .value = offsetof(whole, level)};
-  static const scene_column steps = {
-    .name = "steps_per_period", .long_name = "steps a drive period of the noisy integrator",
-    .type = SCENE_NUMBER, .value = offsetof(whole, steps)};
+  static const scene_column confidence = {SCENE_TYPED(SCENE_PLAIN, "confidence_level", whole,
+      level, "level of the confidence intervals")};
+  static const scene_column steps = {SCENE_TYPED(SCENE_NUMBER, "steps_per_period", whole, steps,
+                                                 "steps a drive period of the noisy integrator")};
   const whole of = {level, more_steps(w)};
   const scene_table scalars = {.n = 1, .stride = sizeof of, .rows = &of};
   scene_columns_write(run, &scalars, 1, &confidence);

@@ -52,7 +52,7 @@ static pendres_status collect_run(const deck *d, journal *j, char *words, size_t
   farm_set_journal(run.farm, j);
   const pendres_status status = scene_find(d->kind)->run(&run);
   snprintf(words, room, "%s", run.message);
-  scene_end(&run);
+  scene_room_end(&run.room);
   farm_dismiss(run.farm, NULL);
   farm_free(run.farm);
   pendres_store_free(run.store);
