@@ -243,27 +243,34 @@ static void symmetry_breaks_and_period_doubles(void **state)
 
 /* Packed and unpacked a set of branches is the same: packed again, the same bytes. Bytes of another
    length are refused. */
-static void check_packing(const pendres_branches *set)
+static void check_packing(pendres_branches *set)
 {
-  const size_t size = pendres_branches_packed_size(set);
-  char *bytes = malloc(size + 1), *again = malloc(size);
-  pendres_branches *copy = NULL;
-  assert_true(bytes != NULL && again != NULL);
-  bytes[size] = 0;
-  pendres_branches_pack(set, bytes);
-  check_ok(pendres_branches_unpack(size, bytes, &copy));
-  assert_int_equal(pendres_branches_packed_size(copy), size);
-  assert_int_equal(pendres_branches_count(copy), pendres_branches_count(set));
-  pendres_branches_pack(copy, again);
-  assert_memory_equal(bytes, again, size);
-  pendres_branches_free(copy);
+  pendres_curves *from = pendres_branches_set(set), *copy = NULL;
+  pendres_bytes first = {.bytes = NULL}, again = first;
+  char more = 0;
+  pendres_curves_pass(&first, 1, &from);
+  const size_t size = first.size;
+  pendres_bytes_pass(&first, 1, 1, &more);
+  check_ok(first.status);
+  pendres_bytes b = pendres_bytes_read(size, first.bytes);
+  pendres_curves_pass(&b, 1, &copy);
+  assert_true(pendres_bytes_end(&b));
+  assert_int_equal(pendres_curves_count(copy), pendres_branches_count(set));
+  pendres_curves_pass(&again, 1, &copy);
+  check_ok(again.status);
+  assert_int_equal(again.size, size);
+  assert_memory_equal(first.bytes, again.bytes, size);
+  pendres_curves_free(copy);
   for (size_t wrong = 0; wrong <= size + 1; wrong += wrong < size - 1 ? size / 7 + 1 : 1) {
     if (wrong == size) continue;
-    assert_int_equal(pendres_branches_unpack(wrong, bytes, &copy), PENDRES_INVALID_ARGUMENT);
-    assert_null(copy);
+    b = pendres_bytes_read(wrong, first.bytes);
+    pendres_curves_pass(&b, 1, &copy);
+    assert_false(pendres_bytes_end(&b));
+    assert_int_equal(b.status, PENDRES_INVALID_ARGUMENT);
+    pendres_curves_free(copy);
   }
-  free(bytes);
-  free(again);
+  free(first.bytes);
+  free(again.bytes);
 }
 
 /* A running orbit exists between two folds and nowhere else: an isola, found to be closed. */

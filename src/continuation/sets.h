@@ -9,6 +9,7 @@
 #ifndef PENDRES_SETS_H
 #define PENDRES_SETS_H
 
+#include "base/bytes.h"
 #include "continuation/curve.h"
 
 /* 0 where two bifurcations are of one family: none lies on a curve of another family. Otherwise
@@ -38,10 +39,9 @@ pendres_curves *pendres_curves_create(void);
 pendres_status pendres_curves_join(size_t n, pendres_curves *const *parts, size_t end,
                                    pendres_curves *to);
 
-/* As for branches, see continuation.h. */
-size_t pendres_curves_packed_size(const pendres_curves *curves);
-void pendres_curves_pack(const pendres_curves *curves, void *bytes);
-pendres_status pendres_curves_unpack(size_t size, const void *bytes, pendres_curves **out);
+/* Pass a set of branches, or of curves, NULL for one without any, as plain bytes; reading makes a
+   new one, to be freed whether it succeeds or not. Threads may write the same set at a time. */
+void pendres_curves_pass(pendres_bytes *bytes, int branches, pendres_curves **set);
 
 /*
  * Add the branches that n bifurcations lie on, each once: one that a branch of the set has met
@@ -60,19 +60,5 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
 pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
                                      const pendres_bifurcation *bifurcations,
                                      const pendres_curve_options *options, pendres_curves *curves);
-
-/*
- * Branches as plain bytes, to be handed to another process or kept in a file: pack writes as many
- * bytes as pendres_branches_packed_size() says, and unpack makes the same branches of them, to be
- * freed by pendres_branches_free. The bytes have the layout of this build of the library on this
- * kind of machine, and no checksum: a program that keeps them adds one.
- * branches NULL: no branches. Errors: PENDRES_INVALID_ARGUMENT (size and contents disagree; *out is
- * NULL), PENDRES_OUT_OF_MEMORY. Threads may pack the same branches at a time.
- */
-size_t pendres_branches_packed_size(const pendres_branches *branches);
-/* See pendres_branches_packed_size(). bytes NULL: nothing is done. */
-void pendres_branches_pack(const pendres_branches *branches, void *bytes);
-/* See pendres_branches_packed_size(). */
-pendres_status pendres_branches_unpack(size_t size, const void *bytes, pendres_branches **out);
 
 #endif

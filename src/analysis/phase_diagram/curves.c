@@ -1,9 +1,4 @@
-/*
- * curves.c -- curves through the bifurcations of a diagram's lines; see phase_diagram.h.
- *
- * A record of a family is a head, the message of what has ended it with the zero at its end, and
- * the curves.
- */
+/* curves.c -- curves through the bifurcations of a diagram's lines; see phase_diagram.h. */
 #include "analysis/phase_diagram/internal.h"
 
 #include <stdlib.h>
@@ -20,12 +15,17 @@
    is enough. */
 enum { MOST_ROUNDS = 4 };
 
+/* What was followed of a family. */
+static void free_family(pendres_phase_family *f)
+{
+  pendres_curves_free(f->curves);
+  f->curves = NULL;
+  pendres_phase_mark_free(&f->mark);
+}
+
 static void free_families(pendres_phase_diagram *d)
 {
-  for (size_t i = 0; i < d->families; i++) {
-    pendres_curves_free(d->family[i].curves);
-    pendres_phase_mark_free(&d->family[i].mark);
-  }
+  for (size_t i = 0; i < d->families; i++) free_family(&d->family[i]);
   free(d->family);
   d->family = NULL;
   d->families = d->families_taken = 0;
@@ -109,50 +109,11 @@ pendres_status pendres_phase_find_families(pendres_phase_diagram *d, size_t *fam
 
 /* ---- a family ---- */
 
-typedef struct head {
-  size_t end, words, curves; /* see pendres_phase_family; bytes of its message, and of the curves */
-  pendres_status outcome;
-} head;
-
-static char *put(char *to, const void *from, size_t size)
+static void pass(pendres_bytes *b, pendres_phase_family *f)
 {
-  memcpy(to, from, size);
-  return to + size;
-}
-
-static pendres_status pack(const pendres_phase_family *f, pendres_phase_bytes *out)
-{
-  const char *words = f->mark.message != NULL ? f->mark.message : "";
-  head h;
-  memset(&h, 0, sizeof h);
-  h.end = f->end;
-  h.words = strlen(words) + 1;
-  h.curves = pendres_curves_packed_size(f->curves);
-  h.outcome = f->mark.outcome;
-  out->size = sizeof h + h.words + h.curves;
-  out->bytes = malloc(out->size);
-  if (out->bytes == NULL) return PENDRES_OUT_OF_MEMORY;
-  char *to = put(out->bytes, &h, sizeof h);
-  to = put(to, words, h.words);
-  pendres_curves_pack(f->curves, to);
-  return PENDRES_OK;
-}
-
-static pendres_status unpack(size_t size, const void *bytes, pendres_phase_family *f)
-{
-  head h;
-  const char *from = bytes;
-  if (size < sizeof h) return PENDRES_INVALID_ARGUMENT;
-  memcpy(&h, from, sizeof h);
-  from += sizeof h;
-  size -= sizeof h;
-  if ((unsigned)h.outcome >= PENDRES_STATUS_COUNT) return PENDRES_INVALID_ARGUMENT;
-  if (h.words == 0 || h.words > size || h.curves != size - h.words || from[h.words - 1] != '\0')
-    return PENDRES_INVALID_ARGUMENT;
-  pendres_status status = pendres_curves_unpack(h.curves, from + h.words, &f->curves);
-  if (status != PENDRES_OK || h.outcome == PENDRES_OK) return status;
-  f->end = h.end;
-  return pendres_phase_mark_set(&f->mark, h.outcome, from);
+  pendres_bytes_pass(b, 1, sizeof f->end, &f->end);
+  pendres_phase_mark_pass(b, &f->mark);
+  pendres_curves_pass(b, 0, &f->curves);
 }
 
 /* How far curves are followed, behind the door. */
@@ -200,17 +161,15 @@ static pendres_status follow(pendres_door *door, const pendres_phase_diagram *d,
 }
 
 pendres_status pendres_phase_follow_family(pendres_context *ctx, const pendres_phase_diagram *d,
-                                           size_t family, pendres_phase_bytes *out)
+                                           size_t family, pendres_bytes *out)
 {
   pendres_phase_family f = {.curves = NULL};
   const pendres_bifurcation *first = &d->bifurcation[d->family[family].first];
   pendres_door door = pendres_door_open(ctx, &first->orbit.pendulum);
   PENDRES_DOOR_CALL(&door, follow(&door, d, family, &f));
   pendres_status status = pendres_door_close(&door);
-  if (status == PENDRES_OK && pack(&f, out) != PENDRES_OK)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
-  pendres_curves_free(f.curves);
-  pendres_phase_mark_free(&f.mark);
+  if (status == PENDRES_OK) pass(out, &f);
+  free_family(&f);
   return status;
 }
 
@@ -260,8 +219,13 @@ static pendres_status join(pendres_phase_diagram *d)
 pendres_status pendres_phase_take_family(pendres_phase_diagram *d, size_t family, size_t size,
                                          const void *bytes)
 {
-  if (d->family[family].curves != NULL) return PENDRES_INVALID_ARGUMENT;
-  const pendres_status status = unpack(size, bytes, &d->family[family]);
-  if (status != PENDRES_OK) return status;
+  pendres_phase_family *f = &d->family[family];
+  pendres_bytes b = pendres_bytes_read(size, bytes);
+  if (f->curves != NULL) return PENDRES_INVALID_ARGUMENT;
+  pass(&b, f);
+  if (!pendres_bytes_end(&b)) {
+    free_family(f);
+    return b.status;
+  }
   return ++d->families_taken == d->families ? join(d) : PENDRES_OK;
 }

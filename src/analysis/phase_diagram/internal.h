@@ -9,6 +9,8 @@
 
 #include <pendres/phase_diagram.h>
 
+#include "base/bytes.h"
+
 /* The place of a point that has no results. */
 #define PENDRES_PHASE_NOWHERE SIZE_MAX
 
@@ -22,6 +24,7 @@ typedef struct pendres_phase_mark {
 pendres_status pendres_phase_mark_set(pendres_phase_mark *mark, pendres_status outcome,
                                       const char *message);
 void pendres_phase_mark_free(pendres_phase_mark *mark);
+void pendres_phase_mark_pass(pendres_bytes *bytes, pendres_phase_mark *mark);
 
 typedef struct pendres_phase_done {
   size_t values;               /* points of the line */
@@ -34,21 +37,15 @@ typedef struct pendres_phase_done {
 
 /* A line without results. Free it in any case. */
 pendres_status pendres_phase_done_create(size_t values, pendres_phase_done *out);
-pendres_status pendres_phase_done_copy(const pendres_phase_done *from, pendres_phase_done *to);
 void pendres_phase_done_free(pendres_phase_done *line);
 
-/* Plain bytes, to be freed by free(). */
-typedef struct pendres_phase_bytes {
-  size_t size;
-  void *bytes;
-} pendres_phase_bytes;
+/* Pass a line as plain bytes; reading it sets one without results. */
+void pendres_phase_done_pass(pendres_bytes *bytes, pendres_phase_done *line);
 
-pendres_status pendres_phase_done_pack(const pendres_phase_done *line, pendres_phase_bytes *out);
-
-/* PENDRES_INVALID_ARGUMENT: the bytes are not a record of a line with this many values. On failure
-   there is nothing to be freed. */
-pendres_status pendres_phase_done_unpack(size_t values, size_t size, const void *bytes,
-                                         pendres_phase_done *out);
+/* Read a line. PENDRES_INVALID_ARGUMENT: this is none with so many values. On failure there is
+   nothing to be freed. */
+pendres_status pendres_phase_done_read(size_t values, pendres_bytes *bytes,
+                                       pendres_phase_done *out);
 
 /* What was followed of a family of bifurcations; all NULL and zero before. */
 typedef struct pendres_phase_family {
@@ -87,7 +84,7 @@ pendres_status pendres_phase_find_families(pendres_phase_diagram *d, size_t *fam
 
 /* Follow the curves through the bifurcations of a family, as far as they are not known. */
 pendres_status pendres_phase_follow_family(pendres_context *ctx, const pendres_phase_diagram *d,
-                                           size_t family, pendres_phase_bytes *out);
+                                           size_t family, pendres_bytes *out);
 
 /* Take over what was followed of a family; with the last of them the diagram has the curves. */
 pendres_status pendres_phase_take_family(pendres_phase_diagram *d, size_t family, size_t size,

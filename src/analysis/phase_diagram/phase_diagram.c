@@ -188,14 +188,19 @@ static pendres_status complete(pendres_context *ctx, const pendres_phase_diagram
 
 /* What is made of a line: computed from nothing, or completed by the curves. */
 static pendres_status make_line(pendres_context *ctx, const pendres_phase_diagram *d, size_t line,
-                                pendres_phase_bytes *out)
+                                pendres_bytes *out)
 {
-  pendres_phase_done l;
-  pendres_status status = pendres_phase_done_copy(&d->line[line], &l);
+  pendres_phase_done l = {.values = 0};
+  pendres_bytes before = {.bytes = NULL};
+  pendres_phase_done_pass(&before, &d->line[line]);
+  pendres_bytes copy = pendres_bytes_read(before.size, before.bytes);
+  pendres_status status = before.status;
+  if (status == PENDRES_OK) status = pendres_phase_done_read(d->grid.values, &copy, &l);
+  free(before.bytes);
   if (status == PENDRES_OK)
     status = d->round.work == PENDRES_PHASE_COMPLETION ? complete(ctx, d, &d->line[line], &l)
                                                        : fill_line(ctx, &d->grid, line, &l);
-  if (status == PENDRES_OK) status = pendres_phase_done_pack(&l, out);
+  if (status == PENDRES_OK) pendres_phase_done_pass(out, &l);
   pendres_phase_done_free(&l);
   return status;
 }
@@ -204,7 +209,8 @@ static pendres_status take_line(pendres_phase_diagram *d, size_t line, size_t si
                                 const void *bytes)
 {
   pendres_phase_done l;
-  const pendres_status status = pendres_phase_done_unpack(d->grid.values, size, bytes, &l);
+  pendres_bytes b = pendres_bytes_read(size, bytes);
+  const pendres_status status = pendres_phase_done_read(d->grid.values, &b, &l);
   if (status != PENDRES_OK) return status;
   pendres_phase_done_free(&d->line[line]);
   d->line[line] = l;
@@ -238,7 +244,7 @@ pendres_status pendres_phase_diagram_next(pendres_phase_diagram *d, pendres_phas
 static pendres_status work(pendres_context *ctx, const pendres_phase_diagram *d, size_t task,
                            size_t *size, void **bytes)
 {
-  pendres_phase_bytes out = {0, NULL};
+  pendres_bytes out = {.bytes = NULL};
   if (size != NULL) *size = 0;
   if (bytes != NULL) *bytes = NULL;
   if (d == NULL || size == NULL || bytes == NULL || task >= d->round.tasks)
@@ -247,6 +253,10 @@ static pendres_status work(pendres_context *ctx, const pendres_phase_diagram *d,
   const pendres_status status = d->round.work == PENDRES_PHASE_CURVES
                                   ? pendres_phase_follow_family(ctx, d, task, &out)
                                   : make_line(ctx, d, task, &out);
+  if (status == PENDRES_OK && out.status != PENDRES_OK) {
+    free(out.bytes);
+    return pendres_context_fail(ctx, out.status, "out of memory for results");
+  }
   *size = out.size;
   *bytes = out.bytes;
   return status;

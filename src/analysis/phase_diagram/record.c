@@ -1,8 +1,5 @@
 /*
  * record.c -- lines of a phase diagram as plain bytes; see internal.h.
- *
- * A record is a head, the place of every point, the points that have results, the branches, and
- * of every point its outcome and its message with the zero at its end.
  */
 
 #include <stdlib.h>
@@ -10,10 +7,6 @@
 
 #include "analysis/phase_diagram/internal.h"
 #include "continuation/sets.h"
-
-typedef struct head {
-  size_t values, count, branches; /* points; those that have results; bytes */
-} head;
 
 /* ---- marks ---- */
 
@@ -33,6 +26,17 @@ void pendres_phase_mark_free(pendres_phase_mark *m)
 {
   free(m->message);
   *m = (pendres_phase_mark){.outcome = PENDRES_OK};
+}
+
+void pendres_phase_mark_pass(pendres_bytes *b, pendres_phase_mark *m)
+{
+  size_t length = m->message != NULL ? strlen(m->message) + 1 : 0;
+  pendres_bytes_pass(b, 1, sizeof m->outcome, &m->outcome);
+  pendres_bytes_pass(b, 1, sizeof length, &length);
+  pendres_bytes_pass_array(b, length, 1, &m->message);
+  (void)pendres_bytes_fit(b, (unsigned)m->outcome < PENDRES_STATUS_COUNT &&
+                               (length == 0 || (m->message != NULL &&
+                                                memchr(m->message, '\0', length) != NULL)));
 }
 
 /* ---- lines ---- */
@@ -58,83 +62,6 @@ void pendres_phase_done_free(pendres_phase_done *l)
   *l = (pendres_phase_done){.values = 0};
 }
 
-pendres_status pendres_phase_done_copy(const pendres_phase_done *from, pendres_phase_done *to)
-{
-  pendres_phase_bytes r = {0, NULL};
-  *to = (pendres_phase_done){.values = 0};
-  pendres_status status = pendres_phase_done_pack(from, &r);
-  if (status == PENDRES_OK) status = pendres_phase_done_unpack(from->values, r.size, r.bytes, to);
-  free(r.bytes);
-  return status;
-}
-
-/* ---- bytes ---- */
-
-static char *put(char *to, const void *from, size_t size)
-{
-  if (size > 0) memcpy(to, from, size);
-  return to + size;
-}
-
-static const char *words_of(const pendres_phase_mark *m)
-{
-  return m->message != NULL ? m->message : "";
-}
-
-pendres_status pendres_phase_done_pack(const pendres_phase_done *l, pendres_phase_bytes *out)
-{
-  const head h = {l->values, l->count, pendres_branches_packed_size(l->branches)};
-  size_t size = sizeof h + h.values * sizeof *l->place + h.count * sizeof *l->points + h.branches;
-  for (size_t k = 0; k < h.values; k++)
-    size += sizeof l->mark[k].outcome + strlen(words_of(&l->mark[k])) + 1;
-  *out = (pendres_phase_bytes){size, malloc(size)};
-  if (out->bytes == NULL) return PENDRES_OUT_OF_MEMORY;
-  char *to = put(out->bytes, &h, sizeof h);
-  to = put(to, l->place, h.values * sizeof *l->place);
-  to = put(to, l->points, h.count * sizeof *l->points);
-  pendres_branches_pack(l->branches, to);
-  to += h.branches;
-  for (size_t k = 0; k < h.values; k++) {
-    const char *words = words_of(&l->mark[k]);
-    to = put(to, &l->mark[k].outcome, sizeof l->mark[k].outcome);
-    to = put(to, words, strlen(words) + 1);
-  }
-  return PENDRES_OK;
-}
-
-/* Bytes that are still to be read. */
-typedef struct source {
-  const char *at;
-  size_t left;
-} source;
-
-static int get(source *s, void *to, size_t n, size_t size)
-{
-  if (n > s->left / size) return 0;
-  memcpy(to, s->at, n * size);
-  s->at += n * size;
-  s->left -= n * size;
-  return 1;
-}
-
-static pendres_status get_marks(source *s, pendres_phase_done *l)
-{
-  for (size_t k = 0; k < l->values; k++) {
-    pendres_status outcome;
-    if (!get(s, &outcome, 1, sizeof outcome) || (unsigned)outcome >= PENDRES_STATUS_COUNT)
-      return PENDRES_INVALID_ARGUMENT;
-    const char *end = memchr(s->at, '\0', s->left);
-    if (end == NULL) return PENDRES_INVALID_ARGUMENT;
-    const size_t length = (size_t)(end - s->at);
-    l->mark[k].outcome = outcome;
-    if (length > 0 && pendres_phase_mark_set(&l->mark[k], outcome, s->at) != PENDRES_OK)
-      return PENDRES_OUT_OF_MEMORY;
-    s->at += length + 1;
-    s->left -= length + 1;
-  }
-  return s->left == 0 ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
-}
-
 static int point_fits(const pendres_phase_point *p)
 {
   return (unsigned)p->pendulum.force < PENDRES_FORCE_COUNT &&
@@ -142,34 +69,37 @@ static int point_fits(const pendres_phase_point *p)
          (unsigned)p->other < 2 * PENDRES_OTHER_UNRESOLVED;
 }
 
-static pendres_status get_line(source *s, const head *h, pendres_phase_done *l)
+static int line_fits(const pendres_phase_done *l)
 {
-  if (!get(s, l->place, h->values, sizeof *l->place) ||
-      !get(s, l->points, h->count, sizeof *l->points) || h->branches > s->left)
-    return PENDRES_INVALID_ARGUMENT;
-  for (size_t k = 0; k < h->values; k++)
-    if (l->place[k] != PENDRES_PHASE_NOWHERE && l->place[k] >= h->count)
-      return PENDRES_INVALID_ARGUMENT;
-  for (size_t k = 0; k < h->count; k++)
-    if (!point_fits(&l->points[k])) return PENDRES_INVALID_ARGUMENT;
-  l->count = h->count;
-  const pendres_status status = pendres_branches_unpack(h->branches, s->at, &l->branches);
-  if (status != PENDRES_OK) return status;
-  s->at += h->branches;
-  s->left -= h->branches;
-  return get_marks(s, l);
+  int good = 1;
+  for (size_t k = 0; k < l->values && good; k++)
+    good = l->place[k] == PENDRES_PHASE_NOWHERE || l->place[k] < l->count;
+  for (size_t k = 0; k < l->count && good; k++) good = point_fits(&l->points[k]);
+  return good;
 }
 
-pendres_status pendres_phase_done_unpack(size_t values, size_t size, const void *bytes,
-                                         pendres_phase_done *out)
+void pendres_phase_done_pass(pendres_bytes *b, pendres_phase_done *l)
 {
-  source s = {.at = bytes, .left = size};
-  head h;
-  *out = (pendres_phase_done){.values = 0};
-  if (!get(&s, &h, 1, sizeof h) || h.values != values || h.count > values)
-    return PENDRES_INVALID_ARGUMENT;
+  size_t head[2] = {l->values, l->count};
+  pendres_curves *branches = pendres_branches_set(l->branches);
+  pendres_bytes_pass(b, 2, sizeof *head, head);
+  if (!pendres_bytes_fit(b, head[0] == l->values && head[1] <= l->values)) return;
+  if (b->reads) l->count = head[1];
+  pendres_bytes_pass(b, l->values, sizeof *l->place, l->place);
+  pendres_bytes_pass(b, l->count, sizeof *l->points, l->points);
+  (void)pendres_bytes_fit(b, line_fits(l));
+  for (size_t k = 0; k < l->values; k++) pendres_phase_mark_pass(b, &l->mark[k]);
+  pendres_curves_pass(b, 1, &branches);
+  if (b->reads && branches != NULL) l->branches = pendres_branches_of(branches);
+}
+
+pendres_status pendres_phase_done_read(size_t values, pendres_bytes *b, pendres_phase_done *out)
+{
   pendres_status status = pendres_phase_done_create(values, out);
-  if (status == PENDRES_OK) status = get_line(&s, &h, out);
+  if (status == PENDRES_OK) {
+    pendres_phase_done_pass(b, out);
+    status = pendres_bytes_end(b) ? PENDRES_OK : b->status;
+  }
   if (status != PENDRES_OK) pendres_phase_done_free(out);
   return status;
 }

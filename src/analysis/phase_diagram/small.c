@@ -23,9 +23,13 @@ static int ends_small(const pendres_branch *branch, size_t point)
                         : before->amplitude > behind->amplitude;
 }
 
-/* Find the fold of the largest amplitude at which the small state ends: that of the main
-   resonance. */
-static pendres_small_end find_any_small_end(const pendres_branches *branches)
+/*
+ * Find the fold of the largest amplitude at which the small state ends: that of the main resonance.
+ * plain: of the plain pendulum along its damping or drive amplitude other folds have larger orbits
+ * than those of the resonance; the fold is that of the smallest amplitude among those below whose
+ * parameter two orbits exist.
+ */
+static pendres_small_end find_small_end(const pendres_branches *branches, int plain)
 {
   pendres_small_end end = {.known = 0};
   for (size_t i = 0; i < pendres_branches_count(branches); i++) {
@@ -35,7 +39,9 @@ static pendres_small_end find_any_small_end(const pendres_branches *branches)
       if (p->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&p->orbit)) continue;
       const pendres_bifurcation *f =
         pendres_branch_bifurcation_get(branch, (size_t)p->bifurcation);
-      if (!ends_small(branch, k) || (end.known && f->orbit.amplitude <= end.amplitude)) continue;
+      const double larger = f->orbit.amplitude - end.amplitude;
+      if (plain ? !(f->curvature < 0.0) : !ends_small(branch, k)) continue;
+      if (end.known && (plain ? larger >= 0.0 : larger <= 0.0)) continue;
       end = (pendres_small_end){.known = 1,
                                 .parameter = f->parameter,
                                 .value = f->value,
@@ -46,35 +52,12 @@ static pendres_small_end find_any_small_end(const pendres_branches *branches)
   return end;
 }
 
-/* For the plain pendulum along its damping or drive amplitude, where other folds have larger orbits
-   than those of the resonance: find the fold of the smallest amplitude among those below whose
-   parameter two orbits exist. */
-static pendres_small_end find_plain_small_end(const pendres_branches *branches)
-{
-  pendres_small_end end = {.known = 0};
-  for (size_t i = 0; i < pendres_branches_count(branches); i++) {
-    const pendres_branch *branch = pendres_branches_get(branches, i);
-    for (size_t k = 0; k < pendres_branch_bifurcation_count(branch); k++) {
-      const pendres_bifurcation *f = pendres_branch_bifurcation_get(branch, k);
-      if (f->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&f->orbit) ||
-          !(f->curvature < 0.0))
-        continue;
-      if (end.known && f->orbit.amplitude >= end.amplitude) continue;
-      end = (pendres_small_end){.known = 1,
-                                .parameter = f->parameter,
-                                .value = f->value,
-                                .amplitude = f->orbit.amplitude};
-    }
-  }
-  return end;
-}
-
 pendres_small_end pendres_phase_small_end(const pendres_branches *branches)
 {
   const pendres_branch *first = pendres_branches_get(branches, 0);
   const pendres_branch_point *p = pendres_branch_get(first, 0);
   if (p == NULL) return (pendres_small_end){.known = 0};
-  const int plain = pendres_model_kind(&p->orbit.pendulum) == PENDRES_MODEL_PLAIN;
-  const int across = pendres_curve_parameter(&first->curve, 0) != PENDRES_DRIVE_FREQUENCY;
-  return plain && across ? find_plain_small_end(branches) : find_any_small_end(branches);
+  return find_small_end(branches,
+                        pendres_model_kind(&p->orbit.pendulum) == PENDRES_MODEL_PLAIN &&
+                          pendres_curve_parameter(&first->curve, 0) != PENDRES_DRIVE_FREQUENCY);
 }
