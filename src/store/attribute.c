@@ -78,15 +78,14 @@ static pendres_status target(pendres_store *store, const char *group, const char
 pendres_status pendres_store_attribute(pendres_store *store, const char *group,
                                        const char *object, const char *name, const char *value)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
+  pendres_status status = pendres_store_enter(store, 1);
   hid_t id = H5I_INVALID_HID;
 
   if (!status && !value)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "an attribute needs a text");
   if (!status) status = target(store, group, object, name, &id);
   if (!status) status = pendres_store_set_text(store, id, name, value);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 pendres_status pendres_store_provenance(pendres_store *store, const pendres_store_entry *entries,

@@ -282,14 +282,13 @@ static pendres_status check_write(pendres_store *store, int id, const pendres_st
 pendres_status pendres_store_write_rows(pendres_store *store, int id, uint64_t first,
                                         uint64_t rows, const void *data, size_t n)
 {
-  pendres_store_quiet quiet;
   const pendres_store_piece piece = { first, rows, n };
   const pendres_store_node *node = NULL;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
+  pendres_status status = pendres_store_enter(store, 1);
 
   if (!status) status = check_write(store, id, &piece, data, &node);
   if (!status) status = pendres_store_node_write(store, node, first, rows, data);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 pendres_status pendres_store_write(pendres_store *store, int id, const void *data, size_t n)

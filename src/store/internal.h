@@ -41,6 +41,7 @@ typedef struct pendres_store_quiet {
 } pendres_store_quiet;
 
 struct pendres_store {
+  pendres_store_quiet quiet; /* during a call */
   pendres_store_file file;
   hid_t driver;
   hid_t h5; /* H5I_INVALID_HID once closed */
@@ -59,10 +60,9 @@ herr_t pendres_store_driver_select(hid_t access, hid_t driver, pendres_store_fil
 /* store.c: entering and leaving HDF5, and messages. */
 
 /* Call first and, whatever it returned, pendres_store_leave() last. `writing`: the call writes. */
-pendres_status pendres_store_enter(pendres_store *store, pendres_store_quiet *quiet, int writing);
+pendres_status pendres_store_enter(pendres_store *store, int writing);
 /* Restore HDF5's error printing; turn a refused write into PENDRES_IO; make failures sticky. */
-pendres_status pendres_store_leave(pendres_store *store, const pendres_store_quiet *quiet,
-                                   pendres_status status);
+pendres_status pendres_store_leave(pendres_store *store, pendres_status status);
 /* Record a message; returns the status. */
 pendres_status pendres_store_fail(pendres_store *store, pendres_status status,
                                   const char *format, ...) __attribute__((format(printf, 3, 4)));

@@ -115,11 +115,10 @@ pendres_status pendres_store_need_group(pendres_store *store, const char *group,
 
 pendres_status pendres_store_group(pendres_store *store, const char *group)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
+  pendres_status status = pendres_store_enter(store, 1);
 
   if (!status) status = pendres_store_need_group(store, group, NULL);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* ---- What dimensions and variables share ----------------------------------------------------- */
@@ -206,8 +205,7 @@ static pendres_status define_dimension(pendres_store *store, const pendres_store
 pendres_status pendres_store_dimension(pendres_store *store, const pendres_store_spec *spec,
                                        uint64_t size, const void *values)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
+  pendres_status status = pendres_store_enter(store, 1);
 
   if (!status && !spec)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no specification");
@@ -219,7 +217,7 @@ pendres_status pendres_store_dimension(pendres_store *store, const pendres_store
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "dimension '%s' has no names",
                                 spec->name ? spec->name : "(null)");
   if (!status) status = define_dimension(store, spec, size, values);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* ---- Variables ------------------------------------------------------------------------------- */
@@ -389,12 +387,11 @@ static pendres_status error_of(pendres_store *store, const pendres_store_spec *s
 pendres_status pendres_store_variable(pendres_store *store, const pendres_store_spec *spec, int *id,
                                       int *error_id)
 {
-  pendres_store_quiet quiet;
   pendres_store_spec error = { 0 };
   pendres_store_node node, error_node;
   char *path = NULL, *error_path = NULL;
   int made = -1, error_made = -1;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
+  pendres_status status = pendres_store_enter(store, 1);
 
   if (!status) status = check_spec(store, spec, &node, &path);
   if (!status && error_id) status = error_of(store, spec, &error);
@@ -405,7 +402,7 @@ pendres_status pendres_store_variable(pendres_store *store, const pendres_store_
       pendres_store_set_text(store, store->nodes[made].id, "ancillary_variables", error.name);
   if (!status && error_id)
     status = make_variable(store, &error, &error_node, error_path, &error_made);
-  status = pendres_store_leave(store, &quiet, status);
+  status = pendres_store_leave(store, status);
   if (id) *id = status ? -1 : made;
   if (error_id) *error_id = status ? -1 : error_made;
   free(path);

@@ -16,19 +16,10 @@ static pendres_status existing_path(pendres_store *store, const char *group, con
                                     char **out)
 {
   char *path = pendres_store_path(group, name);
-  char *slash = path;
-  htri_t found = 1;
 
   *out = NULL;
   if (!path) return PENDRES_OUT_OF_MEMORY;
-  /* H5Lexists() wants all but the last part to exist. */
-  while (*path && slash && found > 0) {
-    slash = strchr(slash, '/');
-    if (slash) *slash = '\0';
-    found = H5Lexists(store->h5, path, H5P_DEFAULT);
-    if (slash) *slash++ = '/';
-  }
-  if (found <= 0) {
+  if (*path && H5LTpath_valid(store->h5, path, 0) <= 0) {
     pendres_store_fail(store, PENDRES_NOT_FOUND, "'%s' holds no '%s'", store->file.path, path);
     free(path);
     return PENDRES_NOT_FOUND;
@@ -72,31 +63,29 @@ static pendres_status open_dataset(pendres_store *store, const char *group, cons
 
 int pendres_store_has(pendres_store *store, const char *group, const char *name)
 {
-  pendres_store_quiet quiet;
   char *path = NULL;
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
   const int found = !status && !existing_path(store, group, name, &path);
 
   if (!status) store->message[0] = '\0'; /* absence is an answer, not a failure */
   free(path);
-  pendres_store_leave(store, &quiet, PENDRES_OK);
+  pendres_store_leave(store, PENDRES_OK);
   return found;
 }
 
 pendres_status pendres_store_shape(pendres_store *store, const char *group, const char *name,
                                    int *rank, uint64_t sizes[PENDRES_STORE_RANK])
 {
-  pendres_store_quiet quiet;
   hsize_t found[PENDRES_STORE_RANK];
   hid_t id = H5I_INVALID_HID;
   int n = 0;
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (!status) status = open_dataset(store, group, name, &id, &n, found);
   if (!status && rank) *rank = n;
   for (int k = 0; k < PENDRES_STORE_RANK && !status && sizes; k++) sizes[k] = found[k];
   if (id >= 0) H5Dclose(id);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* ---- what there is ------------------------------------------------------------------------- */
@@ -104,20 +93,16 @@ pendres_status pendres_store_shape(pendres_store *store, const char *group, cons
 /* The type that elements of a member are read as. */
 static pendres_store_type type_of(pendres_store *store, const char *path)
 {
-  const hid_t id = H5Dopen2(store->h5, path, H5P_DEFAULT);
-  const hid_t type = id >= 0 ? H5Dget_type(id) : H5I_INVALID_HID;
-  const H5T_class_t kind = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
-  const size_t size = type >= 0 ? H5Tget_size(type) : 0;
-  pendres_store_type found = PENDRES_STORE_TYPE_COUNT;
+  H5T_class_t kind = H5T_NO_CLASS;
+  size_t size = 0;
 
-  if (kind == H5T_STRING) found = PENDRES_STORE_STRING;
-  else if (kind == H5T_FLOAT) found = PENDRES_STORE_DOUBLE;
-  else if (kind == H5T_INTEGER && size == 1) found = PENDRES_STORE_INT8;
-  else if (kind == H5T_INTEGER && size <= 4) found = PENDRES_STORE_INT32;
-  else if (kind == H5T_INTEGER && size == 8) found = PENDRES_STORE_INT64;
-  if (type >= 0) H5Tclose(type);
-  if (id >= 0) H5Dclose(id);
-  return found;
+  if (H5LTget_dataset_info(store->h5, path, NULL, &kind, &size) < 0)
+    return PENDRES_STORE_TYPE_COUNT;
+  if (kind == H5T_STRING) return PENDRES_STORE_STRING;
+  if (kind == H5T_FLOAT) return PENDRES_STORE_DOUBLE;
+  if (kind == H5T_INTEGER && size == 1) return PENDRES_STORE_INT8;
+  if (kind == H5T_INTEGER && size <= 4) return PENDRES_STORE_INT32;
+  return kind == H5T_INTEGER && size == 8 ? PENDRES_STORE_INT64 : PENDRES_STORE_TYPE_COUNT;
 }
 
 /* A group's member; *name is NULL on failure. */
@@ -154,9 +139,8 @@ static pendres_status find_member(pendres_store *store, const char *group, uint6
 pendres_status pendres_store_member(pendres_store *store, const char *group, uint64_t index,
                                     pendres_store_type *type, char **name)
 {
-  pendres_store_quiet quiet;
   char *path = NULL;
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (name) *name = NULL;
   if (!status && !name)
@@ -172,7 +156,7 @@ pendres_status pendres_store_member(pendres_store *store, const char *group, uin
     free(*name);
     *name = NULL;
   }
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* The last part of a scale's path, into *name. One is enough. */
@@ -192,11 +176,10 @@ static herr_t take_name(hid_t variable, unsigned axis, hid_t scale, void *name)
 pendres_status pendres_store_dimension_of(pendres_store *store, const char *group,
                                           const char *name, int axis, char **dimension)
 {
-  pendres_store_quiet quiet;
   hsize_t sizes[PENDRES_STORE_RANK];
   hid_t id = H5I_INVALID_HID;
   int rank = 0;
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (dimension) *dimension = NULL;
   if (!status && !dimension)
@@ -216,7 +199,7 @@ pendres_status pendres_store_dimension_of(pendres_store *store, const char *grou
     else if (!*dimension) status = PENDRES_OUT_OF_MEMORY;
   }
   if (id >= 0) H5Dclose(id);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* ---- values -------------------------------------------------------------------------------- */
@@ -285,27 +268,25 @@ static pendres_status read_numbers(pendres_store *store, const char *group, cons
 pendres_status pendres_store_read(pendres_store *store, const char *group, const char *name,
                                   pendres_store_type type, void *data, size_t n)
 {
-  pendres_store_quiet quiet;
   const pendres_store_piece all = { 0, UINT64_MAX, n };
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (!status) status = read_numbers(store, group, name, type, all, data);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 pendres_status pendres_store_read_rows(pendres_store *store, const pendres_store_spec *spec,
                                        uint64_t first, uint64_t rows, void *data, size_t n)
 {
-  pendres_store_quiet quiet;
   const pendres_store_piece piece = { first, rows, n };
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (!status && !spec)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no specification");
   if (!status && rows == UINT64_MAX)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "too many rows");
   if (!status) status = read_numbers(store, spec->group, spec->name, spec->type, piece, data);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* HDF5's copy of a text becomes ours, which free() can free whatever allocator HDF5 uses. */
@@ -319,14 +300,13 @@ static pendres_status take_text(char *words, char **text)
 pendres_status pendres_store_read_text(pendres_store *store, const char *group, const char *name,
                                        uint64_t index, char **text)
 {
-  pendres_store_quiet quiet;
   hsize_t sizes[PENDRES_STORE_RANK];
   char *words = NULL;
   const char *label = name ? name : "(null)";
   hid_t id = H5I_INVALID_HID, type = H5I_INVALID_HID;
   const pendres_store_piece piece = { index, 1, 1 };
   int rank = 0;
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (!status && !text)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no room for a text");
@@ -344,7 +324,7 @@ pendres_status pendres_store_read_text(pendres_store *store, const char *group, 
   }
   pendres_store_type_close(PENDRES_STORE_STRING, type);
   if (id >= 0) H5Dclose(id);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* Read a scalar attribute of a group's object, or of the group. */
@@ -378,10 +358,9 @@ pendres_status pendres_store_read_attribute_text(pendres_store *store, const cha
                                                  const char *object, const char *name,
                                                  char **text)
 {
-  pendres_store_quiet quiet;
   char *words = NULL;
   hid_t type = H5I_INVALID_HID;
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (!status && !text)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no room for a text");
@@ -391,18 +370,17 @@ pendres_status pendres_store_read_attribute_text(pendres_store *store, const cha
   if (!status) status = read_attribute(store, group, object, name, type, &words);
   if (!status) status = take_text(words, text);
   pendres_store_type_close(PENDRES_STORE_STRING, type);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 pendres_status pendres_store_read_attribute_double(pendres_store *store, const char *group,
                                                    const char *object, const char *name,
                                                    double *value)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (!status && !value)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no room for a number");
   if (!status) status = read_attribute(store, group, object, name, H5T_NATIVE_DOUBLE, value);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }

@@ -100,11 +100,10 @@ static pendres_status no_hdf5(pendres_store *store)
   return pendres_store_fail(store, PENDRES_OUT_OF_MEMORY, "HDF5 cannot start: out of memory?");
 }
 
-pendres_status pendres_store_enter(pendres_store *store, pendres_store_quiet *quiet, int writing)
+pendres_status pendres_store_enter(pendres_store *store, int writing)
 {
-  const int dead = quiet_begin(quiet) < 0;
-
   if (!store) return PENDRES_INVALID_ARGUMENT;
+  const int dead = quiet_begin(&store->quiet) < 0;
   if (store->failed) return store->failed; /* the message is still that of the failure */
   if (dead) return no_hdf5(store);
   store->message[0] = '\0';
@@ -116,10 +115,10 @@ pendres_status pendres_store_enter(pendres_store *store, pendres_store_quiet *qu
   return PENDRES_OK;
 }
 
-pendres_status pendres_store_leave(pendres_store *store, const pendres_store_quiet *quiet,
-                                   pendres_status status)
+pendres_status pendres_store_leave(pendres_store *store, pendres_status status)
 {
-  if (store && !store->failed) {
+  if (!store) return status;
+  if (!store->failed) {
     if (store->file.error && store->writing)
       status = pendres_store_fail(store, PENDRES_IO, "cannot write '%s': %s", store->file.part,
                                   strerror(store->file.error));
@@ -128,7 +127,7 @@ pendres_status pendres_store_leave(pendres_store *store, const pendres_store_qui
     if (status == PENDRES_OUT_OF_MEMORY && !store->message[0])
       pendres_store_fail(store, status, "out of memory");
   }
-  quiet_end(quiet);
+  quiet_end(&store->quiet);
   return status;
 }
 
@@ -190,7 +189,6 @@ static pendres_status set_root(pendres_store *store, const pendres_store_options
 pendres_status pendres_store_create(const char *path, const pendres_store_options *options,
                                     pendres_store **out)
 {
-  pendres_store_quiet quiet;
   pendres_store *store = NULL;
   pendres_status status;
 
@@ -198,7 +196,7 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
   *out = store = store_new();
   if (!store) return PENDRES_OUT_OF_MEMORY;
   store->writing = 1;
-  if (quiet_begin(&quiet) < 0) {
+  if (quiet_begin(&store->quiet) < 0) {
     status = no_hdf5(store);
     goto leave;
   }
@@ -220,19 +218,18 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
   if (!status && H5Fflush(store->h5, H5F_SCOPE_LOCAL) < 0)
     status = pendres_store_fail_hdf5(store, "cannot write '%s'", store->file.part);
 leave:
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 pendres_status pendres_store_open(const char *path, pendres_store **out)
 {
-  pendres_store_quiet quiet;
   pendres_store *store = NULL;
   pendres_status status = PENDRES_OK;
 
   if (!out) return PENDRES_INVALID_ARGUMENT;
   *out = store = store_new();
   if (!store) return PENDRES_OUT_OF_MEMORY;
-  if (quiet_begin(&quiet) < 0) {
+  if (quiet_begin(&store->quiet) < 0) {
     status = no_hdf5(store);
   } else if (!path || !*path) {
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no path of a file given");
@@ -246,7 +243,7 @@ pendres_status pendres_store_open(const char *path, pendres_store **out)
                  : pendres_store_fail_hdf5(store, "cannot read '%s'", path);
   }
   store->failed = status;
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 /* ---- End ------------------------------------------------------------------------------------- */
@@ -278,18 +275,16 @@ static pendres_status close_h5(pendres_store *store)
 
 pendres_status pendres_store_flush(pendres_store *store)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
+  pendres_status status = pendres_store_enter(store, 1);
 
   if (!status && H5Fflush(store->h5, H5F_SCOPE_LOCAL) < 0)
     status = pendres_store_fail_hdf5(store, "cannot write '%s'", store->file.part);
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 pendres_status pendres_store_close(pendres_store *store)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
+  pendres_status status = pendres_store_enter(store, 1);
 
   if (!status) status = pendres_store_mark_text(store);
   if (!status) status = close_h5(store);
@@ -297,7 +292,7 @@ pendres_status pendres_store_close(pendres_store *store)
     status = pendres_store_file_finish(&store->file, &store->whole);
     if (status) pendres_store_fail(store, status, "%s", store->file.why);
   }
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
 
 void pendres_store_drop_part(const pendres_store *store)
@@ -307,17 +302,16 @@ void pendres_store_drop_part(const pendres_store *store)
 
 pendres_status pendres_store_abandon(pendres_store *store, int keep_part)
 {
-  pendres_store_quiet quiet;
   pendres_status status = PENDRES_OK;
 
   if (!store) return PENDRES_INVALID_ARGUMENT;
-  (void)quiet_begin(&quiet);
+  (void)quiet_begin(&store->quiet);
   /* This comes first, since an HDF5 that is short of memory may crash when it closes. */
   if (!keep_part) pendres_store_drop_part(store);
   if (store->h5 >= 0) status = close_h5(store);
   pendres_store_file_abandon(&store->file, keep_part || store->whole);
   /* Failures do not matter if the file is discarded. */
-  return pendres_store_leave(store, &quiet, keep_part ? status : PENDRES_OK);
+  return pendres_store_leave(store, keep_part ? status : PENDRES_OK);
 }
 
 void pendres_store_free(pendres_store *store)

@@ -198,15 +198,14 @@ static pendres_status read_object(reading *w, hid_t object)
 
 pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets)
 {
-  pendres_store_quiet quiet;
   hid_t root = H5I_INVALID_HID;
   reading w = { .store = store };
-  pendres_status status = pendres_store_enter(store, &quiet, 0);
+  pendres_status status = pendres_store_enter(store, 0);
 
   if (!status && (root = H5Gopen2(store->h5, "/", H5P_DEFAULT)) < 0)
     status = pendres_store_fail_hdf5(store, "'%s' cannot be read", store->file.path);
   if (!status) status = read_object(&w, root);
   if (root >= 0) H5Gclose(root);
   if (datasets) *datasets = w.count;
-  return pendres_store_leave(store, &quiet, status);
+  return pendres_store_leave(store, status);
 }
