@@ -27,9 +27,9 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
                                    size_t n, const size_t *set, const pendres_strobe_lane *lanes)
 {
   size_t count = 0;
-  pendres_initial_guess *guesses = malloc((sets * GUESSES + 1) * sizeof *guesses);
-  if (guesses == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for guesses");
+  pendres_room room = pendres_room_open(ctx, "guesses");
+  pendres_initial_guess *guesses = pendres_room_take(&room, sets * GUESSES, sizeof *guesses);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t first = 0, last; first < n; first = last) {
     last = first;
     while (last < n && set[last] == set[first]) last++;
@@ -40,10 +40,8 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
       guesses[count++] = (pendres_initial_guess){.set = set[first], .y = l->y, .w = l->w};
     }
   }
-  const pendres_status status = pendres_attractor_set_explore(ctx, sets, attractor_sets, count,
-                                                              guesses);
-  free(guesses);
-  return status;
+  return pendres_room_close(
+    &room, pendres_attractor_set_explore(ctx, sets, attractor_sets, count, guesses));
 }
 
 /* Mark the sets whose force is linear and lets all motions grow without bound. */
@@ -66,13 +64,12 @@ static pendres_status order_all(pendres_context *ctx, size_t sets,
                                 pendres_attractor_set *attractor_sets,
                                 size_t n, const size_t *set, pendres_outcome *outcome)
 {
-  pendres_status status = PENDRES_OK;
   size_t most = 0;
   for (size_t s = 0; s < sets; s++)
     if (attractor_sets[s].count > most) most = attractor_sets[s].count;
-  int *rank = malloc((most + 1) * sizeof *rank);
-  if (rank == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  pendres_room room = pendres_room_open(ctx, "attractors");
+  int *rank = pendres_room_take(&room, most, sizeof *rank);
+  pendres_status status = room.status;
   for (size_t s = 0, i = 0; s < sets && status == PENDRES_OK; s++) {
     const pendres_attractor_set *c = &attractor_sets[s];
     status = pendres_attractor_set_order(ctx, &attractor_sets[s], rank);
@@ -82,8 +79,7 @@ static pendres_status order_all(pendres_context *ctx, size_t sets,
         outcome[i].label = c->attractors[outcome[i].attractor].label;
       }
   }
-  free(rank);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
@@ -123,15 +119,9 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
       attractor_sets, .set = set, .budget = budget, .outcome = outcome, .error_ratio = error_ratio};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
   if (status == PENDRES_OK)
-    status = pendres_settle_search(
-      ctx, &(pendres_settle_remaining){.sets = sets, .attractor_sets = attractor_sets,
-                                       .budget = budget, .times = !from->only_attractors,
-                                    .n = n, .set = set, .x = x, .v = v, .lanes = lanes,
-                                    .outcome = outcome});
-  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
-                                            .accuracy = accuracy};
+    status = pendres_settle_search(ctx, sets, attractor_sets, from, &l, lanes);
   if (status == PENDRES_OK && !from->only_attractors)
-    status = pendres_settle_certain(ctx, &labelled);
+    status = pendres_settle_certain(ctx, &l, from, accuracy);
   if (status == PENDRES_OK) status = order_all(ctx, sets, attractor_sets, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
   return pendres_room_close(&room, status);
@@ -246,9 +236,7 @@ pendres_status pendres_settle_known(pendres_context *ctx,
   pendres_settle_labelling l = {.attractor_sets = attractor_set, .order = order, .budget = &most,
                                 .outcome = outcome, .error_ratio = error_ratio};
   status = pendres_settle_lanes(ctx, n, lanes, &l);
-  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = starts->x, .v = starts->v,
-                                            .accuracy = accuracy};
-  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
+  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &l, starts, accuracy);
   ctx->cost.settled_pendulums += (double)n;
   return pendres_room_close(&room, status);
 }

@@ -4,17 +4,7 @@
 #ifndef PENDRES_SETTLE_H
 #define PENDRES_SETTLE_H
 
-#include "orbits/attractor_set.h"
-
-/* Pendulums to be labelled, by the states that they start from. */
-typedef struct pendres_settle_starts {
-  size_t n;
-  const size_t *set; /* number of each one's parameter set, those of one set being consecutive; not
-                        read by pendres_settle_known() */
-  const double *x, *v;
-  int only_attractors; /* 1: what there is to settle on is all that is asked for; outcomes may be
-                          uncertain, and their times too long. Not read by pendres_settle_known() */
-} pendres_settle_starts;
+#include "orbits/settle_lanes.h"
 
 /*
  * Label pendulums of parameter sets that have a set of attractors each. Attractors that are found

@@ -20,13 +20,23 @@ typedef struct pendres_settle_history {
   double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY]; /* unwrapped angle */
 } pendres_settle_history;
 
+/* Pendulums to be labelled, by the states that they start from. */
+typedef struct pendres_settle_starts {
+  size_t n;
+  const size_t *set; /* number of each one's parameter set, those of one set being consecutive; not
+                        read by pendres_settle_known() */
+  const double *x, *v;
+  int only_attractors; /* 1: what there is to settle on is all that is asked for; outcomes may be
+                          uncertain, and their times too long. Not read by pendres_settle_known() */
+} pendres_settle_starts;
+
 /* Arrays are by the numbers of lanes. */
 typedef struct pendres_settle_labelling {
   const pendres_attractor_set *attractor_sets;
   const size_t *order;      /* numbers of the lanes in the order in which they run; NULL: as they
                                are numbered */
   const size_t *set;        /* of each lane; NULL: all belong to the first set of attractors */
-  const long *budget;       /* of each set, periods in all */
+  long *budget;             /* of each set, periods in all */
   pendres_outcome *outcome;
   pendres_settle_history *histories; /* NULL: not kept */
   double *error_ratio;      /* of each lane that settles: the ratio of the error that it carries to
@@ -85,14 +95,6 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
 
 /* ---- settle_certain.c: labels that no error of the integration can change -------------------- */
 
-/* A batch that has been labelled; arrays are by the numbers of its pendulums. */
-typedef struct pendres_settle_labelled {
-  const pendres_settle_labelling *job; /* error_ratio must be kept; it and outcome may change */
-  size_t n;
-  const double *x, *v; /* the starts */
-  double accuracy;     /* error a period that they were run with */
-} pendres_settle_labelled;
-
 /*
  * Make labels certain that are not: of pendulums whose propagated error is not small against what
  * separates one outcome from another. They are integrated again from their starts, more and more
@@ -104,29 +106,27 @@ typedef struct pendres_settle_labelled {
  *
  * Where errors are not propagated, as with adaptive steps, labels are not changed but compared with
  * those of fixed steps: those that agree with a certain one are certain.
+ *
+ * job: what labelled them at first, with error_ratio; that and outcomes may change. accuracy: the
+ * error a period that they were run with.
  */
-pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l);
+pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelling *job,
+                                      const pendres_settle_starts *from, double accuracy);
 
 /* ---- settle_search.c: what attracts pendulums that are in no known ellipse ------------------- */
-
-/* A batch with pendulums that are unresolved. */
-typedef struct pendres_settle_remaining {
-  size_t sets;
-  pendres_attractor_set *attractor_sets; /* may grow */
-  long *budget;                  /* periods of each set, all of which are spent; is raised */
-  int times;                     /* whether the times in which they settle are asked for */
-  size_t n;
-  const size_t *set;             /* of each pendulum, those of a set side by side */
-  const double *x, *v;              /* where they began, */
-  const pendres_strobe_lane *lanes; /* and where they are */
-  pendres_outcome *outcome;
-} pendres_settle_remaining;
 
 /*
  * Each round is twice as long as the one before: pendulums are integrated further, orbits that they
  * have come close to are refined, in every other round chaos is searched for, and pendulums are
  * labelled again. Those that have not settled when the last budget is spent stay unresolved.
+ *
+ * job: what has run the lanes up to their budgets, which are all spent, and raised; the sets, from
+ * the first one of which on its numbers count, may grow.
  */
-pendres_status pendres_settle_search(pendres_context *ctx, const pendres_settle_remaining *q);
+pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
+                                     pendres_attractor_set *attractor_sets,
+                                     const pendres_settle_starts *from,
+                                     const pendres_settle_labelling *job,
+                                     const pendres_strobe_lane *lanes);
 
 #endif

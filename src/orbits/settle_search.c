@@ -131,18 +131,17 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l,
 
 /* Run lanes that have settled on an attractor found by the search once more from the start, to find
    the time in which they settle. */
-static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_remaining *q,
-                             pendres_settle_labelling *job)
+static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_starts *from,
+                             const pendres_strobe_lane *lanes, pendres_settle_labelling *job)
 {
   size_t n = 0;
   for (size_t i = 0; i < l->count; i++) {
     const int attractor = l->outcome[i].attractor;
     if (attractor < 0 || (size_t)attractor < l->known[l->set[i]]) continue;
-    l->index[n] = l->index[i];
-    l->set[n] = q->set[l->index[i]];
+    const size_t k = l->index[n] = l->index[i];
+    l->set[n] = from->set[k];
     l->outcome[n] = pendres_settle_unresolved;
-    l->lanes[n++] = pendres_settle_load_like(&q->lanes[l->index[i]], q->x[l->index[i]],
-                                             q->v[l->index[i]]);
+    l->lanes[n++] = pendres_settle_load_like(&lanes[k], from->x[k], from->v[k]);
   }
   job->outcome = l->outcome;
   job->set = l->set;
@@ -157,12 +156,12 @@ static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_
  * has been spent the search is over, but if chaos was found in the last round, there is one more
  * round, in which lanes may be found to be on it.
  */
-static void raise_budgets(const pendres_context *ctx, const pendres_settle_remaining *q, int round,
-                          lost_lanes *l)
+static void raise_budgets(const pendres_context *ctx, size_t sets,
+                          const pendres_settle_labelling *job, int round, lost_lanes *l)
 {
-  for (size_t s = 0; s < q->sets; s++) {
-    const pendres_attractor_set *c = &q->attractor_sets[s];
-    long *budget = &q->budget[s];
+  for (size_t s = 0; s < sets; s++) {
+    const pendres_attractor_set *c = &job->attractor_sets[s];
+    long *budget = &job->budget[s];
     const long most = pendres_settle_last_budget(ctx, c);
     const long first = pendres_settle_first_budget(&c->pendulum) + FIRST_HISTORY;
     const long more = first << round;
@@ -175,40 +174,44 @@ static void raise_budgets(const pendres_context *ctx, const pendres_settle_remai
   }
 }
 
-pendres_status pendres_settle_search(pendres_context *ctx, const pendres_settle_remaining *q)
+pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
+                                     pendres_attractor_set *attractor_sets,
+                                     const pendres_settle_starts *from,
+                                     const pendres_settle_labelling *job,
+                                     const pendres_strobe_lane *lanes)
 {
   lost_lanes l = {0};
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < q->n; i++) l.count += !pendres_settle_ended(&q->outcome[i]);
+  for (size_t i = 0; i < from->n; i++) l.count += !pendres_settle_ended(&job->outcome[i]);
   if (l.count == 0) return status;
   pendres_room room = pendres_room_open(ctx, "lanes");
-  take_room(&room, q->sets, &l);
+  take_room(&room, sets, &l);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  for (size_t i = 0, k = 0; i < q->n; i++) {
-    if (pendres_settle_ended(&q->outcome[i])) continue;
+  for (size_t i = 0, k = 0; i < from->n; i++) {
+    if (pendres_settle_ended(&job->outcome[i])) continue;
     l.index[k] = i;
-    l.set[k] = q->set[i];
+    l.set[k] = from->set[i];
     l.outcome[k] = pendres_settle_unresolved;
-    l.lanes[k++] = q->lanes[i];
+    l.lanes[k++] = lanes[i];
   }
-  for (size_t s = 0; s < q->sets; s++) l.known[s] = q->attractor_sets[s].count;
+  for (size_t s = 0; s < sets; s++) l.known[s] = attractor_sets[s].count;
 
-  pendres_settle_labelling job = {.attractor_sets = q->attractor_sets, .set = l.set,
-                                  .budget = q->budget,
-                                  .outcome = l.outcome, .histories = l.histories};
+  pendres_settle_labelling again = {.attractor_sets = attractor_sets, .set = l.set,
+                                    .budget = job->budget, .outcome = l.outcome,
+                                    .histories = l.histories};
   for (int round = 0; status == PENDRES_OK; round++) {
     size_t left = 0;
-    raise_budgets(ctx, q, round, &l);
-    status = pendres_settle_lanes(ctx, l.count, l.lanes, &job);
+    raise_budgets(ctx, sets, &again, round, &l);
+    status = pendres_settle_lanes(ctx, l.count, l.lanes, &again);
     for (size_t i = 0; i < l.count; i++) left += (size_t)searched(&l, i);
     if (status != PENDRES_OK || left == 0) break;
-    status = add_recurrences(ctx, &l, q->attractor_sets);
-    if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, q->attractor_sets);
+    status = add_recurrences(ctx, &l, attractor_sets);
+    if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, attractor_sets);
   }
-  if (status == PENDRES_OK)
-    for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
-  if (status == PENDRES_OK && q->times) status = repeat(ctx, &l, q, &job);
-  if (status == PENDRES_OK && q->times)
-    for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
+  for (int timed = 0; timed <= !from->only_attractors && status == PENDRES_OK; timed++) {
+    if (timed) status = repeat(ctx, &l, from, lanes, &again);
+    for (size_t i = 0; i < l.count && status == PENDRES_OK; i++)
+      job->outcome[l.index[i]] = l.outcome[i];
+  }
   return pendres_room_close(&room, status);
 }
