@@ -3,22 +3,12 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_reading.h"
-
-/* What one computation of an orbit found. */
-typedef struct reading {
-  double within; /* the point may be moved by this little, as rounding does, to close the orbit */
-  double m[2][2], m_by[2][2][2];
-  pendres_newton_noise noise; /* of the finer one */
-  pendres_orbit_measures measures;
-} reading;
 
 double pendres_solution_error(double coarse, double fine, double rounding)
 {
@@ -56,31 +46,30 @@ static int winding_of(const pendres_map *map)
  * that is off by may have grown a hundred thousandfold on the way and is taken out, where the orbit
  * at given parameters tells by how much.
  */
-static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c,
-                                    const pendres_newton_samples *taken, double *y, double *w)
+static int take(void *arg, const pendres_newton_candidate *c,
+                const pendres_newton_samples *taken, double *y, double *w,
+                pendres_orbit_computed *out)
 {
-  reading *out = (reading *)arg + c->index;
-  memcpy(out->m, c->m, sizeof out->m);
-  memcpy(out->m_by, c->m_by, sizeof out->m_by);
-  if (!taken->bends) out->noise = pendres_newton_noise_of(c, taken);
+  const pendres_solution *p = (const pendres_solution *)arg + c->index;
   double shift[2];
-  if (out->within > 0.0 && pendres_newton_closed(c, taken, y, w, shift) &&
-      hypot(shift[0], shift[1]) <= out->within)
-    return &out->measures;
+  (void)out;
+  if (!taken->bends && !p->critical && pendres_newton_closed(c, taken, y, w, shift) &&
+      hypot(shift[0], shift[1]) <= p->rounding)
+    return 1;
   for (size_t k = 0; k < taken->count; k++) {
     const double *row = pendres_newton_sample(taken, k, c->lane);
     y[k] = row[0];
     w[k] = row[1];
   }
-  return &out->measures;
+  return 1;
 }
 
 /* Integrate all pairs at their coarse or their fine steps. */
 static pendres_status read_all(pendres_context *ctx, size_t n, const pendres_solution *pairs,
-                               int fine, reading *out)
+                               int fine, pendres_orbit_computed *out)
 {
   const pendres_orbit_reader reader = {
-    .want = PENDRES_ORBIT_PLAIN, .bends = !fine, .take = take, .arg = out};
+    .want = PENDRES_ORBIT_PLAIN, .bends = !fine, .take = take, .arg = (void *)pairs, .out = out};
   pendres_room room = pendres_room_open(ctx, "orbits");
   pendres_newton_candidate *c = pendres_room_take(&room, n, sizeof *c);
   pendres_orbit_guess *guess = pendres_room_take(&room, n, sizeof *guess);
@@ -88,7 +77,6 @@ static pendres_status read_all(pendres_context *ctx, size_t n, const pendres_sol
   for (size_t i = 0; i < n; i++) {
     const pendres_solution *p = &pairs[i];
     const double *u = fine ? p->fine : p->coarse;
-    out[i].within = fine && !p->critical ? p->rounding : 0.0;
     guess[i] = (pendres_orbit_guess){.pendulum = pendres_map_pendulum(p->map.force, u),
                                      .period = p->map.period,
                                      .winding = winding_of(&p->map)};
@@ -107,7 +95,8 @@ static pendres_status read_all(pendres_context *ctx, size_t n, const pendres_sol
  * step: of an angle of order one in a step. The equations of a bifurcation have an inverse of their
  * own, that of I - M is singular there: what it makes of the start is larger along the orbit.
  */
-static double rounding_along(const pendres_solution *pair, const reading *fine, double step)
+static double rounding_along(const pendres_solution *pair, const pendres_orbit_computed *fine,
+                             double step)
 {
   if (pair->critical) return pair->rounding * fine->noise.swell;
   const double y = pair->fine[PENDRES_U_Y], w = pair->fine[PENDRES_U_W];
@@ -115,38 +104,28 @@ static double rounding_along(const pendres_solution *pair, const reading *fine, 
   return fmax(pair->rounding, step * size * fine->noise.along);
 }
 
-static void fill(const pendres_solution *pair, const reading *a, const reading *b, double step,
-                 pendres_orbit *o)
+static void fill(const pendres_solution *pair, pendres_orbit_computed *a,
+                 const pendres_orbit_computed *b, double step, pendres_orbit *o)
 {
-  const double from[2] = {pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
-                          pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]};
+  const double from[2] = {b->y - a->y, b->w - a->w};
   const double along = pendres_orbit_measures_apart(&a->measures, &b->measures, pair->map.period);
   /* The equations of a bifurcation do not multiply errors by the inverse of I - M, which is
      singular there, but by their own. */
-  const double beside =
-    pair->critical
-      ? pair->apart
-      : pendres_orbit_apart_beside(a->m, b->m, a->m_by, from, b->measures.amplitude);
+  const double beside = pair->critical ? pair->apart : pendres_orbit_apart_beside(a, b, from);
   const double apart = fmax(fmax(hypot(from[0], from[1]), along), beside);
 
   /* Velocities are compared, since the two computations may differ in the drive frequency. */
-  const double clocks = pair->coarse[PENDRES_U_OMEGA] / pair->fine[PENDRES_U_OMEGA];
-  pendres_orbit_twice two = {
+  a->w *= pair->coarse[PENDRES_U_OMEGA] / pair->fine[PENDRES_U_OMEGA];
+  const pendres_orbit_twice two = {
     .pendulum = pendres_map_pendulum(pair->map.force, pair->fine),
     .period = pair->map.period,
     .winding = winding_of(&pair->map),
     .steps = pair->fine_steps,
-    .coarse = {pair->coarse[PENDRES_U_Y], clocks * pair->coarse[PENDRES_U_W]},
-    .fine = {pair->fine[PENDRES_U_Y], pair->fine[PENDRES_U_W]},
-    .coarse_measures = &a->measures,
-    .fine_measures = &b->measures,
+    .coarse = a,
+    .fine = b,
     .at_start = {apart, pair->rounding},
     .along = {apart, rounding_along(pair, b, step)},
-    .spectrum.left =
-      pendres_newton_matrix * step * sqrt((double)pair->fine_steps * pair->map.period)};
-  memcpy(two.spectrum.by_point, a->m_by, sizeof two.spectrum.by_point);
-  memcpy(two.spectrum.coarse, a->m, sizeof two.spectrum.coarse);
-  memcpy(two.spectrum.fine, b->m, sizeof two.spectrum.fine);
+    .rounding = step * sqrt((double)pair->fine_steps * pair->map.period)};
   pendres_orbit_set(&two, o);
 }
 
@@ -155,8 +134,8 @@ pendres_status pendres_solution_measure(pendres_context *ctx, size_t n,
 {
   const double step = pendres_newton_rounding(ctx->options.table);
   pendres_room room = pendres_room_open(ctx, "orbits");
-  reading *coarse = pendres_room_take(&room, n, sizeof *coarse);
-  reading *fine = pendres_room_take(&room, n, sizeof *fine);
+  pendres_orbit_computed *coarse = pendres_room_take(&room, n, sizeof *coarse);
+  pendres_orbit_computed *fine = pendres_room_take(&room, n, sizeof *fine);
   pendres_status status = room.status;
   if (status == PENDRES_OK) status = read_all(ctx, n, pairs, 0, coarse);
   if (status == PENDRES_OK) status = read_all(ctx, n, pairs, 1, fine);

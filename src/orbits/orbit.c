@@ -18,28 +18,22 @@
 #include "orbits/orbit_reading.h"
 #include "engine/steps.h"
 
-/* What a run of one candidate with some number of steps gives: the corrected point and its
-   measures. */
-typedef struct result {
-  double y, w;
-  double m[2][2];
-  double m_by[2][2][2]; /* how m changes with y and w; of the coarser run */
-  double off[2];        /* from the point that m was taken at to the corrected one */
-  double dy, dw; /* derivatives of y and w by omega */
+/* Derivatives by the frequency, in one computation of an orbit. */
+typedef struct slopes {
+  double dy, dw; /* of y and w */
   double slope;  /* dA/domega */
-  double slope_apart; /* how far it is from the same integral by parts */
+  double apart;  /* how far it is from the same integral by parts */
   double derivative; /* root mean square of dw/domega along the orbit, for its rounding */
-  pendres_newton_noise noise; /* of the finer run */
-  double rounded[2]; /* what rounding makes of angles along the finer run, and of the slope */
-  pendres_orbit_measures measures;
-} result;
+  double rounded[2]; /* what rounding makes of angles along the finer one, and of the slope */
+} slopes;
 
-/* What is asked of the runs, and where their results go, by the candidates' indices. */
-typedef struct reading {
+/* What is computed with n and with 1.4 n steps, for each guess. */
+typedef struct two_runs {
   pendres_orbit_want want;
-  int points;
-  result *results;
-} reading;
+  int points; /* and multipliers alone */
+  pendres_orbit_computed *coarse, *fine;
+  slopes *coarse_slopes, *fine_slopes; /* where these are wanted */
+} two_runs;
 
 /* Along an unstable orbit the derivative by the frequency from a fixed start and that by the start
    grow, and cancel. Their rounding counts where less than this share of them is left. */
@@ -48,7 +42,7 @@ static const double cancels = 0.1;
 /* Take the loop area's slope, and the same from an integral by parts. Returns 0 at a fold, where
    there is none. */
 static int take_slope(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
-                      result *out)
+                      slopes *out)
 {
   const size_t n = taken->count;
   double sum = 0.0, parts = 0.0, squares = 0.0, cancelled = 0.0, by_omega[2];
@@ -70,100 +64,56 @@ static int take_slope(const pendres_newton_candidate *c, const pendres_newton_sa
   out->slope = cycle * sum / (double)n;
   /* Harmonics next to the number of samples are taken for the first one. They add to the integral
      of the slopes by their number, to that of the angles only once: the difference tells. */
-  out->slope_apart = cycle * (sum - parts) / (double)n;
+  out->apart = cycle * (sum - parts) / (double)n;
   return 1;
 }
 
 /* The samples of one candidate, moved to the corrected point by the linearised flow. */
-static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c,
-                                    const pendres_newton_samples *taken, double *y, double *w)
+static int take(void *arg, const pendres_newton_candidate *c,
+                const pendres_newton_samples *taken, double *y, double *w,
+                pendres_orbit_computed *out)
 {
-  const reading *r = arg;
-  result *out = &r->results[c->index];
-  double shift[2] = {0.0, 0.0};
-  if (!pendres_newton_closed(c, taken, y, w, shift)) return NULL;
-  out->y = c->y + shift[0];
-  out->w = c->w + shift[1];
-  memcpy(out->m, c->m, sizeof out->m);
-  memcpy(out->m_by, c->m_by, sizeof out->m_by);
-  memcpy(out->off, shift, sizeof out->off);
-  out->dy = out->dw = out->slope = out->slope_apart = out->derivative = NAN;
-  if (r->want == PENDRES_ORBIT_FREQUENCY_SLOPE && !take_slope(c, taken, out)) return NULL;
-  if (!taken->bends) out->noise = pendres_newton_noise_of(c, taken);
+  const two_runs *r = arg;
+  slopes *own = taken->bends ? r->coarse_slopes : r->fine_slopes;
+  if (!pendres_newton_closed(c, taken, y, w, out->off)) return 0;
+  out->y = c->y + out->off[0];
+  out->w = c->w + out->off[1];
   /* Without samples an orbit is taken to be as large as it is at phase 0. */
-  if (r->points) out->measures = (pendres_orbit_measures){.amplitude = hypot(out->y, out->w)};
-  return &out->measures;
+  if (r->points) out->measures.amplitude = hypot(out->y, out->w);
+  return r->want != PENDRES_ORBIT_FREQUENCY_SLOPE || take_slope(c, taken, &own[c->index]);
 }
 
-static double size_of(const double m[2][2])
-{
-  return hypot(hypot(m[0][0], m[0][1]), hypot(m[1][0], m[1][1]));
-}
-
-/* What Newton's last step, a linear one, leaves of the orbit's start: terms of second order, and
-   half as much again, since terms of third order follow. */
-static void left_over(const result *coarse, const result *fine, double left[2])
-{
-  double bent[2] = {0.0, 0.0};
-  left[0] = left[1] = 0.0;
-  for (int k = 0; k < 2; k++)
-    for (int i = 0; i < 2; i++)
-      for (int j = 0; j < 2; j++)
-        bent[i] += 0.5 * coarse->m_by[k][i][j] * fine->off[k] * fine->off[j];
-  (void)pendres_newton_solve(fine->m, bent, left, NULL);
-  for (int i = 0; i < 2; i++) left[i] = pendres_orbit_left_over * fabs(left[i]);
-}
-
-static void set_slope(const result *coarse, const result *fine,
-                      const pendres_orbit_uncertainty *uncertainty,
-                      double rounding, pendres_orbit *o, double rounded[2])
+/* The slopes of an orbit whose finer computation is `at`. */
+static void set_slope(const slopes *coarse, slopes *fine, const pendres_orbit_computed *at,
+                      const pendres_orbit_twice *two, pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency, drive = fabs(o->pendulum.drive_amplitude);
+  const pendres_orbit_uncertainty *uncertainty = &two->along;
   double unit[2] = {1.0, 1.0}, z[2], stretch = 1.0;
 
-  (void)pendres_newton_solve(fine->m, unit, z, &stretch);
+  (void)pendres_newton_solve(at->m, unit, z, &stretch);
   o->frequency_derivative[0] = fine->dy;
-  o->frequency_derivative[1] = fine->w + omega * fine->dw;
+  o->frequency_derivative[1] = at->w + omega * fine->dw;
   o->loop_area_slope = fine->slope;
   /* The slope depends on the derivative of the point as the other measures do on the point. */
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
   const pendres_orbit_uncertainty slope_uncertainty = {
     .apart = 1.5 * (derivative + uncertainty->apart),
     .rounding = 2.0 * uncertainty->rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
-                12.0 * rounding * fine->derivative};
+                12.0 * two->rounding * fine->derivative};
   o->loop_area_slope_error =
     pendres_orbit_error(coarse->slope, fine->slope, pi * drive, &slope_uncertainty) +
-    1.5 * fabs(fine->slope_apart);
-  rounded[0] = uncertainty->rounding;
-  rounded[1] = pi * drive * slope_uncertainty.rounding;
-}
-
-/* rounding: what all steps of the orbit leave of an angle of order one. */
-static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fine,
-                                          double rounding)
-{
-  pendres_orbit_spectrum spectrum = {.left = pendres_newton_matrix * rounding};
-  memcpy(spectrum.coarse, coarse->m, sizeof spectrum.coarse);
-  memcpy(spectrum.by_point, coarse->m_by, sizeof spectrum.by_point);
-  /* The matrix belongs to the corrected point. */
-  for (int i = 0; i < 2; i++)
-    for (int j = 0; j < 2; j++)
-      spectrum.fine[i][j] = fine->m[i][j] + coarse->m_by[0][i][j] * fine->off[0] +
-                            coarse->m_by[1][i][j] * fine->off[1];
-  /* The error of that correction: the next term, as of an exponential, and the error of the
-     difference quotients. */
-  const double by_y = size_of(coarse->m_by[0]), by_w = size_of(coarse->m_by[1]);
-  const double size = fmax(size_of(fine->m), DBL_MIN);
-  const double change = (by_y * fabs(fine->off[0]) + by_w * fabs(fine->off[1])) / size;
-  spectrum.left += 0.5 * change * (change + pendres_newton_aside * hypot(by_y, by_w) / size);
-  return spectrum;
+    1.5 * fabs(fine->apart);
+  fine->rounded[0] = uncertainty->rounding;
+  fine->rounded[1] = pi * drive * slope_uncertainty.rounding;
 }
 
 /* At rest each step rounds the same pattern: it may be the worst one, four times the mean. */
 static const double worst = 4.0;
 
 /* Whether an orbit moves by no more than rounding: what steps leave of it, all together. */
-static int rests(const pendres_newton_candidate *c, const result *fine, double last_place)
+static int rests(const pendres_newton_candidate *c, const pendres_orbit_computed *fine,
+                 double last_place)
 {
   return c->guess->winding == 0 &&
          !(fine->measures.amplitude > worst * last_place * fine->noise.along);
@@ -178,8 +128,9 @@ static int rests(const pendres_newton_candidate *c, const result *fine, double l
  * response at one frequency: half of the worst is seen where that is the drive's. noise: the root
  * of the number of steps.
  */
-static double excess_of_rounding(const pendres_newton_candidate *c, const result *fine,
-                                 double last_place, double noise)
+static double excess_of_rounding(const pendres_newton_candidate *c,
+                                 const pendres_orbit_computed *fine, double last_place,
+                                 double noise)
 {
   const pendres_pendulum *p = &c->guess->pendulum;
   double force, slope;
@@ -190,9 +141,11 @@ static double excess_of_rounding(const pendres_newton_candidate *c, const result
 }
 
 /* rounding: what one step leaves of an angle of order one. */
-static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
-                 double rounding, pendres_orbit *o, double rounded[2])
+static void fill(const pendres_newton_candidate *c, const two_runs *runs, double rounding,
+                 pendres_orbit *o)
 {
+  const size_t k = c->index;
+  const pendres_orbit_computed *coarse = &runs->coarse[k], *fine = &runs->fine[k];
   const double noise = sqrt(c->steps * (double)c->guess->period); /* steps round at random */
   const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
   double last_place = fmax(rounding * size, DBL_TRUE_MIN);
@@ -203,24 +156,20 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
                                                     c->guess->period);
   const double from[2] = {fine->y - fine->off[0] - coarse->y + coarse->off[0],
                           fine->w - fine->off[1] - coarse->w + coarse->off[1]};
-  const double beside = pendres_orbit_apart_beside(coarse->m, fine->m, coarse->m_by, from,
-                                                   fine->measures.amplitude);
-  const double apart = fmax(fmax(there, along), beside);
-  pendres_orbit_twice two = {.pendulum = c->guess->pendulum,
-                             .period = c->guess->period,
-                             .winding = c->guess->winding,
-                             .steps = c->steps,
-                             .coarse = {coarse->y, coarse->w},
-                             .fine = {fine->y, fine->w},
-                             .coarse_measures = &coarse->measures,
-                             .fine_measures = &fine->measures,
-                             .at_start = {apart, last_place * fine->noise.start},
-                             .along = {apart, last_place * fine->noise.along},
-                             .spectrum = spectrum_of(coarse, fine, rounding * noise),
-                             .rests = still};
-  left_over(coarse, fine, two.left);
+  const double apart = fmax(fmax(there, along), pendres_orbit_apart_beside(coarse, fine, from));
+  const pendres_orbit_twice two = {.pendulum = c->guess->pendulum,
+                                   .period = c->guess->period,
+                                   .winding = c->guess->winding,
+                                   .steps = c->steps,
+                                   .coarse = coarse,
+                                   .fine = fine,
+                                   .at_start = {apart, last_place * fine->noise.start},
+                                   .along = {apart, last_place * fine->noise.along},
+                                   .rounding = rounding * noise,
+                                   .rests = still};
   pendres_orbit_set(&two, o);
-  set_slope(coarse, fine, &two.along, rounding * noise, o, rounded);
+  if (runs->want == PENDRES_ORBIT_FREQUENCY_SLOPE)
+    set_slope(&runs->coarse_slopes[k], &runs->fine_slopes[k], fine, &two, o);
 }
 
 static int accurate(const pendres_orbit *o, double tolerance)
@@ -231,21 +180,13 @@ static int accurate(const pendres_orbit *o, double tolerance)
          !(o->phase_lag_error * fmin(1.0, o->first_harmonic_amplitude) > tolerance);
 }
 
-/* What is measured with n and with 1.4 n steps, for each guess. */
-typedef struct two_runs {
-  pendres_orbit_want want;
-  int points; /* and multipliers alone */
-  result *coarse, *fine;
-} two_runs;
-
 /* Measure all converged candidates with their present steps. */
 static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                   const two_runs *runs, int bends)
 {
-  reading r = {.want = runs->want, .points = runs->points,
-               .results = bends ? runs->coarse : runs->fine};
   const pendres_orbit_reader reader = {
-    .want = runs->want, .bends = bends, .points = runs->points, .take = take, .arg = &r};
+    .want = runs->want, .bends = bends, .points = runs->points, .take = take,
+    .arg = (void *)runs, .out = bends ? runs->coarse : runs->fine};
   return pendres_orbit_read(ctx, &reader, n, c);
 }
 
@@ -274,7 +215,8 @@ static int is_there(double before, double after)
  * better than those of the coarser map, and the two would agree on a wrong value.
  */
 static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
-                                          pendres_newton_candidate *c, const result *coarse)
+                                          pendres_newton_candidate *c,
+                                          const pendres_orbit_computed *coarse)
 {
   for (size_t first = 0, count; first < n; first += count) {
     const pendres_status status =
@@ -282,7 +224,7 @@ static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
     if (status != PENDRES_OK) return status;
     for (size_t i = first; i < first + count; i++) {
       const pendres_newton_candidate *at = &c[i];
-      const result *before = &coarse[at->index];
+      const pendres_orbit_computed *before = &coarse[at->index];
       double shift[2];
       if (at->state == PENDRES_NEWTON_CONVERGED &&
           is_there(singularity(before->m), singularity(at->m)) &&
@@ -312,7 +254,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
 {
   const double rounding = pendres_newton_rounding(ctx->options.table);
   const pendres_orbit_want want = runs->want;
-  result *coarse = runs->coarse, *fine = runs->fine;
+  const pendres_orbit_computed *coarse = runs->coarse, *fine = runs->fine;
   pendres_status *outcome = to->outcome;
   pendres_status status = pendres_newton_converge(ctx, n, c);
   if (status == PENDRES_OK) status = measure_all(ctx, n, c, runs, 1);
@@ -327,16 +269,12 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
   if (status == PENDRES_OK) status = measure_all(ctx, n, c, runs, 0);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const size_t k = c[i].index;
-    if (c[i].state != PENDRES_NEWTON_CONVERGED) {
+    if (c[i].state != PENDRES_NEWTON_CONVERGED ||
+        !is_there(singularity(coarse[k].m), singularity(fine[k].m))) {
       outcome[k] = PENDRES_NOT_CONVERGED;
       continue;
     }
-    const result *first = &coarse[k], *second = &fine[k];
-    if (!is_there(singularity(first->m), singularity(second->m))) {
-      outcome[k] = PENDRES_NOT_CONVERGED;
-      continue;
-    }
-    fill(&c[i], first, second, rounding, &to->orbit[k], fine[k].rounded);
+    fill(&c[i], runs, rounding, &to->orbit[k]);
     outcome[k] =
       accurate(&to->orbit[k], ctx->options.tolerance) ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
   }
@@ -369,15 +307,14 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
 
 static void set_coarser(size_t n, const two_runs *runs, const outputs *to)
 {
-  const result *coarse = runs->coarse, *fine = runs->fine;
   for (size_t i = 0; i < n && to->coarser != NULL; i++)
     to->coarser[i] = to->outcome[i] == PENDRES_NOT_CONVERGED
                        ? (pendres_orbit_coarser){NAN, NAN, NAN, NAN, NAN}
-                       : (pendres_orbit_coarser){.cosine = coarse[i].measures.cosine[0],
-                                                 .sine = coarse[i].measures.sine[0],
-                                                 .loop_area_slope = coarse[i].slope,
-                                                 .rounding = fine[i].rounded[0],
-                                                 .slope_rounding = fine[i].rounded[1]};
+                       : (pendres_orbit_coarser){.cosine = runs->coarse[i].measures.cosine[0],
+                                                 .sine = runs->coarse[i].measures.sine[0],
+                                                 .loop_area_slope = runs->coarse_slopes[i].slope,
+                                                 .rounding = runs->fine_slopes[i].rounded[0],
+                                                 .slope_rounding = runs->fine_slopes[i].rounded[1]};
 }
 
 static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres_orbit_guess *guess,
@@ -396,7 +333,9 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
   pendres_newton_candidate *c = pendres_room_take(&room, n, sizeof *c);
   const two_runs runs = {.want = want, .points = points,
                          .coarse = pendres_room_take(&room, n, sizeof *runs.coarse),
-                         .fine = pendres_room_take(&room, n, sizeof *runs.fine)};
+                         .fine = pendres_room_take(&room, n, sizeof *runs.fine),
+                         .coarse_slopes = pendres_room_take(&room, n, sizeof *runs.coarse_slopes),
+                         .fine_slopes = pendres_room_take(&room, n, sizeof *runs.fine_slopes)};
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   pendres_status status = start(ctx, n, guess, c);
   size_t left = n;

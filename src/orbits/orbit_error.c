@@ -9,6 +9,7 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
+#include "orbits/orbit_pair.h"
 #include "orbits/orbit_table.h"
 
 /*
@@ -103,21 +104,39 @@ static double norm_of(const double m[2][2])
   return hypot(hypot(m[0][0], m[0][1]), hypot(m[1][0], m[1][1]));
 }
 
-double pendres_orbit_apart_beside(const double coarse[2][2], const double fine[2][2],
-                                  const double by_point[2][2][2], const double from[2],
-                                  double amplitude)
+double pendres_orbit_apart_beside(const pendres_orbit_computed *coarse,
+                                  const pendres_orbit_computed *fine, const double from[2])
 {
   static const double little = 0.2;
+  const double (*by)[2][2] = coarse->m_by;
   double squares = 0.0;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
       /* Less what they differ by because they were taken at two points. */
-      const double moved = by_point[0][i][j] * from[0] + by_point[1][i][j] * from[1];
-      const double off = fmax(0.0, fabs(fine[i][j] - coarse[i][j]) - fabs(moved));
+      const double moved = by[0][i][j] * from[0] + by[1][i][j] * from[1];
+      const double off = fmax(0.0, fabs(fine->m[i][j] - coarse->m[i][j]) - fabs(moved));
       squares += off * off;
     }
-  const double way = norm_of(fine) / hypot(norm_of(by_point[0]), norm_of(by_point[1]));
-  return little * fmin(amplitude, way) * sqrt(squares) * pendres_newton_share(fine);
+  const double way = norm_of(fine->m) / hypot(norm_of(by[0]), norm_of(by[1]));
+  return little * fmin(fine->measures.amplitude, way) * sqrt(squares) *
+         pendres_newton_share(fine->m);
+}
+
+/* The derivative of the map at the finer computation's point. Returns its relative error by
+   rounding, and by the way there from where it was taken: the next term, as of an exponential, and
+   the error of the difference quotients. */
+static double matrix_at(const pendres_orbit_twice *two, double m[2][2])
+{
+  const pendres_orbit_computed *fine = two->fine;
+  const double (*by)[2][2] = two->coarse->m_by, *off = fine->off;
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++)
+      m[i][j] = fine->m[i][j] + by[0][i][j] * off[0] + by[1][i][j] * off[1];
+  const double by_y = norm_of(by[0]), by_w = norm_of(by[1]);
+  const double size = fmax(norm_of(fine->m), DBL_MIN);
+  const double change = (by_y * fabs(off[0]) + by_w * fabs(off[1])) / size;
+  return pendres_newton_matrix * two->rounding +
+         0.5 * change * (change + pendres_newton_aside * hypot(by_y, by_w) / size);
 }
 
 /* The size of the entries, of the two off the diagonal in units in which they are equal. */
@@ -128,39 +147,36 @@ static double size_of(const double (*m)[2])
 
 /* The error of the trace. Its two parts are looked at one by one, since their sum may agree by
    chance. With few steps both parts may agree by chance: then the entries off the diagonal tell, in
-   units in which they are equal. */
-static double trace_error_of(const pendres_orbit_spectrum *s,
-                             const pendres_orbit_uncertainty *uncertainty)
+   units in which they are equal. left: the relative error of entries beside what steps leave. */
+static double trace_error_of(const pendres_orbit_twice *two, const double (*m)[2], double left)
 {
-  const double upper = s->fine[0][0] - s->coarse[0][0], lower = s->fine[1][1] - s->coarse[1][1];
-  const double bend = hypot(s->by_point[0][0][0] + s->by_point[0][1][1],
-                            s->by_point[1][0][0] + s->by_point[1][1][1]);
-  const double across =
-    sqrt(fabs((s->fine[0][1] - s->coarse[0][1]) * (s->fine[1][0] - s->coarse[1][0])));
+  const double (*coarse)[2] = two->coarse->m, (*by)[2][2] = two->coarse->m_by;
+  const pendres_orbit_uncertainty *uncertainty = &two->at_start;
+  const double upper = m[0][0] - coarse[0][0], lower = m[1][1] - coarse[1][1];
+  const double bend = hypot(by[0][0][0] + by[0][1][1], by[1][0][0] + by[1][1][1]);
+  const double across = sqrt(fabs((m[0][1] - coarse[0][1]) * (m[1][0] - coarse[1][0])));
   return 0.3 * fabs(upper + lower) + 0.3 * (fabs(upper) + fabs(lower)) + 0.04 * across +
-         bend * (0.1 * uncertainty->apart + uncertainty->rounding) + s->left * size_of(s->fine);
+         bend * (0.1 * uncertainty->apart + uncertainty->rounding) + left * size_of(m);
 }
 
 /* Monodromy matrix, multipliers and their error. */
-static void set_spectrum(const pendres_orbit_spectrum *s,
-                         const pendres_orbit_uncertainty *uncertainty,
-                         pendres_orbit *o)
+static void set_spectrum(const pendres_orbit_twice *two, pendres_orbit *o)
 {
-  const double omega = o->pendulum.drive_frequency;
+  double m[2][2];
+  const double left = matrix_at(two, m), omega = o->pendulum.drive_frequency;
   const double modulus = exp(-o->pendulum.damping * o->period * pi / omega);
-  const double trace = s->fine[0][0] + s->fine[1][1];
-  const double determinant =
-    s->fine[0][0] * s->fine[1][1] - s->fine[0][1] * s->fine[1][0];
-  double trace_error = trace_error_of(s, uncertainty);
+  const double trace = m[0][0] + m[1][1], determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  double trace_error = trace_error_of(two, (const double (*)[2])m, left);
 
-  o->monodromy[0][0] = s->fine[0][0];
-  o->monodromy[0][1] = s->fine[0][1] / omega;
-  o->monodromy[1][0] = s->fine[1][0] * omega;
-  o->monodromy[1][1] = s->fine[1][1];
+  o->monodromy[0][0] = m[0][0];
+  o->monodromy[0][1] = m[0][1] / omega;
+  o->monodromy[1][0] = m[1][0] * omega;
+  o->monodromy[1][1] = m[1][1];
   pendres_orbit_set_multipliers(trace, modulus, o);
   /* The determinant is known exactly (Liouville). What the computed one is off by tells the error
      of the entries, and the trace is known no better. */
-  const double off = 0.5 * fabs(determinant - modulus * modulus) / (2.0 * size_of(s->fine));
+  const double off =
+    0.5 * fabs(determinant - modulus * modulus) / (2.0 * size_of((const double (*)[2])m));
   if (off > trace_error) trace_error = off;
   /* The trace's error moves a multiplier mu by trace' mu / (mu - other); where two meet they move
      with the square root. */
@@ -171,20 +187,36 @@ static void set_spectrum(const pendres_orbit_spectrum *s,
     fmin(trace_error * size / fmax(gap, 1e-300), sqrt(trace_error) + trace_error);
 }
 
+/* What Newton's last step, a linear one, leaves of the orbit's start: terms of second order, and
+   half as much again, since terms of third order follow. */
+static void left_over(const pendres_orbit_twice *two, double left[2])
+{
+  const double *off = two->fine->off;
+  double bent[2] = {0.0, 0.0};
+  left[0] = left[1] = 0.0;
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < 2; i++)
+      for (int j = 0; j < 2; j++) bent[i] += 0.5 * two->coarse->m_by[k][i][j] * off[k] * off[j];
+  (void)pendres_newton_solve(two->fine->m, bent, left, NULL);
+  for (int i = 0; i < 2; i++) left[i] = pendres_orbit_left_over * fabs(left[i]);
+}
+
 /* The Poincaré point and its errors. turns: whole turns by which the orbit's mean lies outside of
    well 0. */
 static void set_point(const pendres_orbit_twice *two, long turns, pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency;
   const pendres_orbit_uncertainty *uncertainty = &two->at_start;
-  const pendres_coordinates s = {.y = two->fine[0], .w = two->fine[1], .turns = -turns};
+  const pendres_orbit_computed *coarse = two->coarse, *fine = two->fine;
+  const pendres_coordinates s = {.y = fine->y, .w = fine->w, .turns = -turns};
+  double left[2];
+  left_over(two, left);
   pendres_coordinates_out(&o->pendulum, &s, &o->x, &o->v);
   /* x itself is a double, and half of pi is none. */
-  o->x_error = pendres_orbit_error(two->coarse[0], two->fine[0], 1.0, uncertainty) + two->left[0] +
+  o->x_error = pendres_orbit_error(coarse->y, fine->y, 1.0, uncertainty) + left[0] +
                0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
   /* Errors by rounding swing between y and v: below omega = 1, v has those of y. */
-  const double w_error =
-    pendres_orbit_error(two->coarse[1], two->fine[1], 1.0, uncertainty) + two->left[1];
+  const double w_error = pendres_orbit_error(coarse->w, fine->w, 1.0, uncertainty) + left[1];
   o->v_error = omega * w_error + fmax(0.0, 1.0 - omega) * uncertainty->rounding;
 }
 
@@ -196,12 +228,12 @@ void pendres_orbit_set(const pendres_orbit_twice *two, pendres_orbit *o)
   o->winding = two->winding;
   o->steps = two->steps;
   /* The mean angle belongs into well 0. */
-  const long turns = set_measures(two->coarse_measures, two->fine_measures, &two->along, o);
+  const long turns = set_measures(&two->coarse->measures, &two->fine->measures, &two->along, o);
   /* What moves by rounding alone may be faster than rounding of its place tells, by the ratio of
      its own frequency to the drive's; but all that it is seen to dissipate is an error. */
   if (two->rests) o->dissipation_error = fmax(o->dissipation_error, 2.0 * o->dissipation);
   set_point(two, turns, o);
-  set_spectrum(&two->spectrum, &two->at_start, o);
+  set_spectrum(two, o);
   o->frequency_derivative[0] = o->frequency_derivative[1] = NAN;
   o->loop_area_slope = o->loop_area_slope_error = NAN;
 }

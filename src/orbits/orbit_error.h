@@ -8,7 +8,7 @@
 #ifndef PENDRES_ORBIT_ERROR_H
 #define PENDRES_ORBIT_ERROR_H
 
-#include "orbits/orbit_measure.h"
+#include "orbits/orbit_reading.h"
 
 /* How well an orbit is known, from two computations. */
 typedef struct pendres_orbit_uncertainty {
@@ -24,31 +24,20 @@ double pendres_orbit_error(double coarse, double fine, double sensitivity,
  * The distance of two computations at a short distance from the orbit, from the difference of the
  * derivatives of their maps. The maps may agree all along the orbit by chance, but not next to it
  * as well. The short distance is a fraction of the orbit's size or, if that is less, of the
- * distance over which the derivative changes by its own size; by_point is its derivative by y and
- * w. from: the vector from the point where the coarse derivative was taken to that of the fine one.
+ * distance over which the derivative changes by its own size. from: the vector from the point where
+ * the coarse derivative was taken to that of the fine one.
  */
-double pendres_orbit_apart_beside(const double coarse[2][2], const double fine[2][2],
-                                  const double by_point[2][2][2], const double from[2],
-                                  double amplitude);
-
-/* The derivative of the map over the orbit's period by (y, w), from two computations. */
-typedef struct pendres_orbit_spectrum {
-  double coarse[2][2], fine[2][2];
-  double by_point[2][2][2]; /* how its entries change with y and w */
-  double left;              /* relative error of its entries by rounding, and by the correction to
-                               the orbit's point */
-} pendres_orbit_spectrum;
+double pendres_orbit_apart_beside(const pendres_orbit_computed *coarse,
+                                  const pendres_orbit_computed *fine, const double from[2]);
 
 /* Two computations of an orbit. */
 typedef struct pendres_orbit_twice {
   pendres_pendulum pendulum;
   int period, winding, steps; /* steps of the finer one */
-  double coarse[2], fine[2];  /* y and w at phase 0 */
-  double left[2];             /* further errors of the finer one, in y and w */
-  const pendres_orbit_measures *coarse_measures, *fine_measures;
+  const pendres_orbit_computed *coarse, *fine;
   pendres_orbit_uncertainty at_start, along; /* at phase 0, and anywhere */
-  pendres_orbit_spectrum spectrum;
-  int rests; /* it moves by rounding alone */
+  double rounding; /* what all steps leave of an angle of order one */
+  int rests;       /* it moves by rounding alone */
 } pendres_orbit_twice;
 
 /* Set all fields of the orbit and their errors; the slopes become NaN. */

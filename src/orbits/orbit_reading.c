@@ -2,6 +2,7 @@
 #include "orbits/orbit_reading.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/grow.h"
 #include "engine/context_internal.h"
@@ -20,8 +21,12 @@ static pendres_status read_one(const pendres_orbit_reader *reader,
 {
   const size_t n = taken->count;
   double *y = r->work, *w = r->work + n;
-  pendres_orbit_measures *out = reader->take(reader->arg, c, taken, y, w);
-  if (out == NULL) {
+  pendres_orbit_computed *out = &reader->out[c->index];
+  *out = (pendres_orbit_computed){.y = c->y, .w = c->w};
+  memcpy(out->m, c->m, sizeof out->m);
+  memcpy(out->m_by, c->m_by, sizeof out->m_by);
+  if (!taken->bends) out->noise = pendres_newton_noise_of(c, taken);
+  if (!reader->take(reader->arg, c, taken, y, w, out)) {
     c->state = PENDRES_NEWTON_FAILED;
     return PENDRES_OK;
   }
@@ -29,7 +34,8 @@ static pendres_status read_one(const pendres_orbit_reader *reader,
   const pendres_orbit_samples samples = {
     .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
     .tables = &r->tables};
-  return pendres_orbit_table_measure(&c->guess->pendulum, &samples, r->work + 2 * n, out);
+  return pendres_orbit_table_measure(&c->guess->pendulum, &samples, r->work + 2 * n,
+                                     &out->measures);
 }
 
 static pendres_status provide(pendres_context *ctx, size_t samples, room *r)
