@@ -39,6 +39,9 @@ enum {
   ITERATIONS = 200
 };
 
+/* After a step of Newton's method below this the error is of the order of rounding. */
+static const double newton_last_step = 1e-7;
+
 /* ---- errors ---- */
 
 /* The last place of a double of order one, rounded to two digits: bounds of rounding are whole

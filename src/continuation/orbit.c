@@ -7,6 +7,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
+#include "orbits/numbers.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_reading.h"
 
@@ -14,7 +15,7 @@ double pendres_solution_error(double coarse, double fine, double rounding)
 {
   /* An order-8 method's error falls to a fifteenth with 1.4 times the steps; a quarter of the
      difference is claimed, for where the order has not set in yet. */
-  return 0.25 * fabs(fine - coarse) + rounding;
+  return claimed_share * fabs(fine - coarse) + rounding;
 }
 
 void pendres_orbit_set_critical(pendres_special kind, int parameters,

@@ -13,6 +13,7 @@
 #include "orbits/settle.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 
 enum { BATCH_SETS = 64 /* parameter sets worked on at a time */ };
 
@@ -195,9 +196,8 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
 static pendres_status attractors_point(pendres_context *ctx, const pendres_attractors *set,
                                        size_t i, pendres_state *out)
 {
-  enum { STARTS = 256 };
-  double x[STARTS], v[STARTS];
-  pendres_outcome outcome[STARTS];
+  double x[GUESS_CHAOS], v[GUESS_CHAOS];
+  pendres_outcome outcome[GUESS_CHAOS];
   if (set == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractors and out");
   const pendres_attractor *a = pendres_attractors_get(set, i);
   if (a == NULL)
@@ -206,14 +206,14 @@ static pendres_status attractors_point(pendres_context *ctx, const pendres_attra
     *out = (pendres_state){a->orbit.x, a->orbit.v};
     return PENDRES_OK;
   }
-  for (int k = 0; k < STARTS; k++) {
+  for (int k = 0; k < GUESS_CHAOS; k++) {
     /* The two-dimensional golden ratio. */
     x[k] = pi * (2.0 * fmod(0.5 + 0.7548776662466927 * k, 1.0) - 0.5);
     v[k] = 4.0 * fmod(0.5 + 0.5698402909980532 * k, 1.0) - 2.0;
   }
-  pendres_status status = attractors_settle(ctx, set, STARTS, x, v, outcome);
+  pendres_status status = attractors_settle(ctx, set, GUESS_CHAOS, x, v, outcome);
   if (status != PENDRES_OK) return status;
-  for (int k = 0; k < STARTS; k++) {
+  for (int k = 0; k < GUESS_CHAOS; k++) {
     double error;
     if (outcome[k].attractor != (int)i) continue;
     status = pendres_strobe_advance(ctx, 1, &set->attractor_sets[0].pendulum, &x[k], &v[k],

@@ -13,6 +13,7 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/label.h"
+#include "orbits/numbers.h"
 #include "orbits/orbit_table.h"
 
 void pendres_attractor_set_clear(pendres_attractor_set *c)
@@ -224,7 +225,7 @@ static const pendres_cover *cover_of(const pendres_attractor_set *c, int attract
  */
 static double key_of(const pendres_attractor_set *c, int attractor, int k, double *same)
 {
-  static const double rounding[KEYS] = {1e-7, 1e-6, 0.0};
+  static const double rounding[KEYS] = {orbit_same_amplitude, orbit_same_point, 0.0};
   const pendres_attractor *a = &c->attractors[attractor];
   const pendres_cover *cover = cover_of(c, attractor);
   const double orbit[KEYS] = {a->orbit.amplitude, a->orbit.x, a->orbit.v};
@@ -268,8 +269,6 @@ int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order)
 
 /* ---- Mirror images -------------------------------------------------------------------------- */
 
-/* Harmonics of mirror images agree to this, and those of two other orbits of a pendulum do not. */
-static const double same_harmonics = 1e-6;
 enum { HARMONICS = 5 /* that are compared */ };
 
 /* y(t) -> 2 c - y(t + half a drive period) changes the sign of even harmonics, and moves the mean
@@ -277,15 +276,15 @@ enum { HARMONICS = 5 /* that are compared */ };
 int pendres_attractor_set_are_images(const pendres_orbit *a, const pendres_orbit *b)
 {
   if (a->period != b->period || a->winding != -b->winding) return 0;
-  if (!(fabs(a->amplitude - b->amplitude) <= same_harmonics)) return 0;
+  if (!(fabs(a->amplitude - b->amplitude) <= orbit_same_point)) return 0;
   const double middle = 0.5 * (a->mean_angle + b->mean_angle);
   if (pendres_model_of(a->pendulum.force)->period == 0.0 &&
-      !(fabs(middle - pendres_model_centre(&a->pendulum, middle)) <= same_harmonics))
+      !(fabs(middle - pendres_model_centre(&a->pendulum, middle)) <= orbit_same_point))
     return 0;
   for (int m = 1; m <= HARMONICS; m++) {
     const double sign = m % 2 == 0 ? -1.0 : 1.0;
     if (!(hypot(a->cosine[m - 1] - sign * b->cosine[m - 1],
-                a->sine[m - 1] - sign * b->sine[m - 1]) <= same_harmonics))
+                a->sine[m - 1] - sign * b->sine[m - 1]) <= orbit_same_point))
       return 0;
   }
   return 1;

@@ -13,10 +13,8 @@
 #include "engine/room.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 #include "orbits/orbit_prime.h"
-
-/* Guesses closer than this lead to the same orbit, so one of them is enough. */
-static const double same_guess = 0.05;
 
 /* ---- what is in a set of attractors ---- */
 
@@ -29,7 +27,7 @@ static int known(const pendres_attractor_set *c, const pendres_orbit *o)
     double x, v;
     pendres_coordinates_out(&o->pendulum, &place, &x, &v);
     if (at->period == o->period && at->winding == o->winding &&
-        pendres_orbit_apart(o, x, v) < pendres_orbit_same_point)
+        pendres_orbit_apart(o, x, v) < orbit_same_point)
       return 1;
   }
   return 0;
@@ -40,7 +38,7 @@ static int closes_earlier(const pendres_orbit *points, int q)
 {
   for (int d = 1; d < q; d++)
     if (q % d == 0 &&
-        pendres_orbit_apart(&points[0], points[d].x, points[d].v) < pendres_orbit_same_point)
+        pendres_orbit_apart(&points[0], points[d].x, points[d].v) < orbit_same_point)
       return 1;
   return 0;
 }
@@ -161,7 +159,7 @@ static int returns_earlier(const pendres_orbit *o, const pendres_orbit_guess *gu
 {
   for (int d = 1; d < o->period; d++)
     if (o->period % d == 0 &&
-        pendres_orbit_apart(o, guess[d].x, guess[d].v) < 0.5 * pendres_orbit_same_point)
+        pendres_orbit_apart(o, guess[d].x, guess[d].v) < 0.5 * orbit_same_point)
       return 1;
   return 0;
 }
@@ -314,7 +312,7 @@ static size_t distinct_guesses(size_t n, const pendres_initial_guess *s,
       const double dx =
         pendres_less_turns(g[j].x - pendres_model_origin(p) - s[i].y, pendres_model_turn(p));
       new = g[j].period != s[i].period || g[j].winding != s[i].winding ||
-            hypot(dx, g[j].v - s[i].w * p->drive_frequency) > same_guess;
+            hypot(dx, g[j].v - s[i].w * p->drive_frequency) > guess_same;
     }
     if (!new) continue;
     set[count] = s[i].set;
@@ -338,7 +336,7 @@ static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
     int new = !known(&attractor_sets[set[i]], &o[i]);
     for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
       new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
-            pendres_orbit_apart(&o[j], o[i].x, o[i].v) > pendres_orbit_same_point;
+            pendres_orbit_apart(&o[j], o[i].x, o[i].v) > orbit_same_point;
     if (!new) continue;
     set[count] = set[i];
     o[count++] = o[i];

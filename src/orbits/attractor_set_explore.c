@@ -6,14 +6,12 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/steps.h"
 #include "model/model.h"
-
-/* An initial guess that moves by less than this from strobe to strobe is near enough for Newton's
-   method. */
-static const double at_rest = 0.03;
+#include "orbits/numbers.h"
 
 typedef struct guess_run {
   pendres_initial_guess *guesses; /* y and w: one period ago */
@@ -39,14 +37,14 @@ static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   if (pendres_model_escapes(lane->pendulum, lane->y, lane->w)) me->y = NAN;
   if (!(isfinite(advance) && isfinite(me->y))) return 1;
   me->winding = (int)turns;
-  return moved < at_rest || lane->period >= s->periods[me->set];
+  return moved < guess_at_rest || lane->period >= s->periods[me->set];
 }
 
 /* Periods after which a transient has faded to a hundredth, but at least 4 and at most 60. */
 static long guess_periods(const pendres_pendulum *p)
 {
   const double rate = 0.5 * p->damping * two_pi / p->drive_frequency;
-  return (long)ceil(fmin(fmax(4.6 / rate, 4.0), 60.0));
+  return (long)ceil(fmin(fmax(4.6 / rate, 4.0), guess_longest));
 }
 
 pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
@@ -68,7 +66,7 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
     /* A low accuracy is enough: initial guesses only have to come near an orbit. */
     const double speed = pendres_steps_speed(p, guesses[i].y + pendres_model_origin(p),
                                              guesses[i].w * p->drive_frequency);
-    status = pendres_steps_choose(ctx, p, speed, 1e-4, &lanes[i].steps);
+    status = pendres_steps_choose(ctx, p, speed, pendres_accuracy_to_follow(ctx), &lanes[i].steps);
   }
   guess_run s = {.guesses = guesses, .angle = angle, .periods = periods};
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, guess_look, &s);
@@ -79,13 +77,13 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
 /* ---- Where to start ------------------------------------------------------------------------- */
 
 /* Positions across the turn of a pendulum, or across a well, each at rest and moving either way. */
-enum { ACROSS = 12, MOST_WELLS = (PENDRES_ATTRACTOR_SET_STARTS / (3 * ACROSS)) - 1 };
+enum { MOST_WELLS = (PENDRES_ATTRACTOR_SET_STARTS / (3 * GUESS_ACROSS)) - 1 };
 /* The range in which wells are searched for, in units of length of a force, and its resolution. */
-enum { FAR = 8, FINENESS = 64, POINTS = 2 * FAR * FINENESS + 1 };
+enum { POINTS = 2 * GUESS_FAR * GUESS_FINENESS + 1 };
 
 static double place(int i)
 {
-  return (double)(i - FAR * FINENESS) / FINENESS;
+  return (double)(i - GUESS_FAR * GUESS_FINENESS) / GUESS_FINENESS;
 }
 
 /* Where the potential, going from point i one way, first turns down again; -1: nowhere. */
@@ -108,14 +106,14 @@ static size_t in_well(const pendres_pendulum *p, const double u[POINTS], int i, 
   while (low > 0 && low != left && u[low - 1] < top) low--;
   while (high + 1 < POINTS && high != right && u[high + 1] < top) high++;
   size_t n = 0;
-  for (int k = 0; k < ACROSS; k++) {
-    const double part = (k + 0.5) / ACROSS;
+  for (int k = 0; k < GUESS_ACROSS; k++) {
+    const double part = (k + 0.5) / GUESS_ACROSS;
     const double y = place(low) + part * (place(high) - place(low));
     const double at = pendres_model_origin(p) + y;
     const double fastest = sqrt(2.0 * fmax(0.0, top - pendres_model_potential(p, at)));
     for (int j = -1; j <= 1; j++) {
       x[n] = at;
-      v[n++] = 0.7 * fastest * j;
+      v[n++] = guess_speed * fastest * j;
     }
   }
   return n;
@@ -126,10 +124,10 @@ size_t pendres_attractor_set_starts(const pendres_pendulum *p,
                                     double v[PENDRES_ATTRACTOR_SET_STARTS])
 {
   size_t n = 0;
-  for (int i = 0; i < ACROSS; i++)
+  for (int i = 0; i < GUESS_ACROSS; i++)
     for (int j = -1; j <= 1; j++) {
-      x[n] = pendres_model_origin(p) + two_pi * (i - 5.5) / 12.0;
-      v[n++] = 1.3 * j;
+      x[n] = pendres_model_origin(p) + two_pi * (i + 0.5 - 0.5 * GUESS_ACROSS) / GUESS_ACROSS;
+      v[n++] = guess_pendulum_speed * j;
     }
   if (pendres_model_of(p->force)->period > 0.0) return n;
   double u[POINTS];

@@ -11,36 +11,9 @@
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/growth.h"
+#include "orbits/numbers.h"
 #include "orbits/recurrence.h"
 #include "orbits/settle_lanes.h"
-
-enum {
-  SUSPECTS = 16,         /* lanes that are tested first ... */
-  SUSPECT_PERIODS = 128, /* ... over this number of periods */
-  REPLICAS = 64,         /* replicas that are followed, once they have separated */
-  WARM_UP = 200,         /* periods in which they separate */
-  ATTEMPTS = 3,          /* to start replicas, while some leave the chaotic set immediately */
-  BATCHES = PENDRES_GROWTH_BATCHES,
-  BATCH = 120,           /* periods of a batch, at first. Replicas may visit the bands of an
-                            attractor in turn, all in step: 120 periods are whole rounds of 2, 3, 4,
-                            5, 6 or 8 bands */
-  LONGEST_BATCH = 4 * BATCH, /* periods; batches grow to this while replicas do not agree */
-  FEW_BATCHES = 4,       /* after which replicas on different attractors are distinguished */
-  KEPT = 8 * BATCH       /* latest strobe points of a replica that are kept */
-};
-
-/* The logarithm of a suspect's tangent vector must have grown by this. Without chaos the vector
-   grows by a small factor at most. */
-static const double suspicious = 2.0;
-/* Replicas start this close to the suspect, and at each further attempt closer by this factor: the
-   basin of a chaotic attractor in narrow bands may end nearby. */
-static const double scatter = 1e-3, closer = 0.03;
-/* Replicas agree when the variance of their means is less than this multiple of what is expected
-   from their batches. For replicas on one attractor the ratio exceeds 2 in one case of 80000 with
-   16 batches, and in one of 6000 with 4 (F distribution). */
-static const double agreement = 2.0;
-/* The confidence of a mean's error, and that of the bound on the escape rate. */
-static const double confidence = 0.999, escape_confidence = 0.95;
 
 /* ---- replicas that are followed ---- */
 
@@ -108,7 +81,7 @@ static pendres_status find_suspect(pendres_context *ctx, const pendres_attractor
   const pendres_status status = pendres_replicas_advance(ctx, c, asked, a, SUSPECT_PERIODS, NULL);
   *any = 0;
   for (size_t i = 0; i < asked && !*any && status == PENDRES_OK; i++)
-    if (a[i].trapped == 0 && a[i].sum[PENDRES_REPLICA_GROWTH] > suspicious) {
+    if (a[i].trapped == 0 && a[i].sum[PENDRES_REPLICA_GROWTH] > chaos_suspicious) {
       *suspect = a[i];
       *any = 1;
     }
@@ -141,9 +114,9 @@ static pendres_status send_out(pendres_context *ctx, pendres_attractor_set *c,
                                const pendres_replica *suspect, ensemble *v, int *together)
 {
   pendres_replica from = *suspect;
-  double radius = scatter;
+  double radius = chaos_scatter;
   *together = 0;
-  for (int attempt = 0; attempt < ATTEMPTS && !*together; attempt++, radius *= closer) {
+  for (int attempt = 0; attempt < ATTEMPTS && !*together; attempt++, radius *= chaos_closer) {
     for (size_t i = 0; i < REPLICAS; i++) {
       const double angle = golden_angle * (double)i;
       v->a[i] = pendres_replica_at(from.y + radius * cos(angle), from.w + radius * sin(angle));
@@ -240,7 +213,7 @@ static pendres_chaos_mean mean_of(const ensemble *v, pendres_replica_measure m, 
 /* A standard error becomes half the confidence interval (Student's distribution). */
 static pendres_chaos_mean confident(pendres_chaos_mean m)
 {
-  m.error *= pendres_student(confidence, REPLICAS - 1.0);
+  m.error *= pendres_student(chaos_confidence, REPLICAS - 1.0);
   return m;
 }
 
@@ -267,7 +240,7 @@ static int alike(const ensemble *v)
   for (size_t k = 0; k < sizeof telling / sizeof telling[0]; k++) {
     double ratio = 0.0;
     (void)mean_of(v, telling[k], &ratio);
-    if (ratio > agreement) return 0;
+    if (ratio > chaos_agreement) return 0;
   }
   return 1;
 }
@@ -286,7 +259,7 @@ static pendres_chaos_measures measures_of(const pendres_attractor_set *c, const 
     .amplitude = confident(mean_of(v, PENDRES_REPLICA_AMPLITUDE, &ratio)),
     .turns = confident(mean_of(v, PENDRES_REPLICA_TURNS, &ratio)),
     .watched_periods = watched,
-    .escape_rate_bound = -log(1.0 - escape_confidence) / watched};
+    .escape_rate_bound = -log(1.0 - chaos_escape_confidence) / watched};
   m.growth.error += fabs(mean_of(v, PENDRES_REPLICA_COARSE, &ratio).value);
   /* In the long run friction dissipates the work of the drives and the torque. */
   const double other = mean_of(v, PENDRES_REPLICA_OTHER, &ratio).value;

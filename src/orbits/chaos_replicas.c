@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "orbits/attractor_set.h"
 #include "orbits/growth.h"
 #include "engine/context_internal.h"
@@ -13,12 +14,6 @@
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
-
-/* The error of a period that steps are chosen for. In chaos the effect of a single error
-   is soon forgotten: it is enough that errors of means over time are below their statistical
-   errors. For this tangent vectors, which are of fourth order only, need more steps than the
-   states. */
-static const double accuracy = 1e-8;
 
 pendres_replica pendres_replica_at(double y, double w)
 {
@@ -232,7 +227,8 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
   const double origin = pendres_model_origin(&c->pendulum), omega = c->pendulum.drive_frequency;
   for (size_t i = 0; i < n; i++)
     fastest = fmax(fastest, pendres_steps_speed(&c->pendulum, a[i].y + origin, a[i].w * omega));
-  pendres_status status = pendres_steps_choose(ctx, &c->pendulum, fastest, accuracy, &steps);
+  pendres_status status =
+    pendres_steps_choose(ctx, &c->pendulum, fastest, PENDRES_ACCURACY_DEFAULT, &steps);
   steps += steps % 2; /* for tangents with steps twice as long */
   if (status == PENDRES_OK) status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
   if (status != PENDRES_OK) return status;

@@ -5,13 +5,7 @@
 
 #include "engine/block.h"
 #include "model/model.h"
-
-/*
- * A force that grows faster than the distance leads to infinity within a period. The state at the
- * period's end is then no number, or a meaningless one of either sign, beyond all lengths of the
- * force.
- */
-static const double lost_beyond = 1e8;
+#include "orbits/numbers.h"
 
 int pendres_escape_possible(const pendres_pendulum *p)
 {
@@ -20,7 +14,7 @@ int pendres_escape_possible(const pendres_pendulum *p)
 
 int pendres_escape_lost(double y, double w)
 {
-  return !(fabs(y) < lost_beyond && fabs(w) < lost_beyond);
+  return !(fabs(y) < escape_lost_beyond && fabs(w) < escape_lost_beyond);
 }
 
 typedef struct last_period {

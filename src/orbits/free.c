@@ -19,11 +19,9 @@
 #include "engine/tables.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
+#include "orbits/numbers.h"
 
-enum { FIRST_STEPS = 16, MOST_ITERATIONS = 40 };
-
-/* A correction below this leaves an error far below that of the steps. */
-static const double last_correction = 1e-7;
+enum { FIRST_STEPS = 16 };
 
 typedef struct swing {
   double amplitude;
@@ -56,7 +54,8 @@ static double amplification(const swing *s)
 /* The clock's relative error by rounding: half a unit in the last place of each step, at random. */
 static double rounding(const swing *s)
 {
-  return 1.1e-16 * sqrt((double)s->steps) * amplification(s) + DBL_TRUE_MIN / s->amplitude;
+  return 0.5 * last_place_of_one * sqrt((double)s->steps) * amplification(s) +
+         DBL_TRUE_MIN / s->amplitude;
 }
 
 static int one_period(void *arg, size_t index, const pendres_strobe_lane *lane)
@@ -87,7 +86,7 @@ static void judge(const pendres_context *ctx, swing *s)
       return;
     }
     const double growth = pow(part / ctx->options.tolerance, 1.0 / order) * 1.1;
-    wanted = s->steps * fmin(4.0, fmax(1.4, growth));
+    wanted = s->steps * fmin(4.0, fmax(finer_steps, growth));
   }
   s->have_coarse = 1;
   s->coarse = clock;
@@ -101,10 +100,10 @@ static int correct(const pendres_context *ctx, swing *s, const pendres_strobe_la
 {
   /* y + w 2 pi (time / turn) = 0 gives the clock's relative change. */
   double change = lane->y / (two_pi * lane->w);
-  if (!isfinite(change) || s->iterations++ > MOST_ITERATIONS) return 0;
+  if (!isfinite(change) || s->iterations++ > NEWTON_STEPS) return 0;
   change = fmax(-0.3, fmin(0.3, change));
   s->pendulum.drive_frequency *= 1.0 + change;
-  if (fabs(change) < fmax(last_correction, rounding(s))) judge(ctx, s);
+  if (fabs(change) < fmax(newton_last_step, rounding(s))) judge(ctx, s);
   return 1;
 }
 
@@ -137,7 +136,7 @@ static pendres_status turn(pendres_context *ctx, double tolerance, swings *s)
     if (!correct(ctx, one, &s->lane[k]))
       return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
                                   "the period of the free pendulum at amplitude %.17g was not "
-                                  "found within %d iterations", one->amplitude, MOST_ITERATIONS);
+                                  "found within %d iterations", one->amplitude, NEWTON_STEPS);
     s->left += isnan(one->error);
   }
   return PENDRES_OK;

@@ -4,22 +4,12 @@
 #include <float.h>
 #include <math.h>
 
-enum { BATCHES = PENDRES_GROWTH_BATCHES };
+#include "orbits/numbers.h"
 
 /* Vectors are put back to length one where they are longer, or shorter than its inverse. */
 static const double longest = 1e100;
 /* Steps twice as long differ by this times the error of the steps: methods of fourth order. */
 static const double extrapolated = 15.0;
-/* Student's t of 14 degrees of freedom is beyond this once in 13,000 times: of thirteen places in
-   which batches can be parted, once in a thousand at most. */
-static const double apart_by_chance = 5.5;
-/*
- * The logarithm grows by this in chaos, and shrinks by it on orbits. Order may stretch a vector for
- * a while: a rotation next to where a lock has ended is slow in one place, and stretches it as much
- * there as it will shrink it again; motions stay near an upright state, or the ghost of an orbit.
- * What rounding, 1e-13, can be parted by until it is seen is e^30.
- */
-static const double passing = 30.0;
 
 /* ---- tangent vectors ---- */
 
@@ -81,7 +71,7 @@ int pendres_batches_change(const double sum[BATCHES])
     first += sum[k - 1] - mean;
     if (k > 1) between = fmax(between, first * first * BATCHES / (k * (BATCHES - k)));
   }
-  return between * (BATCHES - 2) > apart_by_chance * apart_by_chance * (square - between);
+  return between * (BATCHES - 2) > growth_by_chance * growth_by_chance * (square - between);
 }
 
 /* ---- the verdict ---- */
@@ -89,6 +79,7 @@ int pendres_batches_change(const double sum[BATCHES])
 pendres_growth_verdict pendres_growth_tell(double growth, double latter, double off)
 {
   const double half = 0.5 * off;
-  if (growth - off > passing && latter > half) return PENDRES_GROWTH_CHAOS;
-  return growth + off < -passing && latter < -half ? PENDRES_GROWTH_ORDER : PENDRES_GROWTH_DOUBT;
+  if (growth - off > growth_passing && latter > half) return PENDRES_GROWTH_CHAOS;
+  const int order = growth + off < -growth_passing && latter < -half;
+  return order ? PENDRES_GROWTH_ORDER : PENDRES_GROWTH_DOUBT;
 }

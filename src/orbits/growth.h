@@ -13,9 +13,7 @@
 #define PENDRES_GROWTH_H
 
 #include "engine/block.h"
-
-/* Into which the periods of an average are divided: an even number. */
-enum { PENDRES_GROWTH_BATCHES = 16 };
+#include "orbits/numbers.h"
 
 /* Tangent vectors of length one, as a motion begins with them. */
 #define PENDRES_TANGENTS_BEGIN {{0.6, 0.8}, {0.6, 0.8}}
@@ -35,7 +33,7 @@ void pendres_tangents_take(pendres_block *block, size_t lane, int last, double u
 double pendres_growth_correction(const double growth[2]);
 
 /* The mean of the batches' sums a period, and its standard error. */
-double pendres_batches_mean(const double sum[PENDRES_GROWTH_BATCHES], long batch, double *error);
+double pendres_batches_mean(const double sum[BATCHES], long batch, double *error);
 
 /*
  * Whether batches before and after some one of them differ by more than chance makes them, by
@@ -43,7 +41,7 @@ double pendres_batches_mean(const double sum[PENDRES_GROWTH_BATCHES], long batch
  * another, and its mean is that of neither. Source: Worsley, Journal of the American Statistical
  * Association 74 (1979) 365.
  */
-int pendres_batches_change(const double sum[PENDRES_GROWTH_BATCHES]);
+int pendres_batches_change(const double sum[BATCHES]);
 
 typedef enum pendres_growth_verdict {
   PENDRES_GROWTH_ORDER, /* vectors have shrunk: an orbit, of however many periods */

@@ -5,18 +5,12 @@
 
 #include "base/angles.h"
 #include "model/model.h"
-
-/* Up to this drive an orbit that is alone has a name by its phase lag: the drives of the paper, 0.1
-   and 0.2, and somewhat beyond. */
-static const double strongest_by_lag = 0.25;
-/* Amplitudes of mirror images differ by rounding and the orbits' errors alone, those of states that
-   coexist by more, unless they are about to meet. */
-static const double same_amplitude = 1e-7;
+#include "orbits/numbers.h"
 
 /* By how much amplitudes with these errors may differ and still be those of one state. */
 static double slack(double a, double b)
 {
-  return same_amplitude + fmin(1e-2, a + b);
+  return orbit_same_amplitude + fmin(1e-2, a + b);
 }
 
 int pendres_label_named(const pendres_orbit *o)
@@ -48,7 +42,8 @@ static pendres_label lone(const pendres_label_border *b, const pendres_orbit *o)
 {
   if (b == NULL) {
     if (pendres_model_kind(&o->pendulum) != PENDRES_MODEL_PLAIN) return PENDRES_LABEL_PERIODIC;
-    if (!(fabs(o->pendulum.drive_amplitude) <= strongest_by_lag)) return PENDRES_LABEL_PERIODIC;
+    if (!(fabs(o->pendulum.drive_amplitude) <= label_strongest_by_lag))
+      return PENDRES_LABEL_PERIODIC;
     /* At rest there is no phase lag, and no amplitude. */
     return o->phase_lag >= pi / 3.0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA;
   }

@@ -3,11 +3,12 @@
 
 #include <math.h>
 
+#include "orbits/numbers.h"
+
 /* Where the parts begin and end. */
 static const double part[PENDRES_MEAN_PARTS][2] = {
   {0.0, 1.0}, {0.0, 0.9375}, {0.0625, 1.0}, {0.0, 0.875}, {0.125, 1.0}, {0.0, 0.5}, {0.5, 1.0}};
 enum { LONGER = PENDRES_MEAN_PARTS - 2 };
-static const double careful = 3.0;
 
 pendres_mean_weights pendres_mean_weights_at(long k, long n)
 {
@@ -36,7 +37,7 @@ double pendres_mean_take(const pendres_mean *m, double *error)
     low = fmin(low, m->sum[i] / m->weight[i]);
     high = fmax(high, m->sum[i] / m->weight[i]);
   }
-  *error = careful * (high - low);
+  *error = surely * (high - low);
   return all;
 }
 

@@ -17,6 +17,7 @@
 #include "orbits/orbit_pair.h"
 #include "orbits/orbit_reading.h"
 #include "engine/steps.h"
+#include "orbits/numbers.h"
 
 /* Derivatives by the frequency, in one computation of an orbit. */
 typedef struct slopes {
@@ -34,10 +35,6 @@ typedef struct two_runs {
   pendres_orbit_computed *coarse, *fine;
   slopes *coarse_slopes, *fine_slopes; /* where these are wanted */
 } two_runs;
-
-/* Along an unstable orbit the derivative by the frequency from a fixed start and that by the start
-   grow, and cancel. Their rounding counts where less than this share of them is left. */
-static const double cancels = 0.1;
 
 /* Take the loop area's slope, and the same from an integral by parts. Returns 0 at a fold, where
    there is none. */
@@ -60,7 +57,7 @@ static int take_slope(const pendres_newton_candidate *c, const pendres_newton_sa
   const double cycle = c->guess->pendulum.drive_amplitude * two_pi;
   out->dy = by_omega[0];
   out->dw = by_omega[1];
-  out->derivative = sqrt(fmax(squares, cancels * cancels * cancelled) / (double)n);
+  out->derivative = sqrt(fmax(squares, orbit_cancels * orbit_cancels * cancelled) / (double)n);
   out->slope = cycle * sum / (double)n;
   /* Harmonics next to the number of samples are taken for the first one. They add to the integral
      of the slopes by their number, to that of the angles only once: the difference tells. */
@@ -98,25 +95,22 @@ static void set_slope(const slopes *coarse, slopes *fine, const pendres_orbit_co
   /* The slope depends on the derivative of the point as the other measures do on the point. */
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
   const pendres_orbit_uncertainty slope_uncertainty = {
-    .apart = 1.5 * (derivative + uncertainty->apart),
+    .apart = orbit_left_over * (derivative + uncertainty->apart),
     .rounding = 2.0 * uncertainty->rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
                 12.0 * two->rounding * fine->derivative};
   o->loop_area_slope_error =
     pendres_orbit_error(coarse->slope, fine->slope, pi * drive, &slope_uncertainty) +
-    1.5 * fabs(fine->apart);
+    orbit_left_over * fabs(fine->apart);
   fine->rounded[0] = uncertainty->rounding;
   fine->rounded[1] = pi * drive * slope_uncertainty.rounding;
 }
-
-/* At rest each step rounds the same pattern: it may be the worst one, four times the mean. */
-static const double worst = 4.0;
 
 /* Whether an orbit moves by no more than rounding: what steps leave of it, all together. */
 static int rests(const pendres_newton_candidate *c, const pendres_orbit_computed *fine,
                  double last_place)
 {
   return c->guess->winding == 0 &&
-         !(fine->measures.amplitude > worst * last_place * fine->noise.along);
+         !(fine->measures.amplitude > orbit_worst_rounding * last_place * fine->noise.along);
 }
 
 /*
@@ -134,10 +128,11 @@ static double excess_of_rounding(const pendres_newton_candidate *c,
 {
   const pendres_pendulum *p = &c->guess->pendulum;
   double force, slope;
-  if (!rests(c, fine, last_place)) return pendres_model_is_linear(p) ? 0.5 * worst : 1.0;
+  if (!rests(c, fine, last_place))
+    return pendres_model_is_linear(p) ? 0.5 * orbit_worst_rounding : 1.0;
   pendres_model_force(p, fine->y, &force, &slope);
   const double steps = c->steps * p->drive_frequency / (two_pi * sqrt(fabs(slope)));
-  return fmax(fmin(steps / noise, noise), worst);
+  return fmax(fmin(steps / noise, noise), orbit_worst_rounding);
 }
 
 /* rounding: what one step leaves of an angle of order one. */
@@ -206,7 +201,7 @@ static double singularity(const double m[2][2])
 static int is_there(double before, double after)
 {
   const double ratio = after / before;
-  return ratio > 0.7 && ratio < 1.4;
+  return ratio > 1.0 / newton_there && ratio < newton_there;
 }
 
 /*
@@ -320,7 +315,6 @@ static void set_coarser(size_t n, const two_runs *runs, const outputs *to)
 static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres_orbit_guess *guess,
                                    pendres_orbit_want want, int points, const outputs *to)
 {
-  enum { MOST_TRIES = 4 };
   pendres_status *outcome = to->outcome;
   if (n > 0 && (guess == NULL || to->orbit == NULL || outcome == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "guess, out and outcome");
@@ -339,7 +333,7 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   pendres_status status = start(ctx, n, guess, c);
   size_t left = n;
-  for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
+  for (int attempt = 0; attempt < TRIES && left > 0 && status == PENDRES_OK; attempt++) {
     status = refine_once(ctx, left, c, &runs, to);
     /* What missed the tolerance, or could not be told from a ghost, goes on from where it is, with
        more steps. */

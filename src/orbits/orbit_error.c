@@ -8,8 +8,8 @@
 #include "base/angles.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 #include "orbits/orbit_newton.h"
-#include "orbits/orbit_pair.h"
 #include "orbits/orbit_table.h"
 
 /*
@@ -20,8 +20,8 @@
 double pendres_orbit_error(double coarse, double fine, double sensitivity,
                            const pendres_orbit_uncertainty *uncertainty)
 {
-  return 0.25 * fabs(fine - coarse) +
-         sensitivity * (0.12 * uncertainty->apart + uncertainty->rounding);
+  return claimed_share * fabs(fine - coarse) +
+         sensitivity * (orbit_whole_share * uncertainty->apart + uncertainty->rounding);
 }
 
 /*
@@ -30,11 +30,10 @@ double pendres_orbit_error(double coarse, double fine, double sensitivity,
  */
 static long turns_of_mean(const pendres_pendulum *p, double mean)
 {
-  static const double tie = 0.01;
   long turns = 0;
   double inside = mean;
   pendres_coordinates_wrap(p, &inside, &turns);
-  return inside <= tie - pi && pendres_model_of(p->force)->period > 0.0 ? turns - 1 : turns;
+  return inside <= orbit_tie - pi && pendres_model_of(p->force)->period > 0.0 ? turns - 1 : turns;
 }
 
 /* The values of the table's measures and their errors. */
@@ -62,7 +61,7 @@ static void set_rows(const pendres_orbit_measures *a, const pendres_orbit_measur
 static int is_symmetric(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
                         const pendres_orbit_uncertainty *uncertainty, const pendres_orbit *o)
 {
-  const double nothing = 1e-7 * fmax(1.0, b->amplitude);
+  const double nothing = orbit_same_amplitude * fmax(1.0, b->amplitude);
   if (o->winding != 0 || !pendres_pendulum_symmetric(&o->pendulum)) return 0;
   if (!(b->symmetry_defect <= nothing)) return 0;
   if (pendres_model_of(o->pendulum.force)->period > 0.0) return 1;
@@ -107,7 +106,6 @@ static double norm_of(const double m[2][2])
 double pendres_orbit_apart_beside(const pendres_orbit_computed *coarse,
                                   const pendres_orbit_computed *fine, const double from[2])
 {
-  static const double little = 0.2;
   const double (*by)[2][2] = coarse->m_by;
   double squares = 0.0;
   for (int i = 0; i < 2; i++)
@@ -118,7 +116,7 @@ double pendres_orbit_apart_beside(const pendres_orbit_computed *coarse,
       squares += off * off;
     }
   const double way = norm_of(fine->m) / hypot(norm_of(by[0]), norm_of(by[1]));
-  return little * fmin(fine->measures.amplitude, way) * sqrt(squares) *
+  return orbit_beside_share * fmin(fine->measures.amplitude, way) * sqrt(squares) *
          pendres_newton_share(fine->m);
 }
 
@@ -135,8 +133,8 @@ static double matrix_at(const pendres_orbit_twice *two, double m[2][2])
   const double by_y = norm_of(by[0]), by_w = norm_of(by[1]);
   const double size = fmax(norm_of(fine->m), DBL_MIN);
   const double change = (by_y * fabs(off[0]) + by_w * fabs(off[1])) / size;
-  return pendres_newton_matrix * two->rounding +
-         0.5 * change * (change + pendres_newton_aside * hypot(by_y, by_w) / size);
+  return newton_matrix * two->rounding +
+         0.5 * change * (change + newton_aside * hypot(by_y, by_w) / size);
 }
 
 /* The size of the entries, of the two off the diagonal in units in which they are equal. */
@@ -198,7 +196,7 @@ static void left_over(const pendres_orbit_twice *two, double left[2])
     for (int i = 0; i < 2; i++)
       for (int j = 0; j < 2; j++) bent[i] += 0.5 * two->coarse->m_by[k][i][j] * off[k] * off[j];
   (void)pendres_newton_solve(two->fine->m, bent, left, NULL);
-  for (int i = 0; i < 2; i++) left[i] = pendres_orbit_left_over * fabs(left[i]);
+  for (int i = 0; i < 2; i++) left[i] = orbit_left_over * fabs(left[i]);
 }
 
 /* The Poincaré point and its errors. turns: whole turns by which the orbit's mean lies outside of

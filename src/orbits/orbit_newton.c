@@ -12,24 +12,16 @@
 #include "engine/block.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 #include "orbits/strobe_noise.h"
-
-enum { MOST_ITERATIONS = 20 };
-
-static const int longest_period = 1000000, most_turns = 1000000000;
-
-/* A step longer than this is cut to this length, so that it does not leave the guess's well. A
-   linear force has one orbit alone, which the first step leads to however far it is. */
-static const double longest_step = 0.6;
-/* After a step below this the error is of the order of rounding, by quadratic convergence. */
-static const double last_step = 1e-7;
 
 const char *pendres_orbit_refuses(const pendres_orbit *o)
 {
   const char *why = NULL;
   if (pendres_pendulum_check(&o->pendulum, &why) != PENDRES_OK) return why;
-  if (o->period < 1 || o->period > longest_period) return "an orbit has a period of 1 to 1000000";
-  if (o->winding < -most_turns || o->winding > most_turns)
+  if (o->period < 1 || o->period > ORBIT_LONGEST_PERIOD)
+    return "an orbit has a period of 1 to 1000000";
+  if (o->winding < -ORBIT_MOST_TURNS || o->winding > ORBIT_MOST_TURNS)
     return "an orbit turns over 1000000000 times at most";
   return pendres_coordinates_refuses(&o->pendulum, o->x, o->v);
 }
@@ -69,16 +61,14 @@ static void record(void *arg, int step, const pendres_rows *rows)
       *to++ = pendres_rows_get(rows, (int)row, lane);
 }
 
-const double pendres_newton_aside = 1e-6;
-
 /* Where lane k starts: those of the candidates come first, then those a little aside in y, and in
    w. */
 static pendres_chain_start start_of(const pendres_newton_candidate *c, size_t lanes, size_t k)
 {
   const pendres_newton_candidate *of = &c[k % lanes];
   return (pendres_chain_start){of->guess->pendulum,
-                               k / lanes == 1 ? of->y + pendres_newton_aside : of->y,
-                               k / lanes == 2 ? of->w + pendres_newton_aside : of->w};
+                               k / lanes == 1 ? of->y + newton_aside : of->y,
+                               k / lanes == 2 ? of->w + newton_aside : of->w};
 }
 
 /* How the derivative of the map changes with the point: difference quotients, good to 1e-6. */
@@ -89,7 +79,7 @@ static void read_companions(const pendres_rows *rows, size_t lanes, pendres_newt
     pendres_rows_tangent(rows, (k + 1) * lanes + c->lane, m);
     for (size_t row = 0; row < 2; row++)
       for (size_t column = 0; column < 2; column++)
-        c->m_by[k][row][column] = (m[row][column] - c->m[row][column]) / pendres_newton_aside;
+        c->m_by[k][row][column] = (m[row][column] - c->m[row][column]) / newton_aside;
   }
 }
 
@@ -250,11 +240,9 @@ double pendres_newton_share(const double m[2][2])
   return hypot(back[0], back[1]) / size;
 }
 
-const double pendres_newton_matrix = 9.0;
-
 double pendres_newton_rounding(pendres_table table)
 {
-  return 0.27 * pendres_strobe_noise_of_step(table);
+  return newton_rounding * pendres_strobe_noise_of_step(table);
 }
 
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
@@ -288,22 +276,22 @@ static void improve(pendres_newton_candidate *c)
 
   c->iterations++;
   if (!(step < (linear ? INFINITY : 1e6)) ||
-      (c->iterations > MOST_ITERATIONS && step >= last_step)) {
+      (c->iterations > NEWTON_STEPS && step >= newton_last_step)) {
     c->state = PENDRES_NEWTON_FAILED;
     return;
   }
-  if (step > longest_step && !linear) {
-    by[0] *= longest_step / step;
-    by[1] *= longest_step / step;
+  if (step > newton_longest_step && !linear) {
+    by[0] *= newton_longest_step / step;
+    by[1] *= newton_longest_step / step;
   }
   c->y += by[0];
   c->w += by[1];
-  /* Close to a fold rounding keeps steps from shrinking any further, and the iteration ends. */
-  const int stalled = c->iterations > 8 && step < 1e-5 && step >= 0.5 * c->last_step;
+  const int stalled = c->iterations > NEWTON_STALLED && step < newton_stalled &&
+                      step >= 0.5 * c->last_step;
   c->last_step = step;
   /* The orbit of a tiny drive is tiny itself: go on until the step is small against it. */
   const double size = c->guess->pendulum.drive_amplitude != 0.0 ? hypot(c->y, omega * c->w) : 1.0;
-  const double enough = linear ? last_step * fmax(1.0, size) : last_step;
+  const double enough = linear ? newton_last_step * fmax(1.0, size) : newton_last_step;
   if (step < fmin(enough, size) || stalled) c->state = PENDRES_NEWTON_CONVERGED;
 }
 

@@ -31,9 +31,6 @@ typedef struct pendres_newton_candidate {
   double m_by[2][2][2]; /* derivatives of m by y and by w, from a pass that was asked for them */
 } pendres_newton_candidate;
 
-/* The neighbours of a candidate from which m_by is found start at this distance in y and in w. */
-extern const double pendres_newton_aside;
-
 /* Samples 0 .. samples-1 of a pass, all lanes. */
 typedef struct pendres_newton_samples {
   int bends; /* set by the caller: find m_by as well, from two more lanes a candidate */
@@ -97,9 +94,6 @@ typedef struct pendres_newton_noise {
 /* The unit: the rounding error of one step for an angle of order one. It is smaller on periodic
    orbits than for arbitrary trajectories (strobe_noise.h). */
 double pendres_newton_rounding(pendres_table table);
-/* The relative error of a derivative of the map by rounding, in these units, as measured. It is
-   larger since sums have more terms and twice as many roundings. */
-extern const double pendres_newton_matrix;
 
 /* For a candidate whose samples were taken with their tangents; without samples that of errors that
    do not grow on the way. */

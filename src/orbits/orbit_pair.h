@@ -17,10 +17,6 @@ typedef struct pendres_orbit_coarser {
   double slope_rounding; /* and in the slope */
 } pendres_orbit_coarser;
 
-/* Where a linear step leaves terms of second order: these, and half as much again, since terms of
-   third order follow. */
-static const double pendres_orbit_left_over = 1.5;
-
 /* pendres_orbit_find with slopes; coarser[n] is NaN where there is no orbit. */
 pendres_status pendres_orbit_refine_pair(pendres_context *ctx, size_t n,
                                          const pendres_orbit_guess *guess, pendres_orbit *out,

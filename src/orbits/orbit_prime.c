@@ -7,6 +7,7 @@
 #include "engine/room.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 
 /* The tolerance of a run around the closed orbit, for methods that choose their own steps. */
 static const double run_within = 1e-10;
@@ -31,7 +32,7 @@ double pendres_orbit_apart(const pendres_orbit *o, double x, double v)
 
 static int is_same(const pendres_orbit *o, double x, double v)
 {
-  return pendres_orbit_apart(o, x, v) < pendres_orbit_same_point + 4.0 * (o->x_error + o->v_error);
+  return pendres_orbit_apart(o, x, v) < orbit_same_point + 4.0 * (o->x_error + o->v_error);
 }
 
 /* At each period that divides the orbit's: whether the lane is back where it began. */

@@ -10,11 +10,6 @@
 
 #include <pendres/orbit.h>
 
-/* Poincaré points of one orbit agree to this and their errors. So may those of an orbit that has
-   just doubled its period, but there the shorter one is not stable; stable orbits that differ are
-   that close at most next to a bifurcation. */
-static const double pendres_orbit_same_point = 1e-6;
-
 /* The distance from an orbit's Poincaré point to another point, modulo whole turns. */
 double pendres_orbit_apart(const pendres_orbit *o, double x, double v);
 

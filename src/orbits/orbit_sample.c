@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
-#include "base/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"
@@ -14,6 +13,7 @@
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
+#include "orbits/numbers.h"
 #include "orbits/orbit_series.h"
 
 /* The Fourier series of an orbit from some number of steps a period, and its memory. */
@@ -145,7 +145,6 @@ static const char *refuses_samples(const pendres_orbit *orbit, int count)
 static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
                              double *x, double *v, double *error)
 {
-  enum { MOST_TRIES = 5 };
   curve coarse = {.memory = NULL}, fine = {.memory = NULL};
   if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
   const char *why = refuses_samples(orbit, count);
@@ -155,7 +154,7 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
   pendres_status status = trace(ctx, orbit, steps, &fine);
   if (error != NULL) {
     error[0] = error[1] = INFINITY;
-    for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {
+    for (int attempt = 0; attempt < TRIES && status == PENDRES_OK; attempt++) {
       const curve older = coarse;
       coarse = fine;
       fine = older;

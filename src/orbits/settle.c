@@ -14,10 +14,9 @@
 #include "engine/steps.h"
 #include "model/model.h"
 #include "orbits/linear.h"
+#include "orbits/numbers.h"
 #include "orbits/settle_lanes.h"
 #include "orbits/strobe_noise.h"
-
-enum { GUESSES = 12 /* pendulums of a parameter set that are integrated before the others */ };
 
 /* ---- batches ---- */
 
@@ -28,13 +27,15 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
 {
   size_t count = 0;
   pendres_room room = pendres_room_open(ctx, "guesses");
-  pendres_initial_guess *guesses = pendres_room_take(&room, sets * GUESSES, sizeof *guesses);
+  pendres_initial_guess *guesses =
+    pendres_room_take(&room, sets * GUESS_PENDULUMS, sizeof *guesses);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t first = 0, last; first < n; first = last) {
     last = first;
     while (last < n && set[last] == set[first]) last++;
     if (attractor_sets[set[first]].grows) continue;
-    const size_t members = last - first, wanted = members < GUESSES ? members : GUESSES;
+    const size_t members = last - first;
+    const size_t wanted = members < GUESS_PENDULUMS ? members : GUESS_PENDULUMS;
     for (size_t k = 0; k < wanted; k++) {
       const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
       guesses[count++] = (pendres_initial_guess){.set = set[first], .y = l->y, .w = l->w};
@@ -166,9 +167,6 @@ static void order_by_steps(size_t n, const pendres_strobe_lane *lanes, size_t *o
   }
 }
 
-/* Rounding in single precision was measured for pendulums that turn by so many radians a period. */
-static const double farthest_in_float = 50.0;
-
 /*
  * The first run of plain pendulums may be in single precision up to this speed at the start; -1:
  * none may. The error that they carry includes its rounding, so that a label is certain or the
@@ -178,7 +176,7 @@ static const double farthest_in_float = 50.0;
 static double fastest_in_float(const pendres_context *ctx, const pendres_pendulum *p,
                                pendres_settle_budget budget)
 {
-  const double fastest = farthest_in_float * p->drive_frequency / two_pi;
+  const double fastest = settle_farthest_in_float * p->drive_frequency / two_pi;
   const int may = budget == PENDRES_SETTLE_SHORT && ctx->options.method == PENDRES_BLOCK_FIXED &&
                   pendres_settle_carries(ctx) && pendres_model_kind(p) == PENDRES_MODEL_PLAIN &&
                   pendres_steps_turning_speed(p) <= fastest;

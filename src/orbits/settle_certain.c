@@ -6,12 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/room.h"
-
-/* The error a period of the most exact run: rounding in some hundred steps is as large. */
-static const double most_exact = 1e-14;
-/* A further run is by this factor more exact than would just suffice, and by at least this factor
-   more exact than the run before. */
-static const double to_spare = 4.0, at_least = 30.0;
+#include "orbits/numbers.h"
 
 /* The pendulums with uncertain labels that are to be run again. */
 typedef struct uncertain_labels {
@@ -73,10 +68,10 @@ static pendres_status gather(const pendres_settle_labelling *job, size_t all, do
    that of lanes whose attractor was searched for, is NaN, which leaves at_least. */
 static double tighter(double accuracy, double error_ratio)
 {
-  if (isinf(error_ratio)) return most_exact;
-  const double wanted = accuracy / fmax(at_least, to_spare * error_ratio);
-  if (!(wanted > most_exact)) return most_exact;
-  return fmax(most_exact, pow(10.0, floor(log10(wanted))));
+  if (isinf(error_ratio)) return settle_most_exact;
+  const double wanted = accuracy / fmax(settle_at_least, settle_to_spare * error_ratio);
+  if (!(wanted > settle_most_exact)) return settle_most_exact;
+  return fmax(settle_most_exact, pow(10.0, floor(log10(wanted))));
 }
 
 /* A number of steps not below this one, out of few: the few pendulums that are run again then share
@@ -124,7 +119,7 @@ static pendres_status run(pendres_context *ctx, const pendres_settle_labelling *
   for (size_t s = 0; s < sets && room.status == PENDRES_OK; s++) {
     const pendres_attractor_set *c = &first->attractor_sets[s];
     const long most = pendres_settle_last_budget(ctx, c);
-    const long some = 8 * pendres_settle_first_budget(&c->pendulum);
+    const long some = SETTLE_AGAIN * pendres_settle_first_budget(&c->pendulum);
     budget[s] = some < most ? some : most;
   }
   pendres_settle_labelling job = {.attractor_sets = first->attractor_sets, .set = d->set,
@@ -151,7 +146,7 @@ static void take_over(const pendres_settle_labelling *job, uncertain_labels *d)
       job->outcome[i] = d->outcome[k];
       job->error_ratio[i] = d->error_ratio[k];
     }
-    if (d->outcome[k].certain || d->accuracy[k] <= most_exact) continue;
+    if (d->outcome[k].certain || d->accuracy[k] <= settle_most_exact) continue;
     d->index[left] = i;
     d->set[left] = d->set[k];
     d->error_ratio[left] = d->error_ratio[k];

@@ -11,16 +11,8 @@
 #include "engine/steps.h"
 #include "model/model.h"
 #include "orbits/escape.h"
+#include "orbits/numbers.h"
 #include "orbits/strobe_noise.h"
-
-/* A lane that is in a chaotic attractor's cells at this number of strobes in a row is chaotic. */
-enum { CHAOTIC_STREAK = 32 };
-
-/* Steps after which a lane is given up, unless the caller has set a budget of periods: they take
-   seconds if the lane is alone, and are ten times what settling takes at a damping of 1e-4. Slow
-   drives take many steps per period: they get some periods in any case. */
-static const double most_steps = 5e6;
-static const long some_periods = 200;
 
 /* The time, in drive periods, in which a small oscillation decays to 1/e. */
 static double settling_time(const pendres_pendulum *p)
@@ -30,7 +22,7 @@ static double settling_time(const pendres_pendulum *p)
 
 long pendres_settle_first_budget(const pendres_pendulum *p)
 {
-  return (long)ceil(fmin(20.0 + 10.0 * settling_time(p), 1e7));
+  return (long)ceil(fmin(settle_some + settle_times * settling_time(p), settle_first_most));
 }
 
 /*
@@ -46,9 +38,10 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attrac
     const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
     if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
   }
-  const double most = 2000.0 + 100.0 * settling_time(&c->pendulum) + 20.0 * fmin(slowest, 1e4) +
-                      10.0 * fmin(c->transient, 1e4);
-  return (long)ceil(fmin(most, 1e8));
+  const double most = settle_last_some + settle_last_times * settling_time(&c->pendulum) +
+                      settle_some * fmin(slowest, settle_slowest) +
+                      settle_times * fmin(c->transient, settle_slowest);
+  return (long)ceil(fmin(most, settle_last_most));
 }
 
 int pendres_settle_carries(const pendres_context *ctx)
@@ -105,20 +98,9 @@ static int longer_streak(const pendres_attractor_set *c, const pendres_strobe_la
   return 0;
 }
 
-/*
- * The ratio of the error to the largest one that cannot change the label decides whether that is
- * certain. The error is three propagated standard deviations. Inside an ellipse a twentieth of the
- * radius is allowed (trapping_ellipse.h). On the way there the error must stay small against the
- * distance to a basin boundary: both grow at the same rate, until the distance is that between
- * different outcomes, of order one; a thirtieth of that is allowed. Where the error itself is
- * several times that distance, it is no longer known what the pendulum does: the lane is lost.
- */
-static const double deviations = 3.0, borne = 0.03;
-static const double most_error_ratio = 100.0; /* of a lane that is not lost */
-
 double pendres_settle_error_ratio(double worst)
 {
-  return deviations * sqrt(worst) / borne;
+  return surely * sqrt(worst) / settle_borne;
 }
 
 static double error_ratio_in_ellipse(const pendres_trapping_ellipse *t,
@@ -127,7 +109,7 @@ static double error_ratio_in_ellipse(const pendres_trapping_ellipse *t,
   const pendres_flow_error *e = &lane->off;
   const double variance =
     t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
-  const double here = deviations * sqrt(variance) / t->room;
+  const double here = surely * sqrt(variance) / t->room;
   const double before = pendres_settle_error_ratio(lane->worst);
   if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not propagated */
   return isnan(before) || before > here ? before : here;
@@ -148,7 +130,7 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_at
 {
   const int streak = l->streak[i] = longer_streak(c, lane, l->streak[i]);
   if (streak % STREAK_SCALE <= 1) l->entry[i] = lane->worst;
-  if (streak % STREAK_SCALE < CHAOTIC_STREAK) return 0;
+  if (streak % STREAK_SCALE < SETTLE_CHAOTIC_STREAK) return 0;
   if (lane->period < pendres_settle_first_budget(&c->pendulum)) return 0;
   l->outcome[i] =
     (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
@@ -218,7 +200,7 @@ static size_t set_of(const pendres_settle_labelling *l, size_t i)
 static int spent(const pendres_settle_labelling *l, size_t set, const pendres_strobe_lane *lane)
 {
   return lane->period >= l->budget[set] ||
-         (lane->period >= some_periods && (double)lane->period * lane->steps >= l->most_steps);
+         (lane->period >= WARM_UP && (double)lane->period * lane->steps >= l->most_steps);
 }
 
 /* Whether a lane is lost. What grows on a chaotic attractor after it has been reached does not
@@ -228,7 +210,7 @@ static int lost(const pendres_settle_labelling *l, size_t i, const pendres_attra
 {
   const int on_chaos = c->covers > 0 && l->streak[i] > 0;
   const double worst = on_chaos ? l->entry[i] : lane->worst;
-  if (pendres_settle_error_ratio(worst) <= most_error_ratio) return 0;
+  if (pendres_settle_error_ratio(worst) <= settle_lost) return 0;
   l->error_ratio[i] = INFINITY;
   return 1;
 }
@@ -277,7 +259,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
 {
   int covers = 0, open = 0;
   pendres_room room = pendres_room_open(ctx, "pendulums");
-  l->most_steps = ctx->options.period_budget > 0 ? INFINITY : most_steps;
+  l->most_steps = ctx->options.period_budget > 0 ? INFINITY : settle_most_steps;
   size_t *which = pendres_room_take(&room, n, sizeof *which);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   const size_t left = list_unsettled(n, lanes, l, which, &covers, &open);

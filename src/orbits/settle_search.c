@@ -10,10 +10,6 @@
 #include "orbits/chaos.h"
 #include "orbits/recurrence.h"
 
-enum {
-  FIRST_HISTORY = 65 /* strobe points that are available after the first round */
-};
-
 /* Guess the orbit that a pendulum with this history is near; 0 if it does not come back. */
 static int recurrence(const pendres_settle_history *h, double turn, pendres_initial_guess *s)
 {
@@ -163,7 +159,9 @@ static void raise_budgets(const pendres_context *ctx, size_t sets,
     const pendres_attractor_set *c = &job->attractor_sets[s];
     long *budget = &job->budget[s];
     const long most = pendres_settle_last_budget(ctx, c);
-    const long first = pendres_settle_first_budget(&c->pendulum) + FIRST_HISTORY;
+    /* Half of the points of a history are there after the first round. */
+    const long first =
+      pendres_settle_first_budget(&c->pendulum) + (PENDRES_RECURRENCE_POINTS + 1) / 2;
     const long more = first << round;
     if (l->over[s]) continue;
     l->over[s] = *budget >= most;

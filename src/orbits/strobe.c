@@ -16,6 +16,7 @@
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 
 static int after_all_periods(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
@@ -79,7 +80,7 @@ static pendres_status choose_steps(pendres_context *ctx, size_t n, const double 
 static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p, long periods)
 {
   if (!pendres_method_of(ctx)->running_clock) return 0.0;
-  const double step = 1.1e-16 * two_pi * (double)periods;
+  const double step = 0.5 * last_place_of_one * two_pi * (double)periods;
   return step * sqrt(100.0 * periods_that_count(p, periods));
 }
 
@@ -118,7 +119,7 @@ static double error_of(double apart, double noise, const pendres_strobe_lane *l)
 {
   const double v = fabs(l->w) * l->pendulum->drive_frequency;
   return pendres_strobe_error(apart) + fmax(2.0 * noise, noise + drift_of(l)) +
-         2.2e-16 * fmax(8.0 + two_pi * fabs((double)l->turns), v);
+         last_place_of_one * fmax(8.0 + two_pi * fabs((double)l->turns), v);
 }
 
 /* ---- runs beside each other ------------------------------------------------------------------ */
@@ -139,8 +140,6 @@ typedef struct stretch {
   pendres_coordinates *at; /* n * slots: where the first run was */
   double *apart;     /* n: distances at the end; infinite once two runs have separated */
 } stretch;
-
-enum { MOST_COMPARED = 64 };
 
 /* Where the first run was at a strobe of the stretch; NULL if that strobe is not compared. */
 static pendres_coordinates *place_of(const stretch *s, size_t index, long period)
@@ -171,10 +170,10 @@ static int compare(void *arg, size_t index, const pendres_strobe_lane *lane)
 static stretch stretch_open(pendres_room *room, size_t n, long periods)
 {
   const long fit = (long)(((size_t)1 << 20) / n); /* 24 MB */
-  const long most = fit < 1 ? 1 : fit < MOST_COMPARED ? fit : MOST_COMPARED;
+  const long most = fit < 1 ? 1 : fit < STROBE_MOST_COMPARED ? fit : STROBE_MOST_COMPARED;
   stretch s = {.periods = periods, .length = periods, .every = 1};
   if (pendres_method_of(room->ctx)->fixed_steps) s.length = periods < most ? periods : most;
-  else s.every = (periods + MOST_COMPARED - 1) / MOST_COMPARED;
+  else s.every = (periods + STROBE_MOST_COMPARED - 1) / STROBE_MOST_COMPARED;
   s.slots = (size_t)((s.length + s.every - 1) / s.every);
   s.at = pendres_room_take(room, n * s.slots, sizeof *s.at);
   s.apart = pendres_room_take(room, n, sizeof *s.apart);
@@ -220,7 +219,7 @@ static pendres_status run_with_less_tolerance(pendres_context *ctx, size_t n, st
                                               pendres_strobe_lane *finer, double *noise)
 {
   const double tolerance[] = {pendres_accuracy_second(ctx), pendres_accuracy_third(ctx)};
-  static const double more[] = {1.4, 2.0};
+  static const double more[] = {finer_steps, 2.0};
   pendres_strobe_lane *start = malloc(n * sizeof *start);
   if (start == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);

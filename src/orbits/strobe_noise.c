@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "engine/tables.h"
+#include "orbits/numbers.h"
 
 /*
  * A unit in the last place of angles up to pi, as measured with tp8. The moduli of its weights add
@@ -11,11 +12,10 @@
  */
 double pendres_strobe_noise_of_step(pendres_table table)
 {
-  static const double step_rounding = 4.4e-16, usual_weights = 7.2;
   const pendres_tables_method *m = pendres_tables_get(table);
   double weights = 0.0;
   for (int i = 0; m != NULL && i < m->stages; i++) weights += fabs(m->b[i]);
-  return step_rounding * fmax(1.0, weights / usual_weights);
+  return 2.0 * last_place_of_one * fmax(1.0, weights / step_usual_weights);
 }
 
 /* Single precision has 29 bits less. */

@@ -19,6 +19,7 @@
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
+#include "orbits/numbers.h"
 
 enum { MOST_SAMPLES = 1000000 };
 
@@ -130,8 +131,8 @@ static pendres_status estimate(pendres_context *ctx, pendres_recording *next, co
     const double error = pendres_strobe_error(fmax(dx, dv));
     if (!(error + x_error[k] + v_error[k] < INFINITY)) next->lost = 1;
     const double lost = next->lost ? INFINITY : 0.0;
-    x_error[k] = lost + error + 2.0 * x_error[k] + 2.2e-16 * fabs(first->x[k]);
-    v_error[k] = lost + error + 2.0 * v_error[k] + 2.2e-16 * fabs(first->v[k]);
+    x_error[k] = lost + error + 2.0 * x_error[k] + last_place_of_one * fabs(first->x[k]);
+    v_error[k] = lost + error + 2.0 * v_error[k] + last_place_of_one * fabs(first->v[k]);
   }
   free(finer);
   return status;
@@ -175,8 +176,8 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p,
   out->stretch = (steps + samples - 1) / samples;
   out->x = x0;
   out->v = v0;
-  out->x_error = 2.2e-16 * fabs(x0);
-  out->v_error = 2.2e-16 * fabs(v0);
+  out->x_error = last_place_of_one * fabs(x0);
+  out->v_error = last_place_of_one * fabs(v0);
   out->place.y = out->finer.y = s.y;
   out->place.w = out->finer.w = s.w;
   out->place.turns = out->finer.turns = s.turns;

@@ -9,32 +9,8 @@
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 #include "orbits/trapping_ring.h"
-
-enum {
-  BASE_POINTS = 12, /* of a base ring, which shows only whether the map is nearly linear */
-  BASE_LOOKS = 8,   /* iterates that the map may take to contract a base ring */
-  BASE_PASSES = 8,  /* base rings that are tried */
-  FEW_POINTS = 16,  /* points of any other ring, by effort */
-  MANY_POINTS = 48,
-  RINGS = 3,        /* that are tried at the same time, at most */
-  FEW_LOOKS = 12,   /* iterates after which a ring is given up, by effort */
-  MANY_LOOKS = PENDRES_TRAPPING_LOOKS,
-  FEW_MORE = 16,    /* points that may be inserted into a ring's arcs, by effort */
-  MANY_MORE = 96
-};
-
-/* The radius of the first base ring; the fraction of the contraction that nonlinearity may use. */
-static const double base_first = 0.25, base_departure = 0.7;
-/* Iterates are taken together until the linear map contracts to this. */
-static const double base_contraction = 0.6;
-static const double climb_ratio = 2.5; /* of radii, while rings hold */
-/* The largest radius that holds is found to this factor, by effort. */
-static const double few_ratio = 1.3, many_ratio = 1.04;
-/* A direction whose multiplier is at least this large is slow. */
-static const double slow_multiplier = 0.8;
-/* A point is home where its radius is at most this share of that of the ellipse known already. */
-static const double home_share = 0.9;
 
 /* ---- the linear map ---- */
 
@@ -58,7 +34,7 @@ static int slow_metric(const double m[2][2], double p[3])
 {
   const double half = 0.5 * (m[0][0] + m[1][1]);
   const double root2 = half * half - (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
-  if (!(root2 > 0.0) || fabs(half) + sqrt(root2) < slow_multiplier) return 0;
+  if (!(root2 > 0.0) || fabs(half) + sqrt(root2) < trapping_slow) return 0;
   double a[2], b[2]; /* unit eigenvectors (a[k], b[k]) */
   for (int k = 0; k < 2; k++) {
     const double mu = half + (k == 0 ? sqrt(root2) : -sqrt(root2));
@@ -108,7 +84,6 @@ static int metric_of(const pendres_orbit *o, double p[3])
   for (int i = 0; i < 3; i++) p[i] /= least;
   return 1;
 }
-
 
 /*
  * The largest length that the linear map, `looks` times, makes of a unit length, in the metric: the
@@ -190,7 +165,7 @@ static double ring_departure(const pendres_trapping_ring *r, const pendres_trapp
     const double between = pendres_trapping_departure(r->ellipse, chord, first, last);
     /* NaN at any of the points makes `between` one. */
     if (isnan(between)) return INFINITY;
-    worst = fmax(worst, fmax(at, base_departure * (at + between)));
+    worst = fmax(worst, fmax(at, trapping_base_departure * (at + between)));
   }
   return r->margin > 0.0 ? worst / r->margin : INFINITY;
 }
@@ -215,14 +190,16 @@ typedef struct search {
   double proven, failed; /* largest radius that holds (checked: trapping_ellipse.h), smallest that
                             does not */
   int rings;             /* of this pass */
-  pendres_trapping_ring ring[RINGS];
+  pendres_trapping_ring ring[TRAPPING_RINGS];
 } search;
 
 /* Iterates until the linear map contracts well in the ellipse's metric. */
 static int contraction_looks(const pendres_trapping_ellipse *t, const pendres_orbit *o)
 {
   int looks = 1;
-  while (looks < BASE_LOOKS && linear_share(t, o, looks) >= base_contraction) looks++;
+  while (looks < TRAPPING_BASE_LOOKS &&
+         linear_share(t, o, looks) >= trapping_base_contraction)
+    looks++;
   return looks;
 }
 
@@ -230,10 +207,10 @@ static int contraction_looks(const pendres_trapping_ellipse *t, const pendres_or
    repay the time that its slowest points take. */
 static int patience(const pendres_orbit *o, pendres_trapping_effort effort)
 {
-  if (effort == PENDRES_TRAPPING_MANY) return MANY_LOOKS;
+  if (effort == PENDRES_TRAPPING_MANY) return PENDRES_TRAPPING_LOOKS;
   const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
-  const double way = log(climb_ratio / home_share);
-  return (int)fmin(FEW_LOOKS, 2.0 + ceil(way / rate));
+  const double way = log(trapping_climb / trapping_home);
+  return (int)fmin((PENDRES_TRAPPING_LOOKS / 2), 2.0 + ceil(way / rate));
 }
 
 static void choose_ring(search *s, const pendres_trapping_ellipse *t, double radius, double home,
@@ -254,16 +231,16 @@ static void choose_rings(search *s, const pendres_trapping_ellipse *t)
 {
   s->rings = 0;
   if (s->stage == STAGE_BASE) {
-    choose_ring(s, t, s->base, 0.0, BASE_POINTS, s->base_looks);
+    choose_ring(s, t, s->base, 0.0, TRAPPING_BASE_POINTS, s->base_looks);
   } else if (s->stage == STAGE_CLIMB) {
     const double radius =
       s->failed > 0.0 ? sqrt(s->proven * s->failed)
-                      : fmin(s->proven * climb_ratio, pendres_trapping_widest);
-    choose_ring(s, t, radius, home_share * s->proven, FEW_POINTS, s->looks);
+                      : fmin(s->proven * trapping_climb, trapping_widest);
+    choose_ring(s, t, radius, trapping_home * s->proven, TRAPPING_FEW_POINTS, s->looks);
   } else {
-    for (int k = 1; k <= RINGS; k++)
-      choose_ring(s, t, s->proven * pow(s->failed / s->proven, k / (RINGS + 1.0)),
-                  home_share * s->proven, MANY_POINTS, MANY_LOOKS);
+    for (int k = 1; k <= TRAPPING_RINGS; k++)
+      choose_ring(s, t, s->proven * pow(s->failed / s->proven, k / (TRAPPING_RINGS + 1.0)),
+                  trapping_home * s->proven, TRAPPING_MANY_POINTS, PENDRES_TRAPPING_LOOKS);
   }
 }
 
@@ -272,18 +249,19 @@ static void judge_base(search *s, const pendres_trapping_point *points, const pe
 {
   const double departure = ring_departure(&s->ring[0], points + s->ring[0].first, o);
   s->pass++;
-  if (departure <= base_departure) {
+  if (departure <= trapping_base_departure) {
     /* As the departure grows with the square of the radius, a larger one may do: try that once. */
-    const int last = s->proven > 0.0 || departure > 0.5 * base_departure ||
-                     s->base >= pendres_trapping_widest;
+    const int last = s->proven > 0.0 || departure > 0.5 * trapping_base_departure ||
+                     s->base >= trapping_widest;
     s->proven = s->base;
-    if (last || s->pass >= BASE_PASSES) s->stage = STAGE_CLIMB;
-    s->base = fmin(pendres_trapping_widest, s->base * fmin(0.85 * base_departure / departure, 6.0));
+    if (last || s->pass >= TRAPPING_BASE_PASSES) s->stage = STAGE_CLIMB;
+    s->base = fmin(trapping_widest,
+                   s->base * fmin(0.85 * trapping_base_departure / departure, 6.0));
   } else if (s->proven > 0.0) {
     s->stage = STAGE_CLIMB;
   } else {
-    s->base *= fmax(0.85 * base_departure / departure, 1e-2);
-    if (s->pass >= BASE_PASSES) s->stage = STAGE_DONE;
+    s->base *= fmax(0.85 * trapping_base_departure / departure, 1e-2);
+    if (s->pass >= TRAPPING_BASE_PASSES) s->stage = STAGE_DONE;
   }
 }
 
@@ -303,14 +281,14 @@ static void judge(search *s, const pendres_trapping_point *points, const pendres
     }
     s->proven = s->ring[k].radius;
   }
-  if (s->proven >= pendres_trapping_widest) {
+  if (s->proven >= trapping_widest) {
     s->stage = STAGE_DONE;
   } else if (s->stage == STAGE_FINE) {
-    if (s->failed < many_ratio * s->proven) s->stage = STAGE_DONE;
-  } else if (s->failed > 0.0 && s->failed < few_ratio * s->proven) {
+    if (s->failed < trapping_many_ratio * s->proven) s->stage = STAGE_DONE;
+  } else if (s->failed > 0.0 && s->failed < trapping_few_ratio * s->proven) {
     /* A ring that failed since its points were too far apart may hold with more of them. */
     s->stage = many ? STAGE_FINE : STAGE_DONE;
-    if (many) s->failed *= few_ratio;
+    if (many) s->failed *= trapping_few_ratio;
   }
 }
 
@@ -328,7 +306,7 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
   const int many = effort == PENDRES_TRAPPING_MANY;
   pendres_trapping_point *points = of->points;
   size_t count = 0;
-  pendres_trapping_ring **rings = malloc((n * RINGS + 1) * sizeof *rings);
+  pendres_trapping_ring **rings = malloc((n * TRAPPING_RINGS + 1) * sizeof *rings);
   pendres_status status = PENDRES_OK;
   if (rings == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
@@ -347,7 +325,8 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
   if (status == PENDRES_OK) status = pendres_trapping_rings_run(ctx, count, rings, points,
                                                                 of->lanes);
   if (status == PENDRES_OK)
-    status = pendres_trapping_rings_close(ctx, count, rings, points, many ? MANY_MORE : FEW_MORE);
+    status = pendres_trapping_rings_close(ctx, count, rings, points,
+                                          many ? 2 * TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS);
   free(rings);
   return status;
 }
@@ -371,12 +350,14 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
     const int looks = contraction_looks(&ellipses[i], o);
     s[left++] = (search){.orbit = i,
                          .stage = STAGE_BASE,
-                         .base = base_first,
+                         .base = trapping_base_first,
                          .base_looks = looks,
                          .base_share = linear_share(&ellipses[i], o, looks),
                          .looks = patience(o, effort)};
   }
-  const size_t most = left * RINGS * (effort == PENDRES_TRAPPING_MANY ? MANY_POINTS : FEW_POINTS);
+  const int many = effort == PENDRES_TRAPPING_MANY;
+  const size_t most =
+    left * TRAPPING_RINGS * (many ? TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS);
   const ring_points all = {pendres_room_take(&room, most, sizeof *all.points),
                            pendres_room_take(&room, most, sizeof *all.lanes)};
   pendres_status status = room.status;
@@ -386,8 +367,8 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
       judge(&s[i], all.points, &orbits[s[i].orbit], effort);
-      ellipses[s[i].orbit].radius = (1.0 - pendres_trapping_margin) * s[i].proven;
-      ellipses[s[i].orbit].room = pendres_trapping_margin * ellipses[s[i].orbit].radius;
+      ellipses[s[i].orbit].radius = (1.0 - trapping_margin) * s[i].proven;
+      ellipses[s[i].orbit].room = trapping_margin * ellipses[s[i].orbit].radius;
       if (s[i].stage != STAGE_DONE) s[again++] = s[i];
     }
     left = again;

@@ -77,14 +77,6 @@ static inline void pendres_trapping_state(const pendres_trapping_ellipse *t, dou
   *w = t->w + dw;
 }
 
-/* Longest semi-axis of the outermost ring or disk: well inside one turn, so that angles stay
-   unique. */
-static const double pendres_trapping_widest = 1.6;
-
-/* The radius is less by this share than that of the largest ring that came home, which leaves room
-   for the error of a pendulum that is inside. */
-static const double pendres_trapping_margin = 0.05;
-
 /* The polynomial of the larger region. */
 double pendres_trapping_polynomial(const pendres_trapping_ellipse *t, double y, double w);
 

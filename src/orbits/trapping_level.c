@@ -27,36 +27,14 @@
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 #include "orbits/trapping_ring.h"
 
 enum {
-  CIRCLES = 8, /* of the disk, equally far apart */
-  RAYS = 32,   /* four a period of the fastest angular change of what is left of a fit */
-  POINTS = CIRCLES * RAYS,
+  POINTS = LEVEL_CIRCLES * LEVEL_RAYS,
   FITTED = POINTS / 2,
-  TERMS = PENDRES_TRAPPING_TERMS,
-  PASSES = 12 /* disks that are tried */
+  TERMS = PENDRES_TRAPPING_TERMS
 };
-
-/* Damping is weak where a period leaves more than this of a distance: beyond, rings of a few
-   iterates reach as far. */
-static const double weak = 0.94;
-/* Disks are wider or narrower than the one before by this factor. */
-static const double pace = 1.5;
-/* V falls by at least this share of what the linear map takes from it. */
-static const double least_fall = 0.5;
-/* Along a ray V grows with the distance to a power between these; with the square where the linear
-   map is all. */
-static const double slowest_growth = 0.25, fastest_growth = 4.0;
-/* The share of a fall by damping that a term of size one must change to be in V. Others, such as
-   the square of V itself, are as good one way as another: they are left out. */
-static const double indifferent = 1e-4;
-/* V on the edge of a region, as a share of that on the closed line around it that was checked. With
-   the square of the distance, that leaves pendres_trapping_margin of it. Where V grows with the
-   fourth power it leaves half as much along a ray, and less across: a quarter is allowed for. */
-static const double room_share = 0.25;
-/* Outside of the region, as far as it reaches, V is at least this multiple of its level. */
-static const double beyond = 1.2;
 
 /* ---- the polynomial ---- */
 
@@ -128,7 +106,8 @@ static void even_metric(const pendres_orbit *o, double p[3])
 static void lay(disk *d, pendres_strobe_lane *lanes, const pendres_pendulum *p)
 {
   for (int i = 0; i < POINTS; i++) {
-    const double r = (i / RAYS + 1.0) / CIRCLES, angle = two_pi * (i % RAYS) / RAYS;
+    const double r = (i / LEVEL_RAYS + 1.0) / LEVEL_CIRCLES;
+    const double angle = two_pi * (i % LEVEL_RAYS) / LEVEL_RAYS;
     d->from[i][0] = r * cos(angle);
     d->from[i][1] = r * sin(angle);
     lanes[i] = (pendres_strobe_lane){.pendulum = p, .steps = d->steps};
@@ -174,7 +153,7 @@ static pendres_status fit(pendres_context *ctx, const disk *d, double term[TERMS
     gsl_vector_set(b, (size_t)row++, d->kept - (to[0] * to[0] + to[1] * to[1]) / square);
   }
   for (size_t k = 0; k < TERMS && status == PENDRES_OK; k++)
-    gsl_matrix_set(a, FITTED + k, k, indifferent * (1.0 - d->kept));
+    gsl_matrix_set(a, FITTED + k, k, level_indifferent * (1.0 - d->kept));
   if (status == PENDRES_OK &&
       (gsl_linalg_QR_decomp(a, tau) != 0 ||
        gsl_linalg_QR_lssolve(a, tau, b, &x.vector, left) != 0))
@@ -196,21 +175,21 @@ typedef struct landscape {
 
 static double radius_of(int circle)
 {
-  return (circle + 1.0) / CIRCLES;
+  return (circle + 1.0) / LEVEL_CIRCLES;
 }
 
 static void survey(const disk *d, const double term[TERMS], landscape *l)
 {
   for (int i = 0; i < POINTS; i++) {
     const double here = value_at(term, d->from[i]), there = value_at(term, d->to[i]);
-    const int circle = i / RAYS;
+    const int circle = i / LEVEL_RAYS;
     l->value[i] = here;
     /* Before the first circle it is |z|^2, taken at half of that circle's radius. */
     const double inner = circle > 0 ? radius_of(circle - 1) : 0.5 * radius_of(0);
-    const double before = circle > 0 ? l->value[i - RAYS] : inner * inner;
+    const double before = circle > 0 ? l->value[i - LEVEL_RAYS] : inner * inner;
     l->growth[i] = log(here / before) / log(radius_of(circle) / inner);
-    l->falls[i] = there >= 0.0 && there - here <= -least_fall * (1.0 - d->kept) * here &&
-                  l->growth[i] >= slowest_growth && l->growth[i] <= fastest_growth;
+    l->falls[i] = there >= 0.0 && there - here <= -level_least_fall * (1.0 - d->kept) * here &&
+                  l->growth[i] >= 1.0 / level_growth && l->growth[i] <= level_growth;
   }
 }
 
@@ -220,12 +199,12 @@ static double highest_level(const landscape *l)
 {
   double level = INFINITY;
   for (int i = 0; i < POINTS; i++) {
-    const int circle = i / RAYS, ray = i % RAYS;
-    if (circle == CIRCLES - 1) level = fmin(level, l->value[i]);
+    const int circle = i / LEVEL_RAYS, ray = i % LEVEL_RAYS;
+    if (circle == LEVEL_CIRCLES - 1) level = fmin(level, l->value[i]);
     if (l->falls[i]) continue;
     if (circle == 0) return 0.0;
-    for (int k = RAYS - 1; k <= RAYS + 1; k++)
-      level = fmin(level, l->value[(circle - 1) * RAYS + (ray + k) % RAYS]);
+    for (int k = LEVEL_RAYS - 1; k <= LEVEL_RAYS + 1; k++)
+      level = fmin(level, l->value[(circle - 1) * LEVEL_RAYS + (ray + k) % LEVEL_RAYS]);
   }
   return level;
 }
@@ -235,10 +214,10 @@ static double highest_level(const landscape *l)
 static int comes_back(const landscape *l, int circle, double level, double *least)
 {
   *least = INFINITY;
-  for (int i = circle * RAYS; i < (circle + 1) * RAYS && circle > 0; i++)
-    if (l->value[i - RAYS] > level && l->value[i] < l->value[i - RAYS])
+  for (int i = circle * LEVEL_RAYS; i < (circle + 1) * LEVEL_RAYS && circle > 0; i++)
+    if (l->value[i - LEVEL_RAYS] > level && l->value[i] < l->value[i - LEVEL_RAYS])
       *least = fmin(*least, l->value[i]);
-  return *least < beyond * level;
+  return *least < level_beyond * level;
 }
 
 /* The first circle that is outside of the level on all rays; -1 if none is. Where a ray comes back
@@ -246,14 +225,15 @@ static int comes_back(const landscape *l, int circle, double level, double *leas
 static int outside(const landscape *l, double *level)
 {
   double least, lowest;
-  for (int circle = 0; circle < CIRCLES && *level > 0.0; circle++) {
+  for (int circle = 0; circle < LEVEL_CIRCLES && *level > 0.0; circle++) {
     if (comes_back(l, circle, *level, &least)) {
-      *level = fmin(0.99 * least / beyond, 0.99 * *level);
+      *level = fmin(0.99 * least / level_beyond, 0.99 * *level);
       circle = -1;
       continue;
     }
     lowest = INFINITY;
-    for (int i = circle * RAYS; i < (circle + 1) * RAYS; i++) lowest = fmin(lowest, l->value[i]);
+    for (int i = circle * LEVEL_RAYS; i < (circle + 1) * LEVEL_RAYS; i++)
+      lowest = fmin(lowest, l->value[i]);
     if (lowest > *level) return circle;
   }
   return -1;
@@ -263,8 +243,8 @@ static int outside(const landscape *l, double *level)
 static double radius_at(const landscape *l, int ray, double value)
 {
   int circle = 0;
-  while (circle < CIRCLES - 1 && l->value[circle * RAYS + ray] < value) circle++;
-  const int i = circle * RAYS + ray;
+  while (circle < LEVEL_CIRCLES - 1 && l->value[circle * LEVEL_RAYS + ray] < value) circle++;
+  const int i = circle * LEVEL_RAYS + ray;
   return radius_of(circle) * pow(value / l->value[i], 1.0 / l->growth[i]);
 }
 
@@ -278,17 +258,17 @@ static double take_region(const disk *d, pendres_trapping_ellipse *t, int *whole
   *whole = memchr(l.falls, 0, POINTS) == NULL;
   double level = highest_level(&l);
   if (!(level > 0.0)) return 0.0;
-  level *= 1.0 - pendres_trapping_margin; /* between rays */
+  level *= 1.0 - trapping_margin; /* between rays */
   const int circle = outside(&l, &level);
   if (circle < 0) return 0.0;
-  const double inner = (1.0 - pendres_trapping_margin) * (1.0 - pendres_trapping_margin) * level;
-  for (int ray = 0; ray < RAYS; ray++) {
+  const double inner = (1.0 - trapping_margin) * (1.0 - trapping_margin) * level;
+  for (int ray = 0; ray < LEVEL_RAYS; ray++) {
     const double r = d->radius * radius_at(&l, ray, inner);
     least = fmin(least, r);
-    squares += r * r / RAYS;
+    squares += r * r / LEVEL_RAYS;
   }
-  t->radius = (1.0 - pendres_trapping_margin) * least; /* between rays */
-  t->room = room_share * pendres_trapping_margin * t->radius;
+  t->radius = (1.0 - trapping_margin) * least; /* between rays */
+  t->room = level_room_share * trapping_margin * t->radius;
   t->unit = d->radius;
   t->reach = radius_of(circle) * d->radius;
   t->level = inner;
@@ -311,9 +291,9 @@ static pendres_status judge(pendres_context *ctx, disk *d, pendres_trapping_elli
   } else if (d->best > 0.0) {
     d->done = 1; /* the one before was the best */
   }
-  if (d->passes++ == 0) d->pace = whole ? pace : 1.0 / pace;
-  const double next = fmin(pendres_trapping_widest, d->radius * d->pace);
-  if (d->passes >= PASSES || next == d->radius || next < d->ellipse.radius) d->done = 1;
+  if (d->passes++ == 0) d->pace = whole ? level_pace : 1.0 / level_pace;
+  const double next = fmin(trapping_widest, d->radius * d->pace);
+  if (d->passes >= LEVEL_PASSES || next == d->radius || next < d->ellipse.radius) d->done = 1;
   d->radius = next;
   return status;
 }
@@ -353,7 +333,7 @@ static void begin(disk *d, size_t orbit, const pendres_orbit *o, const pendres_t
 {
   const double kept = exp(-two_pi * o->period * o->pendulum.damping / o->pendulum.drive_frequency);
   *d = (disk){.orbit = orbit, .kept = kept, .ellipse = *t};
-  d->radius = fmin(pendres_trapping_widest, 0.5 * t->radius / (1.0 - kept));
+  d->radius = fmin(trapping_widest, 0.5 * t->radius / (1.0 - kept));
   even_metric(o, d->ellipse.metric);
 }
 
@@ -361,7 +341,7 @@ static int is_weak(const pendres_orbit *o, const pendres_trapping_ellipse *t)
 {
   const double (*m)[2] = o->monodromy, skew = 0.5 * (m[1][1] - m[0][0]);
   return t->radius > 0.0 && skew * skew < -m[0][1] * m[1][0] && /* complex multipliers */
-         hypot(o->multiplier_re[0], o->multiplier_im[0]) > weak;
+         hypot(o->multiplier_re[0], o->multiplier_im[0]) > level_weak;
 }
 
 pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,

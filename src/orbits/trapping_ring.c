@@ -8,12 +8,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-
-/* Neighbours on a ring may drift apart by this many radii. Further apart they do not tell what
-   happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
-static const double widest_gap = 1.0;
-/* Tangents are taken from a second point, this share of an arc further on. */
-static const double beside = 0.125;
+#include "orbits/numbers.h"
 
 /* ---- running ---- */
 
@@ -49,7 +44,8 @@ static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
     p->home = p->looks;
     return PENDRES_TRAPPING_AFTER == 0;
   }
-  if (p->looks >= r->looks || !(norm2 < 16.0 * r->radius * r->radius)) r->failed = 1;
+  if (p->looks >= r->looks || !(norm2 < trapping_lost * trapping_lost * r->radius * r->radius))
+    r->failed = 1;
   return r->failed;
 }
 
@@ -114,7 +110,7 @@ int pendres_trapping_ring_holds(const pendres_trapping_ring *r,
     for (int k = 1; k <= both; k++) {
       double d[2];
       chord_of(a, b, k, d);
-      if (!(length_of(r->ellipse, d[0], d[1]) < widest_gap * r->radius)) return 0;
+      if (!(length_of(r->ellipse, d[0], d[1]) < trapping_widest_gap * r->radius)) return 0;
     }
   }
   return 1;
@@ -184,7 +180,7 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
     if (arc.a->of->failed) continue;
     const double half = 0.5 * width_of(arc.a, arc.b), angle = arc.a->angle + half;
     start(&middle[2 * n], arc.a->of, angle, &c->lanes[2 * n]);
-    start(&middle[2 * n + 1], arc.a->of, angle + beside * half, &c->lanes[2 * n + 1]);
+    start(&middle[2 * n + 1], arc.a->of, angle + trapping_beside * half, &c->lanes[2 * n + 1]);
     c->arcs[n++] = arc;
   }
   const pendres_status status = pendres_strobe_run(ctx, 2 * n, c->lanes, look, middle);
@@ -213,7 +209,7 @@ static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trappin
   for (size_t i = 0; i < n; i++) {
     pendres_trapping_ring *r = rings[i];
     if (!pendres_trapping_ring_holds(r, points + r->first)) continue;
-    const double step = beside * two_pi / r->points;
+    const double step = trapping_beside * two_pi / r->points;
     for (int j = 0; j < r->points; j++, count++)
       start(&c->points[count], r, points[r->first + (size_t)j].angle + step, &c->lanes[count]);
   }

@@ -79,7 +79,7 @@ int pendres_means_scatter(const pendres_runner *r, long periods)
   return periods >= SHOWS && off > few_slips / (double)periods;
 }
 
-static pendres_status finer_steps(pendres_context *ctx, const pendres_runner *r, int *steps)
+static pendres_status steps_of_finer(pendres_context *ctx, const pendres_runner *r, int *steps)
 {
   const pendres_pendulum *p = r->lane.pendulum;
   const int fewest = (int)ceil(more_steps * r->steps);
@@ -122,7 +122,7 @@ pendres_status pendres_means_refine(pendres_context *ctx, size_t n, pendres_runn
     finer[k].state = PENDRES_RUNNER_MOVING;
     finer[k].beside = PENDRES_BESIDE_NOTHING;
     finer[k].near = 0.0; /* not to be caught */
-    status = finer_steps(ctx, &runners[i], &finer[k++].lane.steps);
+    status = steps_of_finer(ctx, &runners[i], &finer[k++].lane.steps);
   }
   if (status == PENDRES_OK) status = pendres_runners_average(ctx, count, finer, batch);
   k = 0;

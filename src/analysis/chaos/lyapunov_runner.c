@@ -10,10 +10,10 @@
 #include "engine/rank.h"
 #include "model/model.h"
 #include "orbits/escape.h"
+#include "orbits/numbers.h"
 
 enum {
-  BATCHES = PENDRES_GROWTH_BATCHES,
-  WARM_UP = 16 /* periods in which the tangent vector turns into the growing direction */
+  TURNING = 16 /* periods in which the tangent vector turns into the growing direction */
 };
 
 /* The distance of a neighbour. Both its rounding errors and its departure from the linear equation
@@ -175,7 +175,7 @@ static void arrive(const average_job *a, size_t lane, long step,
     r->state = PENDRES_RUNNER_CAUGHT;
 }
 
-/* Some runners of equal steps, side by side, over WARM_UP periods and BATCHES batches. */
+/* Some runners of equal steps, side by side, over TURNING periods and BATCHES batches. */
 static pendres_status average_block(const average_job *a, size_t n, const pendres_rank *rank,
                                     runner *runners)
 {
@@ -183,7 +183,7 @@ static pendres_status average_block(const average_job *a, size_t n, const pendre
   const size_t each = a->beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1;
   pendres_block_resize(a->block, each * n);
   for (size_t i = 0; i < n; i++) load(a, each * i, &runners[rank[i].index]);
-  for (long k = -WARM_UP; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
+  for (long k = -TURNING; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
     const pendres_mean_weights weights = pendres_mean_weights_at(k, a->batch * BATCHES);
     status = pendres_block_period(a->block);
     for (size_t i = 0; i < n && status == PENDRES_OK; i++)

@@ -12,6 +12,7 @@
 #include "engine/strobe_run.h"
 #include "orbits/growth.h"
 #include "orbits/mean.h"
+#include "orbits/numbers.h"
 
 enum { PENDRES_RUNNER_LONGEST_ORBIT = 128 /* drive periods of an orbit that is looked for */ };
 
@@ -53,7 +54,7 @@ typedef struct pendres_runner {
   double u[2][2];      /* tangent vectors by steps, and by steps twice as long; with a neighbour
                           both are the direction to it */
   /* Sums over the periods of each batch. */
-  double growth[2][PENDRES_GROWTH_BATCHES], turned[PENDRES_GROWTH_BATCHES];
+  double growth[2][BATCHES], turned[BATCHES];
   pendres_mean turns, squares; /* of rotations: turns a period, and w at its end, squared */
 } pendres_runner;
 

@@ -17,11 +17,7 @@
 #include "orbits/linear.h"
 #include "orbits/settle_lanes.h"
 #include "analysis/chaos/lyapunov_caught.h"
-
-enum {
-  BATCHES = PENDRES_GROWTH_BATCHES,
-  TRANSIENT = 200 /* drive periods, where damping is not weak */
-};
+#include "orbits/numbers.h"
 
 /* A pendulum whose strobe point comes back this closely is taken to be next to an orbit, at first.
    */
@@ -57,7 +53,7 @@ static long transient_of(const job *j, const pendres_strobe_lane *lane)
   /* Across the curve of a rotation they shrink by all of the damping; to exp(-25), 1e-11, here. */
   const double forgets = p->drive_frequency / (two_pi * p->damping);
   if (j->care == PENDRES_CARE_CLOSE) return 16 + (long)(25.0 * forgets);
-  return (long)fmax(TRANSIENT, fmin(longest_transient(lane), 80.0 * forgets));
+  return (long)fmax(WARM_UP, fmin(longest_transient(lane), 80.0 * forgets));
 }
 
 /* Whether the start is forgotten before averages begin. Where damping is so weak that it is not,

@@ -13,6 +13,7 @@
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"
 #include "analysis/resonance/response_parts.h"
+#include "orbits/numbers.h"
 
 /* ---- evaluating frequencies ---- */
 
@@ -226,7 +227,7 @@ static double lag_error(const pendres_scan_point *at, const pendres_scan_point *
   const double turning = direction[0] * turn[1] - direction[1] * turn[0];
   const pendres_orbit_uncertainty uncertainty = {hypot(apart[0], apart[1]), coarser->rounding};
   const double off =
-    (pendres_orbit_left_over * fabs(o->loop_area_slope) + coarser->slope_rounding) / curvature;
+    (orbit_left_over * fabs(o->loop_area_slope) + coarser->slope_rounding) / curvature;
   return (pendres_orbit_error(across, 0.0, 1.0, &uncertainty) + fabs(turning * off)) / radius +
          chance * full;
 }
