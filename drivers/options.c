@@ -15,7 +15,10 @@
 #include "farm/farm.h"
 #include "shard.h"
 
-enum { MOST_THREADS = FARM_MOST_THREADS };
+enum {
+  MOST_THREADS = FARM_MOST_THREADS,
+  ACTION = 256 /* and more: options that say what is to be done */
+};
 
 static const char help[] =
   "Usage: resonance [OPTION]... DECK... [GROUP.KEY=VALUE]...\n"
@@ -101,95 +104,43 @@ static int take_shard(const char *value, const char *name, options *out)
   return complain(name);
 }
 
-/* What needs no deck. */
-static options_action asked_for(int option)
+/* What an option asks to be done; what says more goes before what says less, and the deck's namelist
+   is asked for by programs: nothing may stand beside it. */
+static int take_action(options_action wanted, const char *value, options *out)
 {
-  switch (option) {
-  case 'L': return OPTIONS_LIST;
-  case 'E': return OPTIONS_EXPLAIN;
-  case 'I': return OPTIONS_INIT;
-  case 'R': return OPTIONS_REFERENCE;
-  case 'Y': return OPTIONS_VERIFY;
-  case 'V': return OPTIONS_VERSION;
-  default: return OPTIONS_HELP;
-  }
-}
-
-/* Whether an option says what is to be done; what says more goes before what says less. */
-static int take_action(int option, const char *value, options *out)
-{
-  switch (option) {
-  case 'n':
-    /* The deck's namelist is asked for by programs: nothing may stand beside it. */
-    if (out->action == OPTIONS_RUN) out->action = OPTIONS_DRY_RUN;
-    return 1;
-  case 'd':
-    if (out->action <= OPTIONS_DRY_RUN) out->action = OPTIONS_DUMP_NAMELIST;
-    return 1;
-  case 'h':
-  case 'V':
-  case 'L':
-  case 'R':
-  case 'Y':
-    if (out->action <= OPTIONS_DUMP_NAMELIST) out->action = asked_for(option);
-    return 1;
-  case 'E':
-  case 'I':
-    if (out->action > OPTIONS_DUMP_NAMELIST) return 1;
-    out->action = asked_for(option);
-    out->word = value;
-    return 1;
-  default:
-    return 0;
-  }
+  if (out->action >= wanted || out->action > OPTIONS_DUMP_NAMELIST) return 0;
+  out->action = wanted;
+  if (value != NULL) out->word = value;
+  return 0;
 }
 
 /* One option; 0, or 2 after a message. */
 static int apply(int option, const char *value, const char *name, options *out)
 {
-  if (take_action(option, value, out)) return 0;
+  if (option >= ACTION) return take_action((options_action)(option - ACTION), value, out);
   switch (option) {
+  case 0: return 0; /* a flag, which is set */
+  case 'n': return take_action(OPTIONS_DRY_RUN, NULL, out);
+  case 'h': return take_action(OPTIONS_HELP, NULL, out);
+  case 'V': return take_action(OPTIONS_VERSION, NULL, out);
+  case 'f': out->force = 1; return 0;
+  case 'q': out->quiet = 1; return 0;
+  case 'l': out->log = value; return 0;
+  case 'j': out->journal = value; return 0;
+  case 'S': return take_shard(value, name, out);
+  case 'B': return take_budget(value, name, out);
   case 'o':
     out->output = value;
     if (*value != '\0') return 0;
     fprintf(stderr, "%s: --output needs the name of a file\n", name);
     return complain(name);
-  case 'C':
-    out->csv = 1;
-    return 0;
-  case 'f':
-    out->force = 1;
-    return 0;
-  case 'l':
-    out->log = value;
-    return 0;
-  case 'r':
-    out->resume = 1;
-    return 0;
-  case 'j':
-    out->journal = value;
-    return 0;
-  case 'J':
-    out->no_journal = 1;
-    return 0;
-  case 'S':
-    return take_shard(value, name, out);
-  case 'B':
-    return take_budget(value, name, out);
-  case 'M':
-    out->merge = 1;
-    return 0;
-  case 'q':
-    out->quiet = 1;
-    return 0;
   case 't':
     out->threads = threads_of(value);
     if (out->threads > 0) return 0;
     fprintf(stderr, "%s: --threads takes a number from 1 to %d, not '%s'\n", name, MOST_THREADS,
             value);
     return complain(name);
-  default:
-    return complain(name); /* getopt has said why */
+  default: return complain(name); /* getopt has said why */
   }
 }
 
@@ -252,18 +203,22 @@ static int take_files(int argc, char **argv, const char *name, options *out)
 
 int options_parse(int argc, char **argv, options *out)
 {
-  static const struct option table[] = {
-    { "dry-run", no_argument, NULL, 'n' },       { "dump-namelist", no_argument, NULL, 'd' },
-    { "output", required_argument, NULL, 'o' },  { "threads", required_argument, NULL, 't' },
-    { "quiet", no_argument, NULL, 'q' },         { "log", required_argument, NULL, 'l' },
-    { "help", no_argument, NULL, 'h' },          { "version", no_argument, NULL, 'V' },
-    { "list", no_argument, NULL, 'L' },          { "explain", required_argument, NULL, 'E' },
-    { "init", required_argument, NULL, 'I' },    { "reference", no_argument, NULL, 'R' },
-    { "force", no_argument, NULL, 'f' },         { "resume", no_argument, NULL, 'r' },
-    { "journal", required_argument, NULL, 'j' }, { "no-journal", no_argument, NULL, 'J' },
-    { "shard", required_argument, NULL, 'S' },   { "merge", no_argument, NULL, 'M' },
-    { "budget", required_argument, NULL, 'B' },  { "csv", no_argument, NULL, 'C' },
-    { "verify", no_argument, NULL, 'Y' },     { NULL, 0, NULL, 0 },
+  const struct option table[] = {
+    {"dry-run", no_argument, NULL, 'n'},
+    {"dump-namelist", no_argument, NULL, ACTION + OPTIONS_DUMP_NAMELIST},
+    {"list", no_argument, NULL, ACTION + OPTIONS_LIST},
+    {"explain", required_argument, NULL, ACTION + OPTIONS_EXPLAIN},
+    {"init", required_argument, NULL, ACTION + OPTIONS_INIT},
+    {"reference", no_argument, NULL, ACTION + OPTIONS_REFERENCE},
+    {"verify", no_argument, NULL, ACTION + OPTIONS_VERIFY},
+    {"help", no_argument, NULL, 'h'}, {"version", no_argument, NULL, 'V'},
+    {"output", required_argument, NULL, 'o'}, {"threads", required_argument, NULL, 't'},
+    {"log", required_argument, NULL, 'l'}, {"journal", required_argument, NULL, 'j'},
+    {"shard", required_argument, NULL, 'S'}, {"budget", required_argument, NULL, 'B'},
+    {"force", no_argument, NULL, 'f'}, {"quiet", no_argument, NULL, 'q'},
+    {"csv", no_argument, &out->csv, 1}, {"resume", no_argument, &out->resume, 1},
+    {"no-journal", no_argument, &out->no_journal, 1}, {"merge", no_argument, &out->merge, 1},
+    {NULL, 0, NULL, 0},
   };
   const char *name = argc > 0 ? argv[0] : "resonance";
   int option = 0;

@@ -176,29 +176,18 @@ static const char *group_of(const deck_builder *b, const char *name)
 /* Check keys that have an effect only together with others. */
 static void check_idle_keys(deck_builder *b)
 {
-  static const char *const why[] = {
-    [DECK_WITH_NOISE] = "it concerns noise, and there is no 'temperature' above 0",
-    [DECK_WITH_RAMP] = "it concerns ramps, and there is no 'rate' or 'protocol'",
-    [DECK_WITHOUT_START] = "'start' names an attractor",
-    [DECK_OFF_LINE] = "the starts are on a line, see 'shape'",
-    [DECK_IN_RECTANGLE] = "'shape' is not 'rectangle'",
-    [DECK_AT_RANDOM] = "'shape' is not 'random'",
-    [DECK_WITH_SEARCH] = "no resonance is looked for: that takes lines along the drive's "
-                         "frequency or period",
-  };
   const char *group = group_of(b, "start");
   const deck_given *start = deck_given_of(b, group, "start");
   const deck_given *x = deck_given_of(b, group, "x");
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
-    if (!b->given[i].given || key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD ||
-        key->when == DECK_UNLESS_AXIS)
-      continue;
+    const char *why = deck_when_of(key->when)->why;
+    if (!b->given[i].given || why == NULL) continue;
     if (key->when == DECK_WITH_NOISE && deck_given_of(b, "sweep", "temperature")->broken) continue;
     if (key->when == DECK_WITHOUT_START && start->broken) continue;
     if (deck_key_applies(key, b->d)) continue;
     namelist_error_at(b->given[i].nl, place_of(&b->given[i], key->name),
-                      b->errors, "'%s' is not used: %s", key->name, why[key->when]);
+                      b->errors, "'%s' is not used: %s", key->name, why);
   }
   if (deck_in_scene(b, group, "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
       !x->given && !x->broken && (x->group == NULL || !x->group->broken)) {

@@ -3,6 +3,7 @@
 #include "deck/table.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
 enum { COLUMNS = 96, SENTENCE = 1200 };
@@ -10,19 +11,20 @@ enum { COLUMNS = 96, SENTENCE = 1200 };
 /* ---- one key in words ---------------------------------------------------------------------- */
 
 /* Append to a text of SENTENCE bytes. */
-static void add(char *text, const char *more)
+__attribute__((format(printf, 2, 3))) static void add(char *text, const char *format, ...)
 {
   const size_t n = strlen(text);
-  snprintf(text + n, SENTENCE - n, "%s", more);
+  va_list args;
+  va_start(args, format);
+  (void)vsnprintf(text + n, SENTENCE - n, format, args);
+  va_end(args);
 }
 
 static void add_number(char *text, double x)
 {
   char number[DECK_DECIMAL];
-  if (x == floor(x) && fabs(x) < 1e6) snprintf(number, sizeof number, "%.0f", x);
-  else if (x == floor(x)) snprintf(number, sizeof number, "%.3g", x);
-  else deck_decimal(x, number);
-  add(text, number);
+  if (x == floor(x)) add(text, fabs(x) < 1e6 ? "%.0f" : "%.3g", x);
+  else add(text, "%s", deck_decimal(x, number));
 }
 
 static int is_number(const deck_key *key)
@@ -38,10 +40,7 @@ static void add_choices(char *text, const deck_key *key)
   const char *comma = "";
   for (size_t i = 0; key->choices[i] != NULL; i++) {
     if (key->choices[i][0] == '\0') continue;
-    add(text, comma);
-    add(text, "'");
-    add(text, key->choices[i]);
-    add(text, "'");
+    add(text, "%s'%s'", comma, key->choices[i]);
     comma = ", ";
   }
 }
@@ -56,7 +55,7 @@ static void add_form(char *text, const deck_key *key)
     [DECK_NUMBERS] = "some numbers, each", [DECK_LIST] = "numbers, each", [DECK_SWEEP] = "numbers",
     [DECK_SWEEP_VALUE] = "a number",
   };
-  add(text, form[key->type]);
+  add(text, "%s", form[key->type]);
   if (key->choices != NULL) add_choices(text, key);
   if (!is_number(key)) return;
   add(text, key->open ? " above " : " from ");
@@ -67,9 +66,7 @@ static void add_form(char *text, const deck_key *key)
 
 static void add_unit(char *text, const deck_key *words)
 {
-  if (words->unit == NULL || strcmp(words->unit, "1") == 0) return;
-  add(text, ", in ");
-  add(text, words->unit);
+  if (words->unit != NULL && strcmp(words->unit, "1") != 0) add(text, ", in %s", words->unit);
 }
 
 static int is_by_drive(const deck_key *key)
@@ -81,11 +78,9 @@ static int is_by_drive(const deck_key *key)
 static int add_default(char *text, const deck_key *key)
 {
   if (key->type == DECK_LOGICAL) {
-    add(text, key->number != 0.0 ? ".true." : ".false.");
+    add(text, "%s", key->number != 0.0 ? ".true." : ".false.");
   } else if (key->type == DECK_CHOICE && key->text != NULL) {
-    add(text, "'");
-    add(text, key->text);
-    add(text, "'");
+    add(text, "'%s'", key->text);
   } else if (key->type == DECK_BOUNDS) {
     add_number(text, key->number);
     add(text, ", ");
@@ -117,39 +112,25 @@ static void add_need(char *text, const deck_key *key, unsigned scene)
 {
   const unsigned scenes = scene != 0 ? scene : key->scenes;
   if ((key->needed & scenes) == scenes) {
+    const char *other = other_group(key, scenes);
     add(text, "needed");
-    if (other_group(key, scenes) == NULL) return;
-    add(text, ", in &");
-    add(text, other_group(key, scenes));
-    add(text, " or here");
+    if (other != NULL) add(text, ", in &%s or here", other);
   }
   else if (is_by_drive(key)) add(text, "one of the two is needed");
   else if (!add_default(text, key)) add(text, "none");
 }
 
-/* The condition under which a key has an effect, in words; NULL: always. */
+/* The condition under which a key has an effect, in words; NULL: none that needs any. */
 static const char *condition(const deck_key *key)
 {
-  switch (key->when) {
-  case DECK_WITH_NOISE: return "only with a temperature above 0";
-  case DECK_WITH_RAMP: return "only with 'rate' or 'protocol'";
-  case DECK_WITHOUT_START: return "only where 'start' is not given";
-  case DECK_OFF_LINE: return "only with shape = 'rectangle' or 'random'";
-  case DECK_IN_RECTANGLE: return "only with shape = 'rectangle'";
-  case DECK_AT_RANDOM: return "only with shape = 'random'";
-  case DECK_WITH_SEARCH: return "only where a resonance is looked for";
-  default: return NULL;
-  }
+  return deck_when_of(key->when)->condition;
 }
 
 /* "drive_amplitude" or, for an axis that may be a range too, "damping, damping_range". */
 static void add_names(char *text, const deck_key *key, const char *quote)
 {
-  char names[4 * DECK_NAME];
-  snprintf(names, sizeof names,
-           deck_table_has_range(key) ? "%s%s%s, %s%s_range%s" : "%s%s%s", quote, key->name, quote,
-           quote, key->name, quote);
-  add(text, names);
+  add(text, "%s%s%s", quote, key->name, quote);
+  if (deck_table_has_range(key)) add(text, ", %s%s_range%s", quote, key->name, quote);
 }
 
 static void add_scenes(char *text, unsigned scenes)
@@ -161,8 +142,7 @@ static void add_scenes(char *text, unsigned scenes)
   }
   for (int k = 0; k < DECK_KIND_COUNT; k++) {
     if ((scenes & (1u << k)) == 0) continue;
-    add(text, comma);
-    add(text, deck_kind_name((deck_kind)k));
+    add(text, "%s%s", comma, deck_kind_name((deck_kind)k));
     comma = ", ";
   }
 }
@@ -298,14 +278,12 @@ static void init_comment(FILE *out, const deck_key *key)
 {
   const deck_key *words = deck_table_words(key);
   char text[SENTENCE] = "";
-  add(text, words->meaning);
-  add(text, ": ");
+  add(text, "%s: ", words->meaning);
   if (deck_table_has_range(key))
-    add(text, key->example != NULL ? "first, last, count of " : "list of ");
+    add(text, "%s", key->example != NULL ? "first, last, count of " : "list of ");
   add_form(text, key);
   add_unit(text, words);
-  if (condition(key) != NULL) add(text, "; ");
-  if (condition(key) != NULL) add(text, condition(key));
+  if (condition(key) != NULL) add(text, "; %s", condition(key));
   fprintf(out, "\n");
   write_wrapped(out, "  ! ", text);
 }
@@ -364,15 +342,16 @@ static const char page_head[] =
   "An axis NAME of `&sweep` takes values, `NAME = v1, v2, ...`, a range, `NAME_range = first,\n"
   "last, count`, or both, which are united.\n";
 
-/* In a cell of a table a bar would end the cell. */
-static void write_cell(FILE *out, const char *text)
+/* In a cell of a table a bar would end the cell. Empties the text. */
+static void write_cell(FILE *out, char *text)
 {
   fputc(' ', out);
-  for (; *text != '\0'; text++) {
-    if (*text == '|') fputc('\\', out);
-    fputc(*text, out);
+  for (const char *c = text; *c != '\0'; c++) {
+    if (*c == '|') fputc('\\', out);
+    fputc(*c, out);
   }
   fputs(" |", out);
+  text[0] = '\0';
 }
 
 static void reference_kind(FILE *out, deck_kind kind)
@@ -383,15 +362,9 @@ static void reference_kind(FILE *out, deck_kind kind)
     const deck_key *key = &deck_table[i];
     if ((key->scenes & scene) == 0 || strcmp(key->group, "scene") == 0) continue;
     char *list = (key->needed & scene) != 0 ? needed : others;
-    add(list, list[0] == '\0' ? "`" : ", `");
-    add(list, key->group);
-    add(list, ".");
-    add(list, key->name);
-    add(list, "`");
-    if (list == others || other_group(key, scene) == NULL) continue;
-    add(list, " (or in `&");
-    add(list, other_group(key, scene));
-    add(list, "`)");
+    const char *other = list == needed ? other_group(key, scene) : NULL;
+    add(list, "%s`%s.%s`", list[0] == '\0' ? "" : ", ", key->group, key->name);
+    if (other != NULL) add(list, " (or in `&%s`)", other);
   }
   fprintf(out, "\n### %s\n\nComputes: %s.\n\n", deck_kind_name(kind), deck_kind_of(kind)->words);
   if (needed[0] != '\0') fprintf(out, "Needs %s.\n\n", needed);
@@ -405,17 +378,15 @@ static void reference_key(FILE *out, const deck_key *key)
   fputs("|", out);
   add_names(cell, key, "`");
   write_cell(out, cell);
-  snprintf(cell, sizeof cell, "%s%s%s", words->meaning, condition(key) != NULL ? "; " : "",
-           condition(key) != NULL ? condition(key) : "");
+  add(cell, "%s", words->meaning);
+  if (condition(key) != NULL) add(cell, "; %s", condition(key));
   write_cell(out, cell);
-  write_cell(out, words->unit != NULL ? words->unit : "");
-  cell[0] = '\0';
+  add(cell, "%s", words->unit != NULL ? words->unit : "");
+  write_cell(out, cell);
   add_form(cell, key);
   write_cell(out, cell);
-  cell[0] = '\0';
   add_need(cell, key, 0);
   write_cell(out, cell);
-  cell[0] = '\0';
   add_scenes(cell, key->scenes);
   write_cell(out, cell);
   fputs("\n", out);

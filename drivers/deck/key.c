@@ -393,30 +393,29 @@ int deck_has_ramp(const deck *d)
   return d->ramp.rate > 0.0 || d->ramp.protocol.count > 0;
 }
 
+const deck_when_words *deck_when_of(deck_when when)
+{
+  static const deck_when_words words[] = {
+#define DECK_WHEN_WORDS(code, condition, why) {condition, why},
+    DECK_WHEN_LIST(DECK_WHEN_WORDS)
+#undef DECK_WHEN_WORDS
+  };
+  return &words[when];
+}
+
 int deck_key_applies(const deck_key *key, const deck *d)
 {
   switch (key->when) {
-  case DECK_WITH_NOISE:
-    return deck_has_noise(d);
-  case DECK_WITH_RAMP:
-    return deck_has_ramp(d);
-  case DECK_WITHOUT_START:
-    return d->orbit.start[0] == '\0';
-  case DECK_OFF_LINE:
-    return strcmp(d->ensemble.shape, "line") != 0;
-  case DECK_IN_RECTANGLE:
-    return strcmp(d->ensemble.shape, "rectangle") == 0;
-  case DECK_AT_RANDOM:
-    return strcmp(d->ensemble.shape, "random") == 0;
-  case DECK_WITH_SEARCH:
-    return deck_searches(d);
-  case DECK_UNLESS_AXIS:
-    return d->axis[key->axis].listed_count + d->axis[key->axis].range_count == 0;
-  case DECK_BY_FREQUENCY:
-    return !d->by_period;
-  case DECK_BY_PERIOD:
-    return d->by_period;
-  default:
-    return 1;
+  case DECK_WITH_NOISE: return deck_has_noise(d);
+  case DECK_WITH_RAMP: return deck_has_ramp(d);
+  case DECK_WITHOUT_START: return d->orbit.start[0] == '\0';
+  case DECK_OFF_LINE: return strcmp(d->ensemble.shape, "line") != 0;
+  case DECK_IN_RECTANGLE: return strcmp(d->ensemble.shape, "rectangle") == 0;
+  case DECK_AT_RANDOM: return strcmp(d->ensemble.shape, "random") == 0;
+  case DECK_WITH_SEARCH: return deck_searches(d);
+  case DECK_UNLESS_AXIS: return d->axis[key->axis].listed_count + d->axis[key->axis].range_count == 0;
+  case DECK_BY_FREQUENCY: return !d->by_period;
+  case DECK_BY_PERIOD: return d->by_period;
+  default: return 1;
   }
 }

@@ -21,20 +21,36 @@ typedef enum deck_type {
   DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */
 } deck_type;
 
-/* The condition, beside the kind of scene, under which a key has an effect. */
+/* The condition, beside the kind of scene, under which a key has an effect: in words for --explain,
+   and why one that is given has none. */
+#define DECK_WHEN_LIST(X)                                                                          \
+  X(ALWAYS, NULL, NULL)                                                                            \
+  X(WITH_NOISE, "only with a temperature above 0",                                                 \
+    "it concerns noise, and there is no 'temperature' above 0")                                    \
+  X(WITH_RAMP, "only with 'rate' or 'protocol'",                                                   \
+    "it concerns ramps, and there is no 'rate' or 'protocol'")                                     \
+  X(WITHOUT_START, "only where 'start' is not given", "'start' names an attractor")                \
+  X(OFF_LINE, "only with shape = 'rectangle' or 'random'",                                         \
+    "the starts are on a line, see 'shape'")                                                       \
+  X(IN_RECTANGLE, "only with shape = 'rectangle'", "'shape' is not 'rectangle'")                   \
+  X(AT_RANDOM, "only with shape = 'random'", "'shape' is not 'random'")                            \
+  X(WITH_SEARCH, "only where a resonance is looked for",                                           \
+    "no resonance is looked for: that takes lines along the drive's frequency or period")          \
+  /* Those that another key may give instead: */                                                   \
+  X(UNLESS_AXIS, NULL, NULL)  /* unless the key's axis has values in &sweep */                     \
+  X(BY_FREQUENCY, NULL, NULL) /* unless the drive is given by its period */                        \
+  X(BY_PERIOD, NULL, NULL)    /* the reverse */
+
 typedef enum deck_when {
-  DECK_ALWAYS = 0,
-  DECK_WITH_NOISE,     /* only with a temperature above 0 */
-  DECK_WITH_RAMP,      /* only where a parameter moves in real time */
-  DECK_WITHOUT_START,  /* only where orbit.start names no attractor */
-  DECK_OFF_LINE,       /* only where ensemble.shape is not a line */
-  DECK_IN_RECTANGLE,   /* only where it is a rectangle */
-  DECK_AT_RANDOM,      /* only where it is random */
-  DECK_WITH_SEARCH,    /* only where resonances are searched for */
-  DECK_UNLESS_AXIS,    /* unless the key's axis has values in &sweep */
-  DECK_BY_FREQUENCY,   /* unless the drive is given by its period */
-  DECK_BY_PERIOD       /* the reverse */
+#define DECK_WHEN_CODE(code, ...) DECK_##code,
+  DECK_WHEN_LIST(DECK_WHEN_CODE)
+#undef DECK_WHEN_CODE
 } deck_when;
+
+typedef struct deck_when_words {
+  const char *condition, *why;
+} deck_when_words;
+const deck_when_words *deck_when_of(deck_when when); /* key.c */
 
 typedef struct deck_key {
   const char *group;
