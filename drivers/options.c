@@ -104,8 +104,8 @@ static int take_shard(const char *value, const char *name, options *out)
   return complain(name);
 }
 
-/* What an option asks to be done; what says more goes before what says less, and the deck's namelist
-   is asked for by programs: nothing may stand beside it. */
+/* What an option asks to be done; what says more goes before what says less, and the namelist
+   of the deck is asked for by programs: nothing may stand beside it. */
 static int take_action(options_action wanted, const char *value, options *out)
 {
   if (out->action >= wanted || out->action > OPTIONS_DUMP_NAMELIST) return 0;

@@ -137,7 +137,7 @@ static void *serve(void *arg)
 
 void dispatch_share(pool *c, size_t task, const farm_record *record)
 {
-  if (ranks_count() == 1 || ranks_own() != 0 || c->stage->last) return;
+  if (ranks_count() == 1 || ranks_own() != 0 || c->stage->last || c->farm->trial != NULL) return;
   note n = note_of(c, SHARE);
   n.task = task;
   n.size = record->size;

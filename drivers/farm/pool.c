@@ -239,7 +239,7 @@ static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_re
   if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
   settle_books(c->farm, ctx);
   w->ctx = ctx;
-  record->watch = &w->watch;
+  record->watch = c->farm->trial == NULL ? &w->watch : NULL;
   pendres_context_set_interrupt(ctx, worker_stop, w);
   const pendres_status status = c->stage->task(c->stage->arg, w->task, ctx, record);
   point_end(&w->watch);
@@ -252,20 +252,33 @@ static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_re
   return status;
 }
 
-static void work(pool *c, int thread)
+/* The same on a thread of the pool, with its context. */
+static pendres_status run_on(pool *c, worker *w, farm_record *record)
 {
   pendres_context *ctx = NULL;
+  pendres_status status = farm_context_of(c->farm, w->watch.thread, &ctx);
+  note_work(c, w->watch.thread, w->task, pool_milliseconds());
+  if (status == PENDRES_OK) status = run_task(c, w, ctx, record);
+  note_work(c, w->watch.thread, w->task, 0);
+  if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stopped, c->farm);
+  return status;
+}
+
+pendres_status pool_try(pool *c, size_t task, farm_record *record)
+{
+  worker w = { .pool = c, .task = task, .watch = { .pool = c } };
+  return run_on(c, &w, record);
+}
+
+static void work(pool *c, int thread)
+{
   worker w = { .pool = c, .watch = { .pool = c, .thread = thread } };
   while (dispatch_take(c, thread, &w.task)) {
     farm_record record = { 0 };
-    note_work(c, thread, w.task, pool_milliseconds());
-    pendres_status status = farm_context_of(c->farm, thread, &ctx);
-    if (status == PENDRES_OK) status = run_task(c, &w, ctx, &record);
-    note_work(c, thread, w.task, 0);
+    const pendres_status status = run_on(c, &w, &record);
     dispatch_finish(c, w.task, status, &record);
     free(record.data);
   }
-  if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stopped, c->farm);
 }
 
 /* A thread beside the calling one. */
@@ -352,8 +365,7 @@ static pendres_status outcome(pool *c)
   return PENDRES_INTERRUPTED;
 }
 
-/* Room for the records of a stage; free it in any case. */
-static pendres_status pool_create(pool *c, farm *f, const farm_stage *stage, int threads)
+pendres_status pool_create(pool *c, farm *f, const farm_stage *stage, int threads)
 {
   *c = (pool){ .farm = f, .stage = stage,
                .number = journal_stage(f->stages, stage->what, stage->tasks, stage->record_size),
@@ -374,7 +386,7 @@ static pendres_status pool_create(pool *c, farm *f, const farm_stage *stage, int
   return PENDRES_OUT_OF_MEMORY;
 }
 
-static void pool_free(pool *c)
+void pool_free(pool *c)
 {
   for (size_t i = c->collected; i < c->stage->tasks; i++) free(c->record[i].data);
   free(c->record);

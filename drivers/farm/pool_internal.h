@@ -69,6 +69,13 @@ typedef struct pool {
   atomic_int ended;     /* on ranks other than 0: rank 0 has sent how the stage ended */
 } pool;
 
+/* Room for the records of a stage, which is to be freed unless that fails: no memory. */
+pendres_status pool_create(pool *c, farm *f, const farm_stage *stage, int threads);
+void pool_free(pool *c);
+
+/* Compute a task on the calling thread, the first of the pool's; its record is the caller's. */
+pendres_status pool_try(pool *c, size_t task, farm_record *record);
+
 long long pool_milliseconds(void);
 
 /* Show a line to the user, while other threads work. */

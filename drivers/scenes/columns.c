@@ -183,8 +183,10 @@ static pendres_status define(scene_run *run, const scene_table *t, const scene_c
                              scene_variable *out)
 {
   variable v;
+  char words[SCENE_WORDS];
   if (!scene_going(run)) return run->status;
   describe(run, t, c, &v);
+  scene_define(run, &v.spec, words);
   return scene_stored(run, pendres_store_variable(run->store, &v.spec, &out->value,
                                                   c->type == SCENE_REAL ? &out->error : NULL));
 }

@@ -5,7 +5,6 @@
  */
 #include "scenes/scene.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Names of results that mean the same in every file, beside the measures of orbits that the library
@@ -77,85 +76,34 @@ static const struct { const char *name, *definition, *no_angle; } definitions[] 
     "mean of dx/dt in the long run" },
 };
 
-/* ---- where x is no angle ---- */
-
-/* Whether a variable is an angle nevertheless. */
-static int is_phase(const char *name)
+/* Of a variable of the root; NULL: its name says it all. */
+static const char *definition_of(const char *name, int angle)
 {
-  return strstr(name, "phase") != NULL;
-}
-
-/* Replaces "the angle" in a text; NULL if it has none or there is no memory. */
-static char *without_angle(const char *text)
-{
-  static const char angle[] = "the angle", instead[] = "x";
-  const char *at = strstr(text, angle);
-  char *out = at != NULL ? malloc(strlen(text) + 1) : NULL;
-  if (out == NULL) return NULL;
-  const size_t before = (size_t)(at - text);
-  memcpy(out, text, before);
-  strcpy(out + before, instead);
-  strcat(out, at + sizeof angle - 1);
-  return out;
-}
-
-/* The units and words of one variable. */
-static pendres_status rename_angle(pendres_store *store, const char *group, const char *name)
-{
-  char *text = NULL;
-  pendres_status status =
-    pendres_store_read_attribute_text(store, group, name, "units", &text);
-  if (status == PENDRES_OK && strcmp(text, "rad") == 0 && !is_phase(name))
-    status = pendres_store_attribute(store, group, name, "units", "1");
-  free(text);
-  text = NULL;
-  if (status == PENDRES_OK || status == PENDRES_NOT_FOUND)
-    status = pendres_store_read_attribute_text(store, group, name, "long_name", &text);
-  char *words = status == PENDRES_OK ? without_angle(text) : NULL;
-  if (words != NULL)
-    status = pendres_store_attribute(store, group, name, "long_name", words);
-  free(text);
-  free(words);
-  return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
-}
-
-/* All variables of a group, and of the groups in it. */
-static pendres_status rename_angles(pendres_store *store, const char *group)
-{
-  pendres_status status = PENDRES_OK;
-  for (uint64_t i = 0; status == PENDRES_OK; i++) {
-    char *name = NULL;
-    pendres_store_type type;
-    status = pendres_store_member(store, group, i, &type, &name);
-    if (status == PENDRES_NOT_FOUND) return PENDRES_OK;
-    if (status == PENDRES_OK && type == PENDRES_STORE_DOUBLE)
-      status = rename_angle(store, group, name);
-    else if (status == PENDRES_OK && type == PENDRES_STORE_TYPE_COUNT && group[0] == '\0' &&
-             pendres_store_has(store, name, NULL))
-      status = rename_angles(store, name);
-    free(name);
-  }
-  return status;
-}
-
-/* Say what a variable is, if the file has it. */
-static pendres_status define(pendres_store *store, const char *name, const char *words)
-{
-  return words != NULL && pendres_store_has(store, "", name)
-           ? pendres_store_attribute(store, "", name, "comment", words) : PENDRES_OK;
-}
-
-void scene_define(scene_run *run)
-{
-  const int angle = pendres_model_of(deck_pendulum(run->deck).force)->angle;
   const pendres_orbit_quantity *q;
-  pendres_status status = angle ? PENDRES_OK : rename_angles(run->store, "");
-  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++)
-    status = define(run->store, q->name,
-                    angle || q->coordinate == NULL ? q->definition : q->coordinate);
-  for (size_t i = 0; i < sizeof definitions / sizeof *definitions && status == PENDRES_OK; i++)
-    status = define(run->store, definitions[i].name,
-                    angle || definitions[i].no_angle == NULL ? definitions[i].definition
-                                                             : definitions[i].no_angle);
-  scene_stored(run, status);
+  for (size_t i = 0; i < sizeof definitions / sizeof *definitions; i++)
+    if (strcmp(definitions[i].name, name) == 0)
+      return angle || definitions[i].no_angle == NULL ? definitions[i].definition
+                                                      : definitions[i].no_angle;
+  for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++)
+    if (strcmp(q->name, name) == 0)
+      return angle || q->coordinate == NULL ? q->definition : q->coordinate;
+  return NULL;
+}
+
+void scene_define(const scene_run *run, pendres_store_spec *spec, char words[SCENE_WORDS])
+{
+  static const char of_angle[] = "the angle";
+  const int angle = pendres_model_of(deck_pendulum(run->deck).force)->angle;
+  const char *definition = definition_of(spec->name, angle);
+  if ((spec->group == NULL || spec->group[0] == '\0') && definition != NULL)
+    spec->comment = definition;
+  if (angle || spec->type != PENDRES_STORE_DOUBLE) return;
+  /* A phase is an angle nevertheless. */
+  if (spec->units != NULL && strcmp(spec->units, "rad") == 0 && strstr(spec->name, "phase") == NULL)
+    spec->units = "1";
+  const char *at = spec->long_name != NULL ? strstr(spec->long_name, of_angle) : NULL;
+  if (at == NULL) return;
+  snprintf(words, SCENE_WORDS, "%.*sx%s", (int)(at - spec->long_name), spec->long_name,
+           at + sizeof of_angle - 1);
+  spec->long_name = words;
 }

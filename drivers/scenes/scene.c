@@ -114,15 +114,25 @@ void scene_compute(scene_run *run, const farm_stage *stage)
 void scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
                const double *errors, size_t n)
 {
+  char words[SCENE_WORDS];
+  pendres_store_spec defined = *spec;
   if (!scene_going(run)) return;
-  scene_stored(run, pendres_store_put(run->store, spec, values, errors, n));
+  scene_define(run, &defined, words);
+  scene_stored(run, pendres_store_put(run->store, &defined, values, errors, n));
 }
 
 void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const void *values,
                          size_t n)
 {
+  char words[SCENE_WORDS];
+  pendres_store_spec defined = *spec;
   if (!scene_going(run)) return;
-  scene_stored(run, pendres_store_dimension(run->store, spec, n, values));
+  scene_define(run, &defined, words);
+  pendres_status status = pendres_store_dimension(run->store, &defined, n, values);
+  if (status == PENDRES_OK && defined.comment != NULL)
+    status = pendres_store_attribute(run->store, spec->group, spec->name, "comment",
+                                     defined.comment);
+  scene_stored(run, status);
 }
 
 /* ---- arrays -------------------------------------------------------------------------------- */
@@ -337,7 +347,6 @@ void scene_write_identity(scene_run *run)
   put_attribute(run, "deck", slash != NULL ? slash + 1 : d->name);
   for (int i = 0; i <= DECK_AXIS_TEMPERATURE; i++) write_fixed(run, (deck_axis_id)i, coordinates);
   if (coordinates[0] != '\0') put_attribute(run, "coordinates", coordinates);
-  if (scene_going(run)) scene_define(run);
 }
 
 pendres_ensemble scene_ensemble(const deck *d)

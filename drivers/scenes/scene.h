@@ -151,8 +151,11 @@ void scene_write_identity(scene_run *run);
    ones, and print the short ones behind the table. */
 void scene_write_units(scene_run *run);
 
-/* Define the measures in the file, in their attributes `comment`; called by the above. */
-void scene_define(scene_run *run);
+/* Describe a variable as files do: its `comment` defines it, where it has a definition, and nothing
+   is called an angle where x is none. words: room for its long_name. For what writes variables, as
+   the functions above and columns do. */
+enum { SCENE_WORDS = 300 };
+void scene_define(const scene_run *run, pendres_store_spec *spec, char words[SCENE_WORDS]);
 
 /* A parameter's name in words, "drive amplitude", in `text`, which is returned; and in columns of
    tables, where the frequency is the drive's. */

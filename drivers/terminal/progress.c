@@ -106,7 +106,10 @@ static void tell(progress *p, const char *text)
 void progress_tick(progress *p, size_t done, const char *name, double seconds)
 {
   char text[400];
-  if (p == NULL || p->total == 0) return;
+  if (p == NULL || p->total == 0) {
+    progress_wait(p);
+    return;
+  }
   const double t = clock_wall();
   snprintf(p->name, sizeof p->name, "%s", name);
   p->since = t - seconds;

@@ -41,7 +41,7 @@ void progress_end(progress *p);
 
 /* To be called now and then while `done` items are done. If there was no line for five minutes, one
    is written, with the name of what has been running for the longest time and its seconds; a bar
-   always shows these. */
+   always shows these. As progress_wait() while nothing is counted. */
 void progress_tick(progress *p, size_t done, const char *name, double seconds);
 
 /* To be called now and then while nothing is counted, as before a run's first tasks: a terminal
