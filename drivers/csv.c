@@ -40,18 +40,16 @@ typedef struct tables {
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-static void drop_values(column *c)
+static uint64_t rows_of(const column *c)
 {
-  for (uint64_t i = 0; c->text != NULL && i < c->size[0] * c->size[1]; i++) free(c->text[i]);
-  free(c->text);
-  free(c->value);
-  c->text = NULL;
-  c->value = NULL;
+  return c->size[0] * c->size[1];
 }
 
 static void drop(column *c)
 {
-  drop_values(c);
+  for (uint64_t i = 0; c->text != NULL && i < rows_of(c); i++) free(c->text[i]);
+  free(c->text);
+  free(c->value);
   free(c->name);
   free(c->dimension[0]);
   free(c->dimension[1]);
@@ -72,8 +70,26 @@ static pendres_status describe(pendres_store *store, column *c)
   return status;
 }
 
+/* Its values; PENDRES_OK also where they are too many for a table, and none are read. */
+static pendres_status load(pendres_store *store, column *c)
+{
+  const size_t n = (size_t)rows_of(c);
+  pendres_status status = PENDRES_OK;
+  if (n > MOST_ROWS) return status;
+  if (c->type != PENDRES_STORE_STRING) {
+    c->value = calloc(n + 1, sizeof *c->value);
+    if (c->value == NULL) return PENDRES_OUT_OF_MEMORY;
+    return pendres_store_read(store, "", c->name, PENDRES_STORE_DOUBLE, c->value, n);
+  }
+  c->text = calloc(n + 1, sizeof *c->text);
+  if (c->text == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = pendres_store_read_text(store, "", c->name, i, &c->text[i]);
+  return status;
+}
+
 /* All members of the root that fit. */
-static void list_columns(tables *t)
+static void read_columns(tables *t)
 {
   for (uint64_t i = 0; t->status == PENDRES_OK; i++) {
     if (!grow_to(&t->list, t->count + 1, &t->room, sizeof *t->list)) {
@@ -85,27 +101,11 @@ static void list_columns(tables *t)
     pendres_status status = pendres_store_member(t->store, "", i, &c->type, &c->name);
     if (status == PENDRES_NOT_FOUND) return;
     if (status == PENDRES_OK) status = describe(t->store, c);
+    if (status == PENDRES_OK) status = load(t->store, c);
     if (status == PENDRES_OK) t->count++;
     else drop(c);
     if (status != PENDRES_UNSUPPORTED) t->status = status;
   }
-}
-
-static const column *load(tables *t, column *c)
-{
-  const size_t n = (size_t)(c->size[0] * c->size[1]);
-  if (t->status != PENDRES_OK || c->value != NULL || c->text != NULL) return c;
-  if (c->type != PENDRES_STORE_STRING) {
-    c->value = calloc(n + 1, sizeof *c->value);
-    if (c->value == NULL) t->status = PENDRES_OUT_OF_MEMORY;
-    else t->status = pendres_store_read(t->store, "", c->name, PENDRES_STORE_DOUBLE, c->value, n);
-    return c;
-  }
-  c->text = calloc(n + 1, sizeof *c->text);
-  if (c->text == NULL) t->status = PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n && t->status == PENDRES_OK; i++)
-    t->status = pendres_store_read_text(t->store, "", c->name, i, &c->text[i]);
-  return c;
 }
 
 static column *find(tables *t, const char *name)
@@ -168,24 +168,29 @@ static void put_cell(const column *c, size_t i, FILE *out)
   else put_number(c->value[i], out);
 }
 
-/* An attribute of the file or of a variable; NULL if it has none. */
+/* A text of the file, and what it was asked with: NULL if it has none. */
+static char *text_of(tables *t, pendres_status status, char *text)
+{
+  if (status == PENDRES_OUT_OF_MEMORY && t->status == PENDRES_OK) t->status = status;
+  return text;
+}
+
+/* An attribute of the file or of a variable. */
 static char *attribute(tables *t, const char *object, const char *name)
 {
   char *text = NULL;
   const pendres_status status =
     pendres_store_read_attribute_text(t->store, "", object, name, &text);
-  if (status == PENDRES_OUT_OF_MEMORY && t->status == PENDRES_OK) t->status = status;
-  return text;
+  return text_of(t, status, text);
 }
 
-/* Keys set on the command line; NULL if that is not known. */
+/* Keys set on the command line. */
 static char *settings(tables *t)
 {
   char *text = NULL;
   const pendres_status status =
     pendres_store_read_text(t->store, "provenance", "settings", 0, &text);
-  if (status == PENDRES_OUT_OF_MEMORY && t->status == PENDRES_OK) t->status = status;
-  return text;
+  return text_of(t, status, text);
 }
 
 /* A line of the head, without one that says nothing. Frees the text. */
@@ -209,10 +214,8 @@ static void put_head(tables *t, FILE *out)
     put_told(told[i], attribute(t, NULL, told[i]), out);
   put_told("settings", settings(t), out);
   for (size_t i = 0; i < t->count; i++) {
-    column *c = &t->list[i];
+    const column *c = &t->list[i];
     if (c->rank > 0) continue;
-    (void)load(t, c);
-    if (t->status != PENDRES_OK) return;
     fprintf(out, "# %s = ", c->name);
     put_cell(c, 0, out);
     putc('\n', out);
@@ -262,10 +265,7 @@ static void put_table(tables *t, const column *first, column **wanted, FILE *out
   const uint64_t rows = first->size[0] * first->size[1];
   const size_t n = gather(t, first, wanted);
   put_head(t, out);
-  for (size_t i = 0; i < n; i++) {
-    (void)load(t, wanted[i]);
-    put_meaning(t, wanted[i], out);
-  }
+  for (size_t i = 0; i < n; i++) put_meaning(t, wanted[i], out);
   if (t->status != PENDRES_OK) return;
   for (size_t i = 0; i < n; i++) fprintf(out, "%s%s", i > 0 ? "," : "", wanted[i]->name);
   putc('\n', out);
@@ -280,8 +280,6 @@ static void put_table(tables *t, const column *first, column **wanted, FILE *out
     }
     putc('\n', out);
   }
-  for (size_t i = 0; i < n; i++)
-    if (!is_dimension(wanted[i])) drop_values(wanted[i]);
 }
 
 /* ---- files --------------------------------------------------------------------------------- */
@@ -380,11 +378,6 @@ static int write_file(tables *t, const column *first, const char *path)
   return failed;
 }
 
-static uint64_t rows_of(const column *c)
-{
-  return c->size[0] * c->size[1];
-}
-
 /* The main table: that of the points which can fail, else the longest. NULL: there is none. */
 static const column *main_table(tables *t)
 {
@@ -426,7 +419,7 @@ int csv_write(const deck *d, int force, progress *p)
   tables t = { .progress = p };
   int code = 0;
   t.status = pendres_store_open(d->output, &t.store);
-  if (t.status == PENDRES_OK) list_columns(&t);
+  if (t.status == PENDRES_OK) read_columns(&t);
   if (t.status == PENDRES_OK) code = write_all(&t, d, force);
   if (t.status != PENDRES_OK) {
     const char *words = pendres_store_message(t.store);

@@ -45,13 +45,12 @@ static void reasons_of_statuses(void **state)
     assert_int_equal(scene_failure_of((pendres_status)s) == SCENE_FAILURE_NONE, ends_the_run);
   }
   scene_run run = { 0 };
-  scene_failures f;
-  scene_failures_create(&run, 2, &f);
+  scene_failed f[2] = {{.reason = SCENE_FAILURE_NONE}};
+  scene_failure_mark(&run, &f[1], SCENE_FAILURE_NOT_FOUND, "nothing there");
   check_ok(run.status);
-  scene_failures_mark(&f, 1, SCENE_FAILURE_NOT_FOUND, "nothing there");
-  assert_int_equal(f.reason[0], SCENE_FAILURE_NONE);
-  assert_int_equal(f.reason[1], SCENE_FAILURE_NOT_FOUND);
-  assert_string_equal(f.words[1], "nothing there");
+  assert_int_equal(f[0].reason, SCENE_FAILURE_NONE);
+  assert_int_equal(f[1].reason, SCENE_FAILURE_NOT_FOUND);
+  assert_string_equal(f[1].words, "nothing there");
   scene_room_end(&run.room);
 }
 

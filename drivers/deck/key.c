@@ -413,7 +413,8 @@ int deck_key_applies(const deck_key *key, const deck *d)
   case DECK_IN_RECTANGLE: return strcmp(d->ensemble.shape, "rectangle") == 0;
   case DECK_AT_RANDOM: return strcmp(d->ensemble.shape, "random") == 0;
   case DECK_WITH_SEARCH: return deck_searches(d);
-  case DECK_UNLESS_AXIS: return d->axis[key->axis].listed_count + d->axis[key->axis].range_count == 0;
+  case DECK_UNLESS_AXIS:
+    return d->axis[key->axis].listed_count + d->axis[key->axis].range_count == 0;
   case DECK_BY_FREQUENCY: return !d->by_period;
   case DECK_BY_PERIOD: return d->by_period;
   default: return 1;

@@ -35,9 +35,11 @@ typedef struct slot {
 struct journal {
   char *path;
   char *head;
-  int *file;        /* the first is written to */
-  char **added;     /* names of the files */
-  size_t files, file_room, added_room;
+  struct opened {
+    int fd;
+    char *name;
+  } *file;          /* the first is written to */
+  size_t files, room;
   off_t end;        /* of the first */
   void *index;      /* a tree of slots, which takes no more memory than there are records, whatever
                        their numbers are */
@@ -107,7 +109,7 @@ uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t re
 const char *journal_place(const journal *j, uint64_t stage, size_t task)
 {
   const slot *s = find(j, stage, task);
-  return s != NULL ? j->added[s->file] : NULL;
+  return s != NULL ? j->file[s->file].name : NULL;
 }
 
 int journal_has(const journal *j, uint64_t stage, size_t task)
@@ -154,7 +156,7 @@ static off_t size_of(int fd)
 static pendres_status load(journal *j, size_t file, off_t *end)
 {
   journal_entry e;
-  for (off_t at = *end; journal_file_next(j->file[file], at, &e); at = *end) {
+  for (off_t at = *end; journal_file_next(j->file[file].fd, at, &e); at = *end) {
     const pendres_status status = note(j, file, &e, at);
     if (status != PENDRES_OK) return status;
     *end = at + (off_t)(sizeof e + e.stored);
@@ -166,22 +168,20 @@ static pendres_status load(journal *j, size_t file, off_t *end)
 static pendres_status take_file(journal *j, int fd, const char *name)
 {
   char *copy = malloc(strlen(name) + 1);
-  if (copy == NULL || !grow_to(&j->file, j->files + 1, &j->file_room, sizeof *j->file) ||
-      !grow_to(&j->added, j->files + 1, &j->added_room, sizeof *j->added)) {
+  if (copy == NULL || !grow_to(&j->file, j->files + 1, &j->room, sizeof *j->file)) {
     free(copy);
     close(fd);
     return PENDRES_OUT_OF_MEMORY;
   }
   strcpy(copy, name);
-  j->added[j->files] = copy;
-  j->file[j->files++] = fd;
+  j->file[j->files++] = (struct opened){ fd, copy };
   return PENDRES_OK;
 }
 
 static void drop_own(journal *j)
 {
-  close(j->file[0]);
-  free(j->added[0]);
+  close(j->file[0].fd);
+  free(j->file[0].name);
   j->files = 0;
 }
 
@@ -219,7 +219,7 @@ static pendres_status begin_anew(journal *j, const char *what, const char *more,
   char *name = own_file_keep(j->path, &why);
   if (name == NULL)
     return complain(words, PENDRES_IO, "cannot set aside the journal", j->path, strerror(why));
-  own_file_remove(j->file[0], j->path);
+  own_file_remove(j->file[0].fd, j->path);
   drop_own(j);
   const pendres_status status = open_own(j, words);
   if (status == PENDRES_OK)
@@ -232,14 +232,14 @@ static pendres_status begin_anew(journal *j, const char *what, const char *more,
 static int is_bare(const journal *j, journal_head found, off_t end)
 {
   journal_entry e;
-  const off_t size = size_of(j->file[0]);
+  const off_t size = size_of(j->file[0].fd);
   if (found == JOURNAL_TORN) return size <= (off_t)(JOURNAL_HEAD + strlen(j->head));
-  return found != JOURNAL_NONE && size == end && !journal_file_next(j->file[0], end, &e);
+  return found != JOURNAL_NONE && size == end && !journal_file_next(j->file[0].fd, end, &e);
 }
 
 static pendres_status empty_own(const journal *j, char *words)
 {
-  if (ftruncate(j->file[0], 0) == 0) return PENDRES_OK;
+  if (ftruncate(j->file[0].fd, 0) == 0) return PENDRES_OK;
   return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
 }
 
@@ -253,7 +253,7 @@ static pendres_status clear_own(journal *j, char *words)
     [JOURNAL_TORN] = "a journal with a damaged head",
   };
   off_t end = 0;
-  const journal_head found = journal_file_head(j->file[0], j->head, &end, words);
+  const journal_head found = journal_file_head(j->file[0].fd, j->head, &end, words);
   words[0] = '\0';
   if (found == JOURNAL_NO_MEMORY) return PENDRES_OUT_OF_MEMORY;
   return is_bare(j, found, end) ? empty_own(j, words) : begin_anew(j, what[found], "", words);
@@ -264,7 +264,7 @@ static pendres_status clear_own(journal *j, char *words)
 static pendres_status settle_head(journal *j, char *words)
 {
   pendres_status status = PENDRES_OK;
-  switch (journal_file_head(j->file[0], j->head, &j->end, words)) {
+  switch (journal_file_head(j->file[0].fd, j->head, &j->end, words)) {
   case JOURNAL_SAME: return PENDRES_OK;
   case JOURNAL_OTHER:
   case JOURNAL_NONE: return PENDRES_INVALID_ARGUMENT;
@@ -276,7 +276,7 @@ static pendres_status settle_head(journal *j, char *words)
     status = begin_anew(j, "the head of the journal is damaged: it", ", and all is computed again",
                         words);
   if (status != PENDRES_OK) return status;
-  if (journal_file_begin(j->file[0], j->head, &j->end)) return PENDRES_OK;
+  if (journal_file_begin(j->file[0].fd, j->head, &j->end)) return PENDRES_OK;
   return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
 }
 
@@ -284,10 +284,10 @@ static pendres_status settle_head(journal *j, char *words)
 static pendres_status load_own(journal *j, char *words)
 {
   const pendres_status status = load(j, 0, &j->end);
-  const off_t dropped = size_of(j->file[0]) - j->end;
+  const off_t dropped = size_of(j->file[0].fd) - j->end;
   j->own = j->count;
   if (status != PENDRES_OK || dropped <= 0) return status;
-  if (ftruncate(j->file[0], j->end) != 0)
+  if (ftruncate(j->file[0].fd, j->end) != 0)
     return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
   snprintf(words, JOURNAL_WORDS, "the journal '%s' is torn or damaged from byte %lld on: %lld "
            "bytes are dropped, and what they held is computed again", j->path, (long long)j->end,
@@ -306,7 +306,7 @@ static pendres_status build(journal *j, const char *path, const char *head, int 
   strcpy(j->head, head);
   pendres_status status = open_own(j, words);
   /* Only now it is known that no other run uses it. */
-  if (status == PENDRES_OK && !resume && size_of(j->file[0]) > 0) status = clear_own(j, words);
+  if (status == PENDRES_OK && !resume && size_of(j->file[0].fd) > 0) status = clear_own(j, words);
   if (status == PENDRES_OK) status = settle_head(j, words);
   if (status == PENDRES_OK) status = load_own(j, words);
   return status;
@@ -315,10 +315,9 @@ static pendres_status build(journal *j, const char *path, const char *head, int 
 static void let_go(journal *j)
 {
   for (size_t i = 0; i < j->files; i++) {
-    close(j->file[i]);
-    free(j->added[i]);
+    close(j->file[i].fd);
+    free(j->file[i].name);
   }
-  free(j->added);
   drop_index(j);
   free(j->file);
   free(j->head);
@@ -384,7 +383,7 @@ pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record
   const slot *found = find(j, stage, task), s = found != NULL ? *found : (slot){ 0 };
   pthread_mutex_unlock(&j->lock);
   if (found == NULL) return PENDRES_NOT_FOUND;
-  const int fd = j->file[s.file];
+  const int fd = j->file[s.file].fd;
   if (!journal_file_entry(fd, s.at, &e) || e.size > SIZE_MAX / 2) return PENDRES_IO;
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, (size_t)e.size) == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -403,10 +402,11 @@ static pendres_status append(journal *j, uint64_t stage, size_t task, const farm
   journal_entry e = { .stage = stage, .task = task, .size = r->size,
                       .cost = { c->pendulum_periods, c->rhs_evaluations, c->steps, c->newton_steps,
                                 c->settled_pendulums } };
-  if (!journal_file_append(j->file[0], j->end, &e, r->data)) {
+  if (!journal_file_append(j->file[0].fd, j->end, &e, r->data)) {
     j->broken = 1;
     (void)complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
-    if (ftruncate(j->file[0], j->end) != 0) return PENDRES_IO; /* the torn end is dropped later */
+    const int cut = ftruncate(j->file[0].fd, j->end);
+    (void)cut; /* where it stays, the torn end is dropped later */
     return PENDRES_IO;
   }
   const off_t at = j->end;
@@ -414,7 +414,7 @@ static pendres_status append(journal *j, uint64_t stage, size_t task, const farm
   j->own++;
   j->dirty = 1;
   if (clock_wall() - j->synced > sync_after) {
-    (void)fdatasync(j->file[0]);
+    (void)fdatasync(j->file[0].fd);
     j->synced = clock_wall();
   }
   return note(j, 0, &e, at);
@@ -441,8 +441,8 @@ void journal_stay(journal *j)
 void journal_close(journal *j)
 {
   if (j == NULL) return;
-  if (j->own == 0 && !j->stays) own_file_remove(j->file[0], j->path);
-  else if (j->dirty) (void)fsync(j->file[0]);
+  if (j->own == 0 && !j->stays) own_file_remove(j->file[0].fd, j->path);
+  else if (j->dirty) (void)fsync(j->file[0].fd);
   let_go(j);
 }
 
@@ -451,7 +451,7 @@ void journal_remove(journal *j)
   if (j == NULL) return;
   /* One that another run is still writing is that run's. */
   for (size_t i = 0; i < j->files; i++)
-    if (i == 0 || flock(j->file[i], LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-      own_file_remove(j->file[i], j->added[i]);
+    if (i == 0 || flock(j->file[i].fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+      own_file_remove(j->file[i].fd, j->file[i].name);
   let_go(j);
 }

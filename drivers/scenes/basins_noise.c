@@ -37,7 +37,7 @@ static pendres_cloud_request cloud_request(const cloud_work *w, size_t number)
 
 static int is_broken(const cloud_work *w, size_t number)
 {
-  return w->prepared.failed.reason[number] != SCENE_FAILURE_NONE;
+  return w->prepared.failed[number].reason != SCENE_FAILURE_NONE;
 }
 
 /* Is there a cloud whose trajectories are followed? */
@@ -138,11 +138,9 @@ static pendres_status collect_part(const scene_points *p, size_t task, size_t n,
 static pendres_status conclude(cloud_work *w, size_t number)
 {
   const pendres_cloud_request q = cloud_request(w, number);
-  const scene_failures *parts = &w->followed.failed;
   for (size_t k = (number + 1) * w->parts; k-- > number * w->parts;)
-    if (parts->reason[k] != SCENE_FAILURE_NONE)
-      scene_failures_mark(&w->prepared.failed, number, (scene_failure)parts->reason[k],
-                          parts->words[k]);
+    if (w->followed.failed[k].reason != SCENE_FAILURE_NONE)
+      w->prepared.failed[number] = w->followed.failed[k];
   if (!is_broken(w, number))
     return pendres_cloud_conclude(&q, w->parts, w->part + number * w->parts, &w->clouds[number]);
   for (size_t k = 0; k < w->strobes; k++)
@@ -277,15 +275,15 @@ static void write_clouds(scene_run *run, const cloud_work *w)
 
 static void write_failed(scene_run *run, const cloud_work *w)
 {
-  const scene_failures *failed = &w->prepared.failed;
-  pendres_store_spec spec = { .name = "noise_failed", .dimensions = { "temperature", "attractor" },
-                              .long_name = "why there is no whole result for the noisy cloud" };
-  scene_failure_flags(&spec);
-  scene_put(run, &spec, failed->reason, NULL, w->prepared.n);
+  const scene_failed *failed = w->prepared.failed;
+  const scene_table table = {.dimensions = {"temperature", "attractor"}, .n = w->prepared.n,
+                             .stride = sizeof *failed, .rows = failed};
+  scene_columns_write_failed(run, &table, "noise_failed",
+                             "why there is no whole result for the noisy cloud");
   for (size_t i = 0; scene_going(run) && i < w->prepared.n; i++) {
     if (!is_broken(w, i)) continue;
     run->failed_points++;
-    scene_failure_tell(run, (scene_failure)failed->reason[i], failed->words[i],
+    scene_failure_tell(run, failed[i].reason, failed[i].words,
                        "noisy cloud at temperature %.10g, attractor %zu",
                        cloud_request(w, i).temperature, i % w->attractors);
   }

@@ -41,13 +41,6 @@ static pendres_pendulum pendulum_at(const work *w, size_t i)
 
 /* ---- the cascade --------------------------------------------------------------------------- */
 
-static void name_cascade(const scene_points *p, size_t point, char *text, size_t size)
-{
-  (void)p;
-  (void)point;
-  snprintf(text, size, "the cascade of doublings");
-}
-
 static void no_cascade(const scene_points *p, size_t point, void *row)
 {
   (void)p;
@@ -227,12 +220,12 @@ static void mark_more(scene_run *run, const work *w, const scene_points *p, cons
                       scene_along_row *rows)
 {
   for (size_t i = 0; rows != NULL && i < p->n; i++) {
-    const scene_failure reason = (scene_failure)p->failed.reason[i];
+    const scene_failure reason = p->failed[i].reason;
     if (reason == SCENE_FAILURE_NONE) continue;
     /* What the path has not come to is counted there. */
     run->failed_points += rows[i].failed == SCENE_FAILURE_NONE;
     rows[i].failed = (int)reason;
-    scene_failure_tell(run, reason, p->failed.words[i], "%s at %s %.10g", what,
+    scene_failure_tell(run, reason, p->failed[i].words, "%s at %s %.10g", what,
                        deck_axis_name(w->way.axis), w->way.value[i]);
   }
 }
@@ -314,7 +307,7 @@ static pendres_status run_scene(scene_run *run)
                        .check = check_count, .arg = &w},
             .cascade = {.n = 1, .size = sizeof(pendres_cascade), .chunk = 1,
                         .compute = find_cascade, .leave_out = no_cascade, .check = check_cascade,
-                        .name = name_cascade, .arg = &w},
+                        .what = "the cascade of doublings", .arg = &w},
             .values = {.size = 2 * strobes * sizeof(double), .chunk = 1, .compute = find_strobes,
                        .leave_out = no_strobes, .check = check_strobes,
                        .collect = collect_strobes, .arg = &w}};

@@ -266,6 +266,14 @@ void scene_columns_write(scene_run *run, const scene_table *t, size_t count,
   release(&b);
 }
 
+void scene_columns_write_failed(scene_run *run, const scene_table *table, const char *name,
+                                const char *long_name)
+{
+  const scene_column column = {
+    SCENE_TYPED(SCENE_FLAG, name, scene_failed, reason, long_name), .names = scene_failure_names};
+  scene_columns_write(run, table, 1, &column);
+}
+
 void scene_columns_write_orbits(scene_run *run, const scene_table *t, size_t orbit)
 {
   const pendres_orbit_quantity *q;

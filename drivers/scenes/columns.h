@@ -96,6 +96,10 @@ void scene_columns_blank(size_t count, const scene_column *columns, void *row);
 #define SCENE_BLANK(columns, row) \
   scene_columns_blank(sizeof columns / sizeof *columns, columns, row)
 
+/* Write a table of scene_failed as the codes of that name. */
+void scene_columns_write_failed(scene_run *run, const scene_table *table, const char *name,
+                                const char *long_name);
+
 /* Write the principal measures of the orbits that stand at that offset in the rows. */
 void scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);
 

@@ -147,12 +147,10 @@ static void write_cusp(const scene_lines *l)
 
 static void write_failed(const scene_lines *l)
 {
-  pendres_store_spec spec = {.name = "curves_failed",
-                             .long_name = "why the curves of bifurcations are not whole"};
-  const int8_t reason =
-    (int8_t)scene_failure_of(pendres_phase_diagram_get(l->diagram).outcome);
-  scene_failure_flags(&spec);
-  scene_put(l->run, &spec, &reason, NULL, 1);
+  const scene_failed of = {scene_failure_of(pendres_phase_diagram_get(l->diagram).outcome), NULL};
+  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  scene_columns_write_failed(l->run, &table, "curves_failed",
+                             "why the curves of bifurcations are not whole");
 }
 
 void scene_curves_write(const scene_lines *l)

@@ -65,19 +65,13 @@ int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double run
   return 1;
 }
 
-void scene_failures_create(scene_run *run, size_t n, scene_failures *out)
+void scene_failure_mark(scene_run *run, scene_failed *point, scene_failure reason,
+                        const char *words)
 {
-  *out = (scene_failures){.run = run, .reason = scene_array(run, n, 1),
-                          .words = scene_array(run, n, sizeof *out->words)};
-}
-
-void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words)
-{
-  f->reason[point] = (int8_t)reason;
-  f->words[point] = NULL;
-  if (words == NULL || words[0] == '\0') return;
-  f->words[point] = scene_array(f->run, strlen(words) + 1, 1);
-  if (f->words[point] != NULL) strcpy(f->words[point], words);
+  char *copy = NULL;
+  if (words != NULL && words[0] != '\0') copy = scene_array(run, strlen(words) + 1, 1);
+  if (copy != NULL) strcpy(copy, words);
+  *point = (scene_failed){reason, copy};
 }
 
 void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
@@ -142,16 +136,4 @@ void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
 const char *scene_failure_names(int value)
 {
   return value >= 0 && value < SCENE_FAILURE_COUNT ? reasons[value].meaning : NULL;
-}
-
-void scene_failure_flags(pendres_store_spec *spec)
-{
-  static const char *const meanings[] = {
-#define MEANING(code, meaning, words) meaning,
-    SCENE_FAILURE_LIST(MEANING)
-#undef MEANING
-  };
-  spec->type = PENDRES_STORE_INT8;
-  spec->flag_count = SCENE_FAILURE_COUNT;
-  spec->flag_meanings = meanings;
 }

@@ -67,24 +67,20 @@ void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id 
 void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
                              double multiplier, char words[SCENE_TOLD]);
 
-/* The reasons of n points; all SCENE_FAILURE_NONE at first. The run's, see scene_array(). */
-typedef struct scene_failures {
-  scene_run *run;
-  int8_t *reason; /* [n] */
-  char **words;   /* [n] the library's own; NULL: those of the list */
-} scene_failures;
+/* What has become of a point; all zero: it has a result. */
+typedef struct scene_failed {
+  scene_failure reason;
+  const char *words; /* the library's own, or NULL: those of the list */
+} scene_failed;
 
-void scene_failures_create(scene_run *run, size_t n, scene_failures *out);
-
-/* Mark a point; the last mark counts. words are copied; NULL: those of the list. */
-void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);
+/* Mark it; the last mark counts. words are copied into the run's room. */
+void scene_failure_mark(scene_run *run, scene_failed *point, scene_failure reason,
+                        const char *words);
 
 /* The names of the codes, as columns take them; NULL beyond the last. */
 const char *scene_failure_names(int value);
 
-/* For scenes that write their marks themselves, as int8: the flags of a variable ... */
-void scene_failure_flags(pendres_store_spec *spec);
-/* ... and a line for the terminal, unless there are many already. */
+/* A line for the terminal, unless there are many already. */
 void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
                         const char *format, ...) __attribute__((format(printf, 4, 5)));
 

@@ -113,7 +113,7 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
     const size_t point = task * values + k;
     const pendres_pendulum p = scene_lines_pendulum(l, point);
     pendres_response response;
-    int left_out = l->points.failed.reason[point] != SCENE_FAILURE_NONE;
+    int left_out = l->points.failed[point].reason != SCENE_FAILURE_NONE;
     scene_points_begin(l->run, &l->points, point, 1, out);
     if (!left_out)
       status = pendres_response_find(ctx, 1, &p, &grid.options.ensemble, &response);
@@ -172,8 +172,8 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   for (size_t i = first; i < first + l->grid.values && status == PENDRES_OK; i++) {
     const int lost = in->size == 0 ||
                      pendres_phase_diagram_outcome_get(l->diagram, i, NULL) == PENDRES_UNSUPPORTED;
-    if (lost && l->points.failed.reason[i] == SCENE_FAILURE_NONE)
-      scene_failures_mark(&l->points.failed, i, SCENE_FAILURE_OUT_OF_TIME, NULL);
+    if (lost && l->points.failed[i].reason == SCENE_FAILURE_NONE)
+      scene_failure_mark(l->run, &l->points.failed[i], SCENE_FAILURE_OUT_OF_TIME, NULL);
   }
   return status;
 }
@@ -216,7 +216,7 @@ static void leave_out(scene_lines *l)
     const pendres_pendulum p = scene_lines_pendulum(l, i);
     if (!scene_failure_too_long(&p, RUNS_A_POINT, words, sizeof words)) continue;
     (void)pendres_phase_diagram_leave_out(l->diagram, i);
-    scene_failures_mark(&l->points.failed, i, SCENE_FAILURE_TOO_LONG, words);
+    scene_failure_mark(l->run, &l->points.failed[i], SCENE_FAILURE_TOO_LONG, words);
   }
 }
 
@@ -231,7 +231,7 @@ static void judge(scene_lines *l)
     const pendres_status outcome = pendres_phase_diagram_outcome_get(l->diagram, i, &message);
     const scene_failure reason = scene_failure_of(outcome);
     if (reason != SCENE_FAILURE_NONE) {
-      scene_failures_mark(&l->points.failed, i, reason, message);
+      scene_failure_mark(l->run, &l->points.failed[i], reason, message);
     } else if (outcome == PENDRES_OK && unresolved > 0) {
       const size_t members = l->grid.options.ensemble.members;
       scene_failure_unsettled(l->run->deck, unresolved, members, "members",
@@ -243,7 +243,7 @@ static void judge(scene_lines *l)
         snprintf(words, sizeof words, "%zu of %zu members are on no orbit of the drive's clock: a "
                  "rotation is there, which without a drive has a period of its own",
                  unresolved, members);
-      scene_failures_mark(&l->points.failed, i, SCENE_FAILURE_UNRESOLVED, words);
+      scene_failure_mark(l->run, &l->points.failed[i], SCENE_FAILURE_UNRESOLVED, words);
     }
   }
 }
@@ -267,7 +267,7 @@ void scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
   scene_points_over(&l->points, run->deck, deck_axes(run->deck, axis), axis);
   l->grid = grid_of(run->deck, axis, spacing);
   l->points.rows = scene_array(run, l->points.n, l->points.size);
-  scene_failures_create(run, l->points.n, &l->points.failed);
+  l->points.failed = scene_array(run, l->points.n, sizeof *l->points.failed);
   const pendres_status status = pendres_phase_diagram_create(&l->grid, &l->diagram);
   if (status != PENDRES_OK)
     scene_fail(run, status, "a diagram of %zu points: %s", l->points.n,

@@ -111,13 +111,6 @@ static void leave_out(const scene_points *p, size_t point, void *row)
   *(orbit_found *)row = nothing;
 }
 
-static void name_search(const scene_points *p, size_t point, char *text, size_t size)
-{
-  (void)p;
-  (void)point;
-  snprintf(text, size, "what the pendulum settles on");
-}
-
 static int check_found(const scene_points *p, const void *row)
 {
   const orbit_found *f = row;
@@ -247,7 +240,7 @@ static pendres_status run_scene(scene_run *run)
                    .pendulum = deck_pendulum(d), .found = nothing,
                    .search = {.n = 1, .chunk = 1, .size = sizeof(orbit_found), .compute = find,
                               .too_long = too_long, .leave_out = leave_out, .check = check_found,
-                              .name = name_search, .rows = &w.found, .arg = &w},
+                              .what = "what the pendulum settles on", .rows = &w.found, .arg = &w},
                    .parts = {.chunk = 1, .compute = sample, .check = check_part,
                              .collect = collect, .unmarked = 1, .arg = &w} };
   w.chunk = whole < 1 ? 1 : whole < all ? whole : all;

@@ -109,9 +109,9 @@ static const scene_column of_doubts[] = {
 
 static void put_label(scene_run *run, const orbit_work *w)
 {
-  const scene_failures *late = &w->search.failed;
+  const scene_failed *late = &w->search.failed[0];
   const int unresolved = w->found.of.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
-  const int failed = late->reason[0] != SCENE_FAILURE_NONE ? late->reason[0]
+  const int failed = late->reason != SCENE_FAILURE_NONE ? (int)late->reason
                      : unresolved                          ? SCENE_FAILURE_UNRESOLVED
                                                            : SCENE_FAILURE_NONE;
   const verdict of = {(int)w->found.of.label, w->found.uncertain, failed};
@@ -121,7 +121,7 @@ static void put_label(scene_run *run, const orbit_work *w)
     .names = pendres_pendulum_leaves(&w->pendulum) ? scene_fate_names : scene_label_names};
   run->failed_points = failed != SCENE_FAILURE_NONE;
   if (run->failed_points > 0)
-    scene_failure_tell(run, (scene_failure)failed, late->words[0], "orbit");
+    scene_failure_tell(run, (scene_failure)failed, late->words, "orbit");
   scene_columns_write(run, &table, 1, &label);
   SCENE_WRITE(run, &table, of_failures);
   if (of.uncertain) SCENE_WRITE(run, &table, of_doubts);

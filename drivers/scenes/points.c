@@ -82,15 +82,17 @@ static void name_point(const scene_run *run, const scene_points *p, size_t point
     p->name(p, point, text, size);
     return;
   }
-  const int used = p->what != NULL ? snprintf(text, size, "%s at ", p->what) : 0;
-  scene_point_name(run->deck, point, p->axes, p->axis, text + used, size - (size_t)used);
+  const char *at = p->what != NULL && p->axes > 0 ? " at " : "";
+  const int used = snprintf(text, size, "%s%s", p->what != NULL ? p->what : "", at);
+  if (p->axes > 0)
+    scene_point_name(run->deck, point, p->axes, p->axis, text + used, size - (size_t)used);
 }
 
 void scene_points_begin(const scene_run *run, const scene_points *p, size_t first, size_t n,
                         farm_record *out)
 {
   char name[SCENE_TOLD], more[40] = "";
-  if (p->axes == 0 && p->name == NULL) return;
+  if (p->axes == 0 && p->name == NULL && p->what == NULL) return;
   name_point(run, p, first, name, sizeof name);
   if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
   farm_point(out, scene_find(run->deck->kind)->budget ? n : 0, "%s%s", name, more);
@@ -224,7 +226,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   scene_points *p = t.of;
   mark m;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)
-    scene_failures_mark(&p->failed, m.point, (scene_failure)m.reason, m.words);
+    scene_failure_mark(s->run, &p->failed[m.point], (scene_failure)m.reason, m.words);
   if (p->collect != NULL) return p->collect(p, t.first, t.n, in->data);
   memcpy((char *)p->rows + t.first * p->size, in->data, t.n * p->size);
   return PENDRES_OK;
@@ -239,7 +241,7 @@ void scene_points_compute(scene_run *run, const farm_stage *stage, size_t count,
     scene_points *p = points[k];
     if (p->collect == NULL && p->rows == NULL)
       p->rows = scene_array(run, p->n, p->size);
-    if (!p->unmarked) scene_failures_create(run, p->n, &p->failed);
+    if (!p->unmarked) p->failed = scene_array(run, p->n, sizeof *p->failed);
     whole.tasks += tasks_of(p);
   }
   if (stage->tasks == 0) whole.record_size = points[0]->size;
@@ -266,8 +268,8 @@ void scene_points_tell(scene_run *run, const scene_points *p)
 {
   char name[SCENE_TOLD];
   for (size_t i = 0; i < p->n && scene_going(run); i++) {
-    const scene_failure reason = (scene_failure)p->failed.reason[i];
-    const char *words = p->failed.words[i];
+    const scene_failure reason = p->failed[i].reason;
+    const char *words = p->failed[i].words;
     if (reason == SCENE_FAILURE_NONE) continue;
     if (words == NULL && p->words != NULL) words = p->words(reason);
     name_point(run, p, i, name, sizeof name);
@@ -279,10 +281,10 @@ void scene_points_tell(scene_run *run, const scene_points *p)
 void scene_points_write_failed(scene_run *run, const scene_points *p, const char *name,
                                const char *long_name)
 {
-  pendres_store_spec spec = {.name = name, .long_name = long_name};
-  scene_failure_flags(&spec);
-  for (int i = 0; i < p->axes; i++) spec.dimensions[i] = deck_axis_name(p->axis[i]);
-  scene_put(run, &spec, p->failed.reason, NULL, p->n);
+  scene_table table = scene_points_table(p, run->deck);
+  table.rows = p->failed;
+  table.stride = sizeof *p->failed;
+  scene_columns_write_failed(run, &table, name, long_name);
   scene_points_tell(run, p);
 }
 

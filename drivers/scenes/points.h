@@ -54,9 +54,9 @@ struct scene_points {
   /* Take over finished points, in their order; NULL: they are kept in `rows`. */
   pendres_status (*collect)(const scene_points *p, size_t first, size_t n, const void *rows);
 
-  /* What they are called: "WHAT at damping 0.24, drive_period 7"; what may be NULL. Points that are
-     not a grid of the deck's axes have a function for their names, or none: they have no budget
-     then. */
+  /* What they are called: "WHAT at damping 0.24, drive_period 7", or WHAT without axes; what may be
+     NULL. Points that are neither one nor a grid of the deck's axes have a function for their
+     names, or none: they have no budget then. */
   const char *what;
   int axes;
   deck_axis_id axis[DECK_AXES + 1]; /* slowest first */
@@ -71,7 +71,7 @@ struct scene_points {
 
   /* The results, which belong to the run, but for rows that the scene has set before. */
   void *rows;               /* [n] */
-  scene_failures failed;    /* [n] */
+  scene_failed *failed;     /* [n] */
 };
 
 /* The points of a grid of the deck's axes: their number, and the axes. */

@@ -141,7 +141,7 @@ static pendres_status collect(const scene_points *p, size_t first, size_t n, con
   const pendres_ramp_jump *jump = in;
   const double *x = (const double *)(jump + w->ramp.jumps);
   const size_t all = samples(w);
-  const int failed = p->failed.reason[0] != SCENE_FAILURE_NONE;
+  const int failed = p->failed[0].reason != SCENE_FAILURE_NONE;
   (void)first;
   (void)n;
   memcpy(w->jump, jump, w->ramp.jumps * sizeof *jump);
@@ -196,9 +196,9 @@ static void put_way(scene_run *run, const work *w)
                              .rows = w->rows};
   scene_numbering(run, "point", w->points, "number of the point of a way");
   SCENE_WRITE(run, &table, columns);
-  if (!scene_going(run) || w->way.failed.reason[0] == SCENE_FAILURE_NONE) return;
+  if (!scene_going(run) || w->way.failed[0].reason == SCENE_FAILURE_NONE) return;
   run->failed_points++;
-  scene_failure_tell(run, (scene_failure)w->way.failed.reason[0], w->way.failed.words[0],
+  scene_failure_tell(run, w->way.failed[0].reason, w->way.failed[0].words,
                      "the ramp of %s in real time", w->name);
 }
 
@@ -266,7 +266,7 @@ static void compute(scene_run *run, work *w)
   SCENE_COMPUTE(run, &w->way, "ramps", .last = 0);
   if (!scene_going(run)) return;
   for (size_t k = 0; k < w->ramp.jumps * w->trajectories; k++) w->noisy[k] = NAN;
-  if (noise.n == 0 || noise.size == 0 || w->way.failed.reason[0] != SCENE_FAILURE_NONE) return;
+  if (noise.n == 0 || noise.size == 0 || w->way.failed[0].reason != SCENE_FAILURE_NONE) return;
   SCENE_COMPUTE(run, &noise, "parts of the noisy trajectories", .last = 1);
   for (size_t k = 0; k < w->ramp.jumps && scene_going(run); k++) {
     const pendres_status status = pendres_ramp_summarize(

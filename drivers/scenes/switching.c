@@ -143,9 +143,8 @@ static pendres_status collect_count(const scene_points *p, size_t first, size_t 
   const size_t temperature = first / w->parts;
   (void)n;
   pendres_switching_add(&w->sums[temperature], rows);
-  if (w->results.failed.reason[temperature] == SCENE_FAILURE_NONE)
-    scene_failures_mark(&w->results.failed, temperature, (scene_failure)p->failed.reason[first],
-                        p->failed.words[first]);
+  if (w->results.failed[temperature].reason == SCENE_FAILURE_NONE)
+    w->results.failed[temperature] = p->failed[first];
   return PENDRES_OK;
 }
 
@@ -192,7 +191,7 @@ static int more_steps(const work *w)
 static int steps_of(const work *w)
 {
   for (int s = 0; s < STATES; s++)
-    if (w->choices.failed.reason[s] != SCENE_FAILURE_NONE) return 0;
+    if (w->choices.failed[s].reason != SCENE_FAILURE_NONE) return 0;
   return more_steps(w);
 }
 
@@ -206,15 +205,14 @@ static pendres_status conclude(work *w, size_t i)
 {
   const int *state = w->survey.state;
   for (int s = STATES - 1; s >= 0; s--)
-    if (w->choices.failed.reason[s] != SCENE_FAILURE_NONE)
-      scene_failures_mark(&w->results.failed, i, (scene_failure)w->choices.failed.reason[s],
-                          w->choices.failed.words[s]);
-  const int broken = w->results.failed.reason[i] != SCENE_FAILURE_NONE;
+    if (w->choices.failed[s].reason != SCENE_FAILURE_NONE)
+      w->results.failed[i] = w->choices.failed[s];
+  const int broken = w->results.failed[i].reason != SCENE_FAILURE_NONE;
   const int both = w->way[0] == PENDRES_SWITCHING_FORTH;
   if (!broken && both && (state[SA] < 0 || state[LA] < 0))
-    scene_failures_mark(&w->results.failed, i, SCENE_FAILURE_NOT_FOUND,
-                        state[SA] < 0 ? "there is no small-amplitude state"
-                                      : "there is no large-amplitude state");
+    w->results.failed[i] = (scene_failed){
+      SCENE_FAILURE_NOT_FOUND, state[SA] < 0 ? "there is no small-amplitude state"
+                                             : "there is no large-amplitude state"};
   return pendres_switching_conclude(&w->survey, w->d->axis[DECK_AXIS_TEMPERATURE].value[i],
                                     broken ? NULL : &w->sums[i], &w->rates[i]);
 }
@@ -226,7 +224,7 @@ static void compute(scene_run *run, work *w)
   w->parts = scene_going(run) ? pendres_switching_parts(&w->survey) : 1;
   w->sums = scene_array(run, w->temperatures, sizeof *w->sums);
   w->rates = scene_array(run, w->temperatures, sizeof *w->rates);
-  scene_failures_create(run, w->temperatures, &w->results.failed);
+  w->results.failed = scene_array(run, w->temperatures, sizeof *w->results.failed);
   SCENE_COMPUTE(run, &w->choices, "choices of steps", .cheap = 1);
   if (scene_going(run)) w->survey.steps_per_period = steps_of(w);
   w->counts.n = w->temperatures * w->parts;
