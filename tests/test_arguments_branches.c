@@ -193,8 +193,6 @@ static void curves(void **state)
   REFUSED(pendres_curves_find(f->ctx, 1, NULL, &options, &all));
   REFUSED(pendres_curves_find(f->ctx, 1, &f->fold, NULL, &all));
   REFUSED(pendres_curves_find(f->ctx, 1, &f->fold, &options, NULL));
-  REFUSED(pendres_curves_extend(f->ctx, 1, &f->fold, &options, NULL));
-  REFUSED(pendres_curves_extend(f->ctx, 1, &f->fold, NULL, NULL));
   REFUSED(pendres_cusp_find(f->ctx, NULL, PENDRES_DAMPING, &cusp));
   REFUSED(pendres_cusp_find(f->ctx, &f->fold, PENDRES_DAMPING, NULL));
   REFUSED(pendres_cusp_find(f->ctx, &f->fold, PENDRES_DRIVE_FREQUENCY, &cusp));

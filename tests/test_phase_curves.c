@@ -28,13 +28,16 @@ static pendres_curves *curves_of(pendres_context *ctx, const line *l)
   const pendres_curve_options options = {
     .second = PENDRES_DAMPING, .low = {0.28, 0.06}, .high = {1.1, 1.0}};
   pendres_curves *curves = NULL;
-  check_ok(pendres_curves_find(ctx, 0, NULL, &options, &curves));
+  pendres_bifurcation all[32];
+  size_t n = 0;
   for (size_t i = 0; i < pendres_branches_count(l->branches); i++) {
     const pendres_branch *b = pendres_branches_get(l->branches, i);
-    if (pendres_branch_bifurcation_count(b) > 0)
-      check_ok(pendres_curves_extend(ctx, pendres_branch_bifurcation_count(b),
-                                     pendres_branch_bifurcation_get(b, 0), &options, curves));
+    for (size_t k = 0; k < pendres_branch_bifurcation_count(b); k++) {
+      assert_true(n < sizeof all / sizeof *all);
+      all[n++] = *pendres_branch_bifurcation_get(b, k);
+    }
   }
+  check_ok(pendres_curves_find(ctx, n, all, &options, &curves));
   return curves;
 }
 

@@ -9,7 +9,6 @@
 #include <pendres/continuation.h>
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/angles.h"
@@ -214,10 +213,9 @@ static pendres_status correct(pendres_context *ctx, const pendres_followed *kind
   }
   l->found = kept;
   kept = 0;
-  pendres_correction *c = calloc(l->found + 1, sizeof *c);
-  pendres_status status = PENDRES_OK;
-  if (c == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a backbone");
+  pendres_room room = pendres_room_open(ctx, "points of a backbone");
+  pendres_correction *c = pendres_room_take(&room, l->found, sizeof *c);
+  pendres_status status = room.status;
   for (size_t k = 0; k < l->found && status == PENDRES_OK; k++) {
     c[k].kind = kind;
     memcpy(c[k].u, l->node[k].u, sizeof c[k].u);
@@ -236,8 +234,7 @@ static pendres_status correct(pendres_context *ctx, const pendres_followed *kind
     l->index[kept++] = l->index[k];
   }
   l->found = kept;
-  free(c);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Where the caller wants results. */

@@ -2,7 +2,6 @@
 #include "continuation/curve.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/grow.h"
@@ -63,11 +62,6 @@ pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_param
 
 /* ---- cusps ---- */
 
-static double test_cusp(const pendres_curve_node *p)
-{
-  return p->bending;
-}
-
 static pendres_status locate_cusp(pendres_context *ctx, const pendres_curve *c, const pendres_u u,
                                   double reach, pendres_curve_special *out)
 {
@@ -75,7 +69,7 @@ static pendres_status locate_cusp(pendres_context *ctx, const pendres_curve *c, 
   return pendres_curve_locate(ctx, &c->kind, out->condition, u, reach, &out->located);
 }
 
-static const pendres_curve_test cusps = {.function = test_cusp, .locate = locate_cusp};
+static const pendres_curve_test cusps = {.function = pendres_curve_bending, .locate = locate_cusp};
 
 /* ---- points ---- */
 

@@ -2,7 +2,6 @@
 #include "continuation/branch.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/grow.h"
@@ -46,11 +45,6 @@ pendres_branch_end pendres_branch_end_get(const pendres_branch *b, int which)
 }
 
 /* ---- bifurcations on the way ---- */
-
-static double test_fold(const pendres_curve_node *p)
-{
-  return pendres_map_fold(&p->image);
-}
 
 static double test_flip(const pendres_curve_node *p)
 {
@@ -182,7 +176,7 @@ static pendres_status locate_flip(pendres_context *ctx, const pendres_curve *t, 
 static const pendres_curve_test tests[] = {
   {.find = pendres_curve_find_births, .locate = locate_birth},
   {.find = pendres_curve_find_crossings, .locate = locate_crossing},
-  {.function = test_fold, .refine = 1, .locate = locate_fold},
+  {.function = pendres_curve_fold, .refine = 1, .locate = locate_fold},
   {.function = test_flip, .refine = 1, .locate = locate_flip}};
 
 /* ---- points ---- */
@@ -294,16 +288,13 @@ pendres_status pendres_branch_begin(pendres_context *ctx, const pendres_orbit *o
                                     pendres_branch **out)
 {
   pendres_curve_start start;
+  pendres_curve *curve = NULL;
   *out = NULL;
   const char *why = pendres_follow_refuses(orbit, parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   start.kind = pendres_followed_of(orbit, PENDRES_CONDITION_NONE, &parameter, spacing, start.u);
-  pendres_branch *b = calloc(1, sizeof *b);
-  if (b == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-  const pendres_status status = pendres_curve_begin(ctx, &start, &b->curve);
-  if (status == PENDRES_OK) *out = b;
-  else pendres_branch_free(b);
+  const pendres_status status = pendres_curve_begin(ctx, &start, &curve);
+  *out = pendres_branch_of(curve);
   return status;
 }
 

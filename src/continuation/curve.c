@@ -57,6 +57,12 @@ void pendres_curve_free(pendres_curve *c)
   free(c);
 }
 
+static void free_curve(pendres_curve **c)
+{
+  pendres_curve_free(*c);
+  *c = NULL;
+}
+
 /* ---- one way of a start ---- */
 
 static int add(pendres_curve_way *w, const pendres_curve_node *node)
@@ -110,11 +116,10 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
     c.u[i] = inside->u[i] + part * (outside->u[i] - inside->u[i]);
   c.u[place] = bound;
   c.tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
-  pendres_status status = pendres_map_steps(ctx, system.map.force, c.u, kind->tolerance, &c.steps);
-  if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, &c);
+  int found = 0;
+  pendres_status status = pendres_follow_place(ctx, kind->tolerance, &c, &found);
   const double chord = pendres_arc_distance(inside->u, outside->u);
-  if (status != PENDRES_OK || isnan(pendres_correction_rounding(&c)) ||
-      pendres_arc_distance(inside->u, c.u) > chord || fabs(c.u[place] - bound) > on_bound)
+  if (!found || pendres_arc_distance(inside->u, c.u) > chord || fabs(c.u[place] - bound) > on_bound)
     return status;
   memcpy(node->u, c.u, sizeof node->u);
   node->u[place] = bound;
@@ -231,20 +236,23 @@ static pendres_status join(pendres_context *ctx, pendres_curve *c)
 }
 
 pendres_status pendres_curve_begin(pendres_context *ctx, const pendres_curve_start *start,
-                                   pendres_curve *c)
+                                   pendres_curve **out)
 {
   pendres_status status = PENDRES_OK;
-  *c = (pendres_curve){.way = calloc(2, sizeof *c->way)};
-  if (c->way == NULL) return no_memory(ctx);
+  pendres_curve *c = *out = calloc(1, sizeof(pendres_branch));
+  if (c == NULL) return no_memory(ctx);
+  c->way = calloc(2, sizeof *c->way);
+  if (c->way == NULL) status = no_memory(ctx);
   for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
     pendres_curve_way *w = &c->way[k];
     status = pendres_follow_begin(ctx, &start->kind, start->u, k == 0 ? 1.0 : -1.0, &w->at);
     w->start = w->at.here;
     w->end = PENDRES_END_POINTS; /* none so far */
   }
-  c->kind = c->way[0].at.kind;
   if (status == PENDRES_NOT_CONVERGED)
     (void)pendres_context_fail(ctx, status, "the start lies on no curve");
+  if (status == PENDRES_OK) c->kind = c->way[0].at.kind;
+  else free_curve(out);
   return status;
 }
 
@@ -279,15 +287,12 @@ pendres_status pendres_curve_make(pendres_context *ctx, const pendres_curve_star
                                   const pendres_curve_bounds *bounds,
                                   pendres_curve_finisher *finish, pendres_curve **out)
 {
-  *out = calloc(1, sizeof(pendres_branch));
-  if (*out == NULL) return no_memory(ctx);
-  pendres_status status = pendres_curve_begin(ctx, start, *out);
-  if (status == PENDRES_OK) status = pendres_curve_extend(ctx, *out, bounds);
+  pendres_status status = pendres_curve_begin(ctx, start, out);
+  if (status != PENDRES_OK) return status;
+  status = pendres_curve_extend(ctx, *out, bounds);
   if (status == PENDRES_OK) status = finish(ctx, *out);
-  forget(*out);
-  if (status == PENDRES_OK) return status;
-  pendres_curve_free(*out);
-  *out = NULL;
+  if (status == PENDRES_OK) forget(*out);
+  else free_curve(out);
   return status;
 }
 

@@ -134,9 +134,9 @@ pendres_status pendres_curve_make(pendres_context *ctx, const pendres_curve_star
                                   const pendres_curve_bounds *bounds,
                                   pendres_curve_finisher *finish, pendres_curve **out);
 
-/* The same step by step. An empty curve, to be freed whether this succeeds or not; */
+/* The same step by step: begin, */
 pendres_status pendres_curve_begin(pendres_context *ctx, const pendres_curve_start *start,
-                                   pendres_curve *curve);
+                                   pendres_curve **out);
 /* and go on with ways that have ended by the number of points alone, or not begun to. */
 pendres_status pendres_curve_extend(pendres_context *ctx, pendres_curve *curve,
                                     const pendres_curve_bounds *bounds);
@@ -153,7 +153,6 @@ pendres_followed pendres_followed_at(const pendres_bifurcation *b, pendres_param
  * on the curve is already in *out. PENDRES_NOT_CONVERGED: there is none.
  */
 enum { PENDRES_CURVE_ZEROS = 256 /* at most, of one function */ };
-typedef double pendres_curve_function(const pendres_curve_node *node);
 typedef struct pendres_curve_test {
   pendres_curve_function *function;
   int refine; /* whether it may touch 0, or have two zeros between nodes: these are added then */
@@ -166,6 +165,10 @@ typedef struct pendres_curve_test {
 /* Find the special points of a curve by n tests, one after another, each point once. */
 pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *curve, size_t n,
                                            const pendres_curve_test *tests);
+
+/* The functions whose zeros are folds of a branch and cusps of a curve of folds. */
+double pendres_curve_fold(const pendres_curve_node *node);
+double pendres_curve_bending(const pendres_curve_node *node);
 
 /* Solve for a condition near u, on the curve's map. As pendres_locate(). */
 pendres_status pendres_curve_locate(pendres_context *ctx, const pendres_followed *kind,

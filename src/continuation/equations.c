@@ -2,13 +2,11 @@
 #include "continuation/equations.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <gsl/gsl_linalg.h>
 
 #include "continuation/crossing.h"
-#include "engine/context_internal.h"
 #include "engine/room.h"
 
 /* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's

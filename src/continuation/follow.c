@@ -2,14 +2,13 @@
 #include "continuation/follow.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "continuation/crossing.h"
 #include "continuation/locate.h"
 #include "continuation/numbers.h"
 #include "engine/accuracy.h"
-#include "engine/context_internal.h"
+#include "engine/room.h"
 
 pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_condition condition,
                                      const pendres_parameter *parameter, double spacing,
@@ -199,10 +198,9 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, pendres_correctio
 static pendres_status keep_off(pendres_context *ctx, int which, size_t n, pendres_correction *c,
                                size_t *index, pendres_u *u)
 {
-  pendres_status status = PENDRES_OK;
-  pendres_map_miss *miss = malloc((n + 1) * sizeof *miss);
-  if (miss == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  pendres_room room = pendres_room_open(ctx, "points");
+  pendres_map_miss *miss = pendres_room_take(&room, n, sizeof *miss);
+  pendres_status status = room.status;
   for (size_t i = 0; i < n; i++)
     c[i].waiting =
       c[i].state == PENDRES_CORRECTION_CONVERGED && (c[i].kind->apart >> which & 1) != 0;
@@ -216,21 +214,17 @@ static pendres_status keep_off(pendres_context *ctx, int which, size_t n, pendre
       if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close))
         c[index[i]].state = PENDRES_CORRECTION_FAILED;
   }
-  free(miss);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 /* Evaluate and correct until nothing is active any more. */
 static pendres_status converge(pendres_context *ctx, size_t n, pendres_correction *c)
 {
-  pendres_status status = PENDRES_OK;
-  size_t *index = malloc((n + 1) * sizeof *index), active = n;
-  pendres_u *u = malloc((n + 1) * sizeof *u);
-  pendres_equations *at = malloc((n + 1) * sizeof *at);
-  if (index == NULL || u == NULL || at == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-    goto done;
-  }
+  pendres_room room = pendres_room_open(ctx, "points");
+  size_t *index = pendres_room_take(&room, n, sizeof *index), active = n;
+  pendres_u *u = pendres_room_take(&room, n, sizeof *u);
+  pendres_equations *at = pendres_room_take(&room, n, sizeof *at);
+  pendres_status status = room.status;
   for (int i = 0; i < MOST_ITERATIONS && active > 0 && status == PENDRES_OK; i++) {
     status = evaluate(ctx, n, c, index, u, at);
     active = 0;
@@ -242,17 +236,24 @@ static pendres_status converge(pendres_context *ctx, size_t n, pendres_correctio
   }
   for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++)
     status = keep_off(ctx, which, n, c, index, u);
-done:
-  free(index);
-  free(u);
-  free(at);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_follow_correct(pendres_context *ctx, size_t n, pendres_correction *points)
 {
   for (size_t i = 0; i < n; i++) points[i].state = PENDRES_CORRECTION_ACTIVE;
   return converge(ctx, n, points);
+}
+
+pendres_status pendres_follow_place(pendres_context *ctx, double tolerance, pendres_correction *c,
+                                    int *found)
+{
+  *found = 0;
+  pendres_status status =
+    pendres_map_steps(ctx, c->kind->system.map.force, c->u, tolerance, &c->steps);
+  if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, c);
+  if (status == PENDRES_OK) *found = !isnan(pendres_correction_rounding(c));
+  return status;
 }
 
 /* ---- beginning ---- */
@@ -464,32 +465,28 @@ static pendres_status accept(pendres_context *ctx, pendres_follower *w, const pe
 pendres_status pendres_follow_advance(pendres_context *ctx, size_t n,
                                       pendres_follower *const *followers)
 {
-  pendres_status status = PENDRES_OK;
   size_t count = 0;
-  pendres_correction *c = malloc((n * PENDRES_AHEAD + 1) * sizeof *c);
-  if (c == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-  for (size_t i = 0; i < n; i++) {
+  pendres_room room = pendres_room_open(ctx, "points");
+  pendres_correction *c = pendres_room_take(&room, n * PENDRES_AHEAD, sizeof *c);
+  pendres_status status = room.status;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     pendres_follower *w = followers[i];
     int steps = 0;
     w->found = 0;
     if (w->stuck) continue;
     status = pendres_map_steps(ctx, w->kind.system.map.force, w->here.u, w->kind.tolerance, &steps);
-    if (status != PENDRES_OK) goto done;
-    for (int rank = 0; rank < PENDRES_AHEAD; rank++, count++) {
+    for (int rank = 0; rank < PENDRES_AHEAD && status == PENDRES_OK; rank++, count++) {
       c[count] = (pendres_correction){.kind = &w->kind, .steps = steps};
       memcpy(c[count].tangent, w->here.tangent, sizeof c[count].tangent);
       predict(w, rank, c[count].u);
       if (!is_possible(&c[count])) c[count].state = PENDRES_CORRECTION_FAILED;
     }
   }
-  status = converge(ctx, count, c);
+  if (status == PENDRES_OK) status = converge(ctx, count, c);
   for (size_t i = 0, k = 0; i < n && status == PENDRES_OK; i++)
     if (!followers[i]->stuck) {
       status = accept(ctx, followers[i], &c[k]);
       k += PENDRES_AHEAD;
     }
-done:
-  free(c);
-  return status;
+  return pendres_room_close(&room, status);
 }

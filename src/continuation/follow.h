@@ -75,7 +75,7 @@ typedef struct pendres_correction {
   const pendres_followed *kind;
   double tangent[PENDRES_UNKNOWNS]; /* the point stays in the plane across it */
   int steps;                        /* a period */
-  pendres_u u;        /* where it is; replaced */
+  pendres_u u;                      /* where it is; replaced */
   /* Set by the corrector: */
   enum { PENDRES_CORRECTION_ACTIVE, PENDRES_CORRECTION_CONVERGED, PENDRES_CORRECTION_FAILED } state;
   int waiting;
@@ -85,6 +85,11 @@ typedef struct pendres_correction {
 /* Correct n points. Those that converge to orbits from which their kind keeps apart fail, too. */
 pendres_status pendres_follow_correct(pendres_context *ctx, size_t n, pendres_correction *points);
 
+/* Correct a point with steps for an error of about `tolerance` a period; *found: it has
+   converged. */
+pendres_status pendres_follow_place(pendres_context *ctx, double tolerance,
+                                    pendres_correction *point, int *found);
+
 /* The error of the scaled unknowns of a corrected point by rounding; NaN where that failed. */
 double pendres_correction_rounding(const pendres_correction *point);
 
@@ -93,18 +98,22 @@ double pendres_correction_rounding(const pendres_correction *point);
 pendres_status pendres_follow_describe(pendres_context *ctx, const pendres_followed *kind,
                                        int steps, pendres_curve_node *node);
 
+/* A function of nodes. */
+typedef double pendres_curve_function(const pendres_curve_node *node);
+
 /*
- * A search along a curve: a function of its nodes that changes its sign at what is searched for,
- * and a function that locates that between two nodes, near u.
+ * What a curve is searched for: that a function of its nodes changes its sign, or comes back to the
+ * value that it began with; and a function that locates the place between two nodes, near u.
  */
-typedef struct pendres_search {
+typedef struct pendres_goal {
   const char *start; /* what the curve is of: "orbit" */
-  double (*value)(const pendres_curve_node *start, const pendres_curve_node *node);
+  pendres_curve_function *value;
+  int comes_back;
   /* PENDRES_NOT_CONVERGED: there is nothing, and the search goes on; PENDRES_NOT_FOUND: it goes on
      in the other direction. */
   pendres_status (*locate)(pendres_context *ctx, const pendres_followed *kind,
                            const pendres_curve_node nodes[2], const pendres_u u, void *out);
-} pendres_search;
+} pendres_goal;
 
 /*
  * Search along a curve from u on: first towards growing values of the last unknown (first > 0), or
@@ -112,7 +121,7 @@ typedef struct pendres_search {
  * way. PENDRES_NOT_FOUND, without a message, if it is not within a range of parameters.
  */
 pendres_status pendres_follow_search(pendres_context *ctx, const pendres_followed *kind,
-                                     const pendres_u u, const pendres_search *search,
+                                     const pendres_u u, const pendres_goal *goal,
                                      double first, void *out);
 
 #endif

@@ -2,8 +2,6 @@
 #include "continuation/map.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/angles.h"
 #include "continuation/numbers.h"
@@ -359,10 +357,10 @@ int pendres_map_half(const pendres_map *map, int which, pendres_map *half)
 pendres_status pendres_map_closes(pendres_context *ctx, const pendres_map *half, int steps,
                                   size_t n, const pendres_u *u, pendres_map_miss *miss)
 {
-  pendres_image *image = malloc((n + 1) * sizeof *image);
-  if (image == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu images", n);
-  const pendres_status status = pendres_map_states(ctx, half, steps, n, u, image);
+  pendres_room room = pendres_room_open(ctx, "images");
+  pendres_image *image = pendres_room_take(&room, n, sizeof *image);
+  pendres_status status = room.status;
+  if (status == PENDRES_OK) status = pendres_map_states(ctx, half, steps, n, u, image);
   const double period = pendres_model_of(half->force)->period;
   const double turn = period > 0.0 ? period : INFINITY;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
@@ -371,6 +369,5 @@ pendres_status pendres_map_closes(pendres_context *ctx, const pendres_map *half,
     miss[i] = (pendres_map_miss){{image[i].f[0] + two_pi * turns, image[i].f[1]},
                                           half->winding + (int)turns};
   }
-  free(image);
-  return status;
+  return pendres_room_close(&room, status);
 }

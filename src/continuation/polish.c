@@ -234,15 +234,14 @@ pendres_status pendres_curve_measure(pendres_context *ctx, pendres_curve *c)
    order of the parameter, too. */
 static pendres_status polish_neighbours(pendres_context *ctx, pendres_curve *c)
 {
-  size_t *index = malloc((2 * c->specials + 1) * sizeof *index), n = 0;
-  if (index == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-  for (size_t k = 0; k < c->specials; k++)
+  pendres_room room = pendres_room_open(ctx, "points");
+  size_t *index = pendres_room_take(&room, 2 * c->specials, sizeof *index), n = 0;
+  for (size_t k = 0; k < c->specials && room.status == PENDRES_OK; k++)
     for (size_t i = c->special[k].at.i; i <= c->special[k].at.i + 1 && i < c->nodes; i++)
       if (n == 0 || i > index[n - 1]) index[n++] = i;
-  const pendres_status status = pendres_curve_polish(ctx, c, n, index);
-  free(index);
-  return status;
+  const pendres_status status = room.status;
+  return pendres_room_close(
+    &room, status == PENDRES_OK ? pendres_curve_polish(ctx, c, n, index) : status);
 }
 
 /* The trace of the derivative over all of the orbit's period, from that of its map. */

@@ -24,9 +24,15 @@ static int is_far(const pendres_system *s, const pendres_curve_node *start,
   return fabs(value - from) > (widest_range - 1.0) * fabs(from) + 1.0;
 }
 
+static double value_at(const pendres_goal *goal, const pendres_curve_node *start,
+                       const pendres_curve_node *node)
+{
+  return goal->comes_back ? goal->value(node) - goal->value(start) : goal->value(node);
+}
+
 /* Go along a curve until the function changes its sign. */
 static pendres_status search_one_way(pendres_context *ctx, pendres_follower *w,
-                                     const pendres_search *search, void *out)
+                                     const pendres_goal *goal, void *out)
 {
   const pendres_curve_node start = w->here;
   pendres_curve_node nodes[2] = {start};
@@ -36,13 +42,13 @@ static pendres_status search_one_way(pendres_context *ctx, pendres_follower *w,
     if (w->stuck) return PENDRES_NOT_FOUND;
     for (int k = 0; k < w->found; k++, nodes[0] = nodes[1]) {
       nodes[1] = w->ahead[k];
-      const double before = search->value(&start, &nodes[0]);
-      const double now = search->value(&start, &nodes[1]);
+      const double before = value_at(goal, &start, &nodes[0]);
+      const double now = value_at(goal, &start, &nodes[1]);
       pendres_u u;
       if (before == 0.0 || !(before * now <= 0.0)) continue;
       for (int m = 0; m < PENDRES_U_COUNT; m++)
         u[m] = nodes[0].u[m] + before / (before - now) * (nodes[1].u[m] - nodes[0].u[m]);
-      status = search->locate(ctx, &w->kind, nodes, u, out);
+      status = goal->locate(ctx, &w->kind, nodes, u, out);
       if (status != PENDRES_NOT_CONVERGED) return status;
     }
     if (is_far(&w->kind.system, &start, &w->here) || w->here.growth > pendres_curve_wildest) break;
@@ -52,18 +58,18 @@ static pendres_status search_one_way(pendres_context *ctx, pendres_follower *w,
 
 /* By how much closer the function comes to 0 in a first step. */
 static pendres_status approach_of(pendres_context *ctx, const pendres_follower *from,
-                                  const pendres_search *search, double *approach)
+                                  const pendres_goal *goal, double *approach)
 {
   pendres_follower ahead = *from, *w = &ahead;
   const pendres_status status = pendres_follow_advance(ctx, 1, &w);
-  *approach = ahead.found > 0 ? fabs(search->value(&from->here, &from->here)) -
-                                  fabs(search->value(&from->here, &ahead.ahead[0]))
+  *approach = ahead.found > 0 ? fabs(value_at(goal, &from->here, &from->here)) -
+                                  fabs(value_at(goal, &from->here, &ahead.ahead[0]))
                               : -INFINITY;
   return status;
 }
 
 pendres_status pendres_follow_search(pendres_context *ctx, const pendres_followed *kind,
-                                     const pendres_u u, const pendres_search *search,
+                                     const pendres_u u, const pendres_goal *goal,
                                      double first, void *out)
 {
   pendres_follower way[2];
@@ -73,22 +79,21 @@ pendres_status pendres_follow_search(pendres_context *ctx, const pendres_followe
     pendres_status status = pendres_follow_begin(ctx, kind, u, k == 0 ? 1.0 : -1.0, &way[k]);
     if (status == PENDRES_NOT_CONVERGED)
       return pendres_context_fail(
-        ctx, status, "no %s to start from at %s %g", search->start,
+        ctx, status, "no %s to start from at %s %g", goal->start,
         pendres_name_get(PENDRES_NAMES_PARAMETER, place - PENDRES_U_OMEGA), u[place]);
     if (status == PENDRES_OK && first == 0.0)
-      status = approach_of(ctx, &way[k], search, &approach[k]);
+      status = approach_of(ctx, &way[k], goal, &approach[k]);
     if (status != PENDRES_OK) return status;
   }
   const int k = approach[0] >= approach[1] ? 0 : 1;
-  const pendres_status status = search_one_way(ctx, &way[k], search, out);
-  return status == PENDRES_NOT_FOUND ? search_one_way(ctx, &way[1 - k], search, out) : status;
+  const pendres_status status = search_one_way(ctx, &way[k], goal, out);
+  return status == PENDRES_NOT_FOUND ? search_one_way(ctx, &way[1 - k], goal, out) : status;
 }
 
 /* ---- the fold at the end of a branch ---- */
 
-static double fold_value(const pendres_curve_node *start, const pendres_curve_node *node)
+double pendres_curve_fold(const pendres_curve_node *node)
 {
-  (void)start;
   return pendres_map_fold(&node->image);
 }
 
@@ -107,8 +112,8 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_followed *
 static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
                                 pendres_parameter parameter, pendres_fold *out)
 {
-  static const pendres_search search = {
-    .start = "orbit", .value = fold_value, .locate = locate_fold};
+  static const pendres_goal goal = {
+    .start = "orbit", .value = pendres_curve_fold, .locate = locate_fold};
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
   const char *why = pendres_follow_refuses(near, parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", why);
@@ -116,7 +121,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   pendres_located located;
   const pendres_followed kind =
     pendres_followed_of(near, PENDRES_CONDITION_NONE, &parameter, pendres_search_spacing, u);
-  const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, 0.0, &located);
+  const pendres_status status = pendres_follow_search(ctx, &kind, u, &goal, 0.0, &located);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status, "the branch through %s %g has no fold near",
                                 pendres_name_get(PENDRES_NAMES_PARAMETER, parameter),
@@ -143,9 +148,8 @@ pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near
 
 /* ---- the cusp next to a fold ---- */
 
-static double cusp_value(const pendres_curve_node *start, const pendres_curve_node *node)
+double pendres_curve_bending(const pendres_curve_node *node)
 {
-  (void)start;
   return node->bending;
 }
 
@@ -159,8 +163,8 @@ static pendres_status locate_cusp(pendres_context *ctx, const pendres_followed *
 static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
                                 pendres_parameter second, pendres_cusp *out)
 {
-  static const pendres_search search = {
-    .start = "fold", .value = cusp_value, .locate = locate_cusp};
+  static const pendres_goal goal = {
+    .start = "fold", .value = pendres_curve_bending, .locate = locate_cusp};
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
   if (near->kind != PENDRES_FOLD)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
@@ -172,7 +176,7 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   pendres_u u;
   pendres_located located;
   const pendres_followed kind = pendres_followed_at(near, second, pendres_curve_spacing, u);
-  const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, 0.0, &located);
+  const pendres_status status = pendres_follow_search(ctx, &kind, u, &goal, 0.0, &located);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status, "the curve of folds through %g leads to no cusp",
                                 near->value);

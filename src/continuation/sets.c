@@ -10,6 +10,7 @@
 #include "continuation/numbers.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 
 /* ---- sets ---- */
 
@@ -126,11 +127,11 @@ static pendres_status really_lies_on(pendres_context *ctx, pendres_curve *b,
                                      const pendres_orbit *o, int *on)
 {
   enum { MOST = 16 };
-  pendres_orbit *there = malloc(MOST * sizeof *there);
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_orbit *there = pendres_room_take(&room, MOST, sizeof *there);
   size_t found = 0;
   *on = 0;
-  if (there == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   const double value = pendres_parameter_get(pendres_curve_parameter(b, 0), &o->pendulum);
   const pendres_status status =
     pendres_branch_cross(ctx, pendres_branch_of(b), value, MOST, there, &found);
@@ -141,8 +142,7 @@ static pendres_status really_lies_on(pendres_context *ctx, pendres_curve *b,
         fabs(there[i].loop_area - o->loop_area) < e)
       *on = 1;
   }
-  free(there);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 static pendres_status known(pendres_context *ctx, const pendres_curves *set,
@@ -321,45 +321,20 @@ pendres_status pendres_curves_add(pendres_context *ctx, const pendres_curve_star
   return status;
 }
 
-static pendres_status curves_extend(pendres_context *ctx, size_t n,
-                                    const pendres_bifurcation *bifurcations,
-                                    const pendres_curve_options *options, pendres_curves *curves)
-{
-  if (options == NULL || curves == NULL || (n > 0 && bifurcations == NULL))
-    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and curves");
-  const pendres_curve_starts starts = {.all = bifurcations, .n = n};
-  size_t at;
-  return pendres_curves_add(ctx, &starts, options, NULL, curves, &at);
-}
-
-pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
-                                     const pendres_bifurcation *bifurcations,
-                                     const pendres_curve_options *options, pendres_curves *curves)
-{
-  pendres_door d = pendres_door_open(
-    ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL);
-  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
-  const pendres_curve_options *o = pendres_curve_options_inside(&d, n, bifurcations, options);
-  pendres_curves_enter(&d, curves);
-  PENDRES_DOOR_CALL(&d, curves_extend(ctx, n, from, o, curves));
-  pendres_curves_leave(&d, curves);
-  return pendres_door_close(&d);
-}
-
 static pendres_status curves_find(pendres_context *ctx, size_t n,
                                   const pendres_bifurcation *bifurcations,
                                   const pendres_curve_options *options, pendres_curves **out)
 {
+  size_t at;
   if (options == NULL || out == NULL || (n > 0 && bifurcations == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and out");
+  const pendres_curve_starts starts = {.all = bifurcations, .n = n};
+  *out = pendres_curves_create();
+  if (*out == NULL) return no_memory(ctx);
+  const pendres_status status = pendres_curves_add(ctx, &starts, options, NULL, *out, &at);
+  if (status == PENDRES_OK) return status;
+  pendres_curves_free(*out);
   *out = NULL;
-  pendres_curves *set = pendres_curves_create();
-  if (set == NULL) return no_memory(ctx);
-  const pendres_status status = pendres_curves_extend(ctx, n, bifurcations, options, set);
-  if (status == PENDRES_OK)
-    *out = set;
-  else
-    pendres_curves_free(set);
   return status;
 }
 
@@ -367,7 +342,13 @@ pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
                                    const pendres_bifurcation *bifurcations,
                                    const pendres_curve_options *options, pendres_curves **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, curves_find(ctx, n, bifurcations, options, out));
+  pendres_door d = pendres_door_open(
+    ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL);
+  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
+  const pendres_curve_options *o = pendres_curve_options_inside(&d, n, bifurcations, options);
+  PENDRES_DOOR_CALL(&d, curves_find(ctx, n, from, o, out));
+  if (d.status == PENDRES_OK) pendres_curves_leave(&d, *out);
+  return pendres_door_close(&d);
 }
 
 /* ---- in parts ---- */

@@ -4,7 +4,7 @@
  *
  * Owns: which bifurcations can lie on one curve, so that those of different curves can be given to
  * different threads; and how the curves that these find are put together. The curves are those that
- * pendres_curves_extend() finds, in its order.
+ * pendres_curves_find() finds, in its order.
  */
 #ifndef PENDRES_SETS_H
 #define PENDRES_SETS_H
@@ -54,11 +54,5 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        const pendres_bifurcation *bifurcations,
                                        const pendres_branch_options *options,
                                        pendres_branches *branches);
-
-/* Add the curves of n more bifurcations, with the options that the set was found with. On failure
-    the set holds what was added so far. Errors as for pendres_curve_follow. */
-pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
-                                     const pendres_bifurcation *bifurcations,
-                                     const pendres_curve_options *options, pendres_curves *curves);
 
 #endif

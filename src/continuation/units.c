@@ -1,11 +1,9 @@
 /* units.c -- branches and curves behind the door; see units.h. */
 #include "continuation/units.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "continuation/curve.h"
-#include "engine/context_internal.h"
 
 typedef void convert(const pendres_scales *scales, const pendres_dimensions *d, size_t n,
                      void *records);

@@ -2,7 +2,6 @@
 #include "continuation/curve.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/grow.h"
@@ -208,10 +207,7 @@ static pendres_status point_at(pendres_context *ctx, const pendres_curve *t,
   *out = part < 0.5 ? *a : *b;
   memcpy(c.tangent, out->tangent, sizeof c.tangent);
   for (int i = 0; i < PENDRES_U_COUNT; i++) c.u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
-  pendres_status status = pendres_map_steps(
-    ctx, t->kind.system.map.force, c.u, pendres_accuracy_first(ctx), &c.steps);
-  if (status == PENDRES_OK) status = pendres_follow_correct(ctx, 1, &c);
-  *good = status == PENDRES_OK && !isnan(pendres_correction_rounding(&c));
+  const pendres_status status = pendres_follow_place(ctx, pendres_accuracy_first(ctx), &c, good);
   if (!*good) return status;
   memcpy(out->u, c.u, sizeof out->u);
   out->held = 0;

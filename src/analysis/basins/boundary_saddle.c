@@ -10,10 +10,9 @@
 #include "continuation/follow.h"
 #include "continuation/numbers.h"
 
-/* How far the drive frequency is from where it was. */
-static double away(const pendres_curve_node *start, const pendres_curve_node *node)
+static double frequency_of(const pendres_curve_node *node)
 {
-  return node->u[PENDRES_U_OMEGA] - start->u[PENDRES_U_OMEGA];
+  return node->u[PENDRES_U_OMEGA];
 }
 
 /* What the branch of an attractor is followed for. */
@@ -59,13 +58,14 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
   /* The spring softens: a small orbit has its fold at a higher frequency, a large one at a
      lower. */
   const double up = attractor->phase_lag < 1.0 ? 1.0 : -1.0;
-  static const pendres_search search = {.start = "orbit", .value = away, .locate = refine};
+  static const pendres_goal goal = {
+    .start = "orbit", .value = frequency_of, .comes_back = 1, .locate = refine};
   const pendres_parameter along = PENDRES_DRIVE_FREQUENCY;
   way_back back = {.attractor = attractor, .out = out};
   pendres_u u;
   const pendres_followed kind =
     pendres_followed_of(attractor, PENDRES_CONDITION_NONE, &along, pendres_search_spacing, u);
-  const pendres_status status = pendres_follow_search(ctx, &kind, u, &search, up, &back);
+  const pendres_status status = pendres_follow_search(ctx, &kind, u, &goal, up, &back);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status,
                                 "the branch of the orbit does not come back to drive frequency %g",

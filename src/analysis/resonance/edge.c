@@ -2,12 +2,10 @@
 #include "analysis/resonance/refine.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include <pendres/continuation.h>
 
 #include "engine/accuracy.h"
-#include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
 #include "analysis/resonance/search.h"

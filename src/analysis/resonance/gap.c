@@ -2,7 +2,6 @@
 #include "analysis/resonance/search.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "model/model.h"
 #include "orbits/attractor_set.h"

@@ -2,7 +2,6 @@
 #include "analysis/resonance/search.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "engine/context_internal.h"
 #include "analysis/resonance/response_parts.h"
