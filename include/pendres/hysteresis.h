@@ -53,7 +53,9 @@ typedef struct pendres_hysteresis_point {
   pendres_status outcome;      /**< PENDRES_OK; otherwise why the path left the value out:
                                     PENDRES_TOLERANCE_UNREACHABLE, PENDRES_INTEGRATION_FAILED,
                                     PENDRES_NOT_CONVERGED, PENDRES_UNRESOLVED (the way there takes
-                                    too much work); or did not reach it: PENDRES_INTERRUPTED */
+                                    too much work, or a state that has not ended can be followed no
+                                    further, and does not settle there); or did not reach it:
+                                    PENDRES_INTERRUPTED */
 } pendres_hysteresis_point;
 
 /** The codes and their names in one list: X(code, name). Codes must not change: files have them. */

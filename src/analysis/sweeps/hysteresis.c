@@ -151,6 +151,10 @@ static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known
   pendres_status status = PENDRES_OK;
   if (known->attractor.label != PENDRES_LABEL_UNRESOLVED) w->state = *known;
   else status = settle_alone(w, *i);
+  /* An orbit that could not be followed any further has not ended: the value is left out. */
+  if (status == PENDRES_OK && pendres_path_short(&old.attractor) &&
+      w->state.attractor.label == PENDRES_LABEL_UNRESOLVED)
+    return PENDRES_UNRESOLVED;
   if (status == PENDRES_OK) status = begin_path(w, old.x, old.v);
   if (status == PENDRES_OK && w->settled &&
       pendres_chaos_ends(&old.attractor, &w->state.attractor)) {

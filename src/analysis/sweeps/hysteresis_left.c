@@ -15,7 +15,7 @@ static const double usual_slopes = 3e9;
 int pendres_path_own(pendres_status status)
 {
   return status == PENDRES_TOLERANCE_UNREACHABLE || status == PENDRES_NOT_CONVERGED ||
-         status == PENDRES_INTEGRATION_FAILED;
+         status == PENDRES_INTEGRATION_FAILED || status == PENDRES_UNRESOLVED;
 }
 
 pendres_status pendres_path_left_open(pendres_path *w, pendres_path_left *left)
