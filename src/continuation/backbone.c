@@ -22,34 +22,25 @@
 #include "model/model.h"
 #include "orbits/attractor_set.h"
 
-/* Steps downhill, of a tenth at most, after which no well is expected any more; amplitudes that are
-   tried, each half of the one before. */
-enum { MOST_ROLLS = 1000, MOST_STARTS = 6 };
-/* The curve is begun at this amplitude or below, where a single harmonic is an orbit to some per
-   cent; or above, where the force stiffens: such oscillations stay close to a harmonic. */
-static const double first_amplitude = 0.1;
-/* So close to a place the force is linear to a few millionths. */
-static const double near = 1e-3;
-
 /* ---- small oscillations ---- */
 
 /* Find where a pendulum without drives comes to rest that is let go at y = 0, or, if that is the
    top of a barrier, right above it; 0: nowhere. */
 static int find_well(const pendres_pendulum *p, double *y)
 {
-  static const double longest = 0.1, last = 1e-12;
   double force, slope, low, high;
   *y = 0.0;
-  for (int i = 0; i < MOST_ROLLS; i++) {
+  for (int i = 0; i < BACKBONE_ROLLS; i++) {
     pendres_model_force(p, *y, &force, &slope);
     const double push = p->torque - force;
-    const double step = push != 0.0 ? copysign(fmin(longest, fabs(push / slope)), push) : 0.0;
+    const double longest = fmin(backbone_first, fabs(push / slope));
+    const double step = push != 0.0 ? copysign(longest, push) : 0.0;
     *y += step;
-    if (!(fabs(step) > last)) {
-      pendres_model_force(p, *y - near, &low, &slope);
-      pendres_model_force(p, *y + near, &high, &slope);
+    if (!(fabs(step) > backbone_last_step)) {
+      pendres_model_force(p, *y - backbone_near, &low, &slope);
+      pendres_model_force(p, *y + backbone_near, &high, &slope);
       if (low < p->torque && p->torque < high) return 1;
-      *y += near;
+      *y += backbone_near;
     }
   }
   return 0;
@@ -59,7 +50,7 @@ static int find_well(const pendres_pendulum *p, double *y)
 static double stiffness(const pendres_pendulum *p, double well, double amplitude)
 {
   enum { PHASES = 16 };
-  const double a = fmax(amplitude, near);
+  const double a = fmax(amplitude, backbone_near);
   double sum = 0.0, force, slope;
   for (int i = 0; i < PHASES; i++) {
     const double sine = sin(two_pi * i / PHASES);
@@ -86,7 +77,7 @@ static int swings(const pendres_pendulum *p, double well, double a)
    alone, and so does the curve, whichever dampings are asked for. */
 static double start_amplitude(const pendres_pendulum *p, double well)
 {
-  double a = first_amplitude;
+  double a = backbone_first;
   while (stiffness(p, well, 2.0 * a) >= stiffness(p, well, a) && !swings(p, well, 2.0 * a) &&
          isfinite(2.0 * a))
     a *= 2.0;
@@ -104,7 +95,7 @@ static pendres_orbit oscillation(const pendres_pendulum *p, double well, double 
   o.winding = 0;
   o.mean_angle = well;
   o.symmetric = pendres_pendulum_symmetric(p) &&
-                fabs(pendres_model_centre(p, well) - well) < near;
+                fabs(pendres_model_centre(p, well) - well) < backbone_near;
   return o;
 }
 
@@ -117,7 +108,7 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, pe
   double well;
   if (!find_well(&p, &well)) return PENDRES_NOT_FOUND;
   double a = start_amplitude(&p, well);
-  for (int i = 0; i < MOST_STARTS && a > 0.0; i++, a *= 0.5) {
+  for (int i = 0; i < BACKBONE_STARTS && a > 0.0; i++, a *= 0.5) {
     pendres_u u;
     p.damping = damping_at(&p, well, a);
     if (!isfinite(p.damping)) continue;

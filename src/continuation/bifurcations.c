@@ -11,10 +11,6 @@
 #include "continuation/units.h"
 #include "engine/context_internal.h"
 
-/* Curves of bifurcations are given up earlier than branches: their equations have derivatives of
-   the map, whose errors grow as the square. */
-static const double wildest = 300.0;
-
 pendres_special pendres_curve_kind_get(const pendres_curve *c)
 {
   return c != NULL ? pendres_special_of(c->kind.system.condition, &c->kind.system.map)
@@ -158,7 +154,8 @@ static pendres_status curve_follow(pendres_context *ctx, const pendres_bifurcati
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "curve: %s", why);
   const pendres_curve_bounds bounds = {.low = {o->low[0], o->low[1]},
                                        .high = {o->high[0], o->high[1]},
-                                       .wildest = o->wildest > 0.0 ? o->wildest : wildest,
+                                       .wildest =
+                                         o->wildest > 0.0 ? o->wildest : bifurcations_wildest,
                                        .most_points = o->most_points > 0 ? o->most_points
                                                                          : PENDRES_CURVE_POINTS};
   pendres_curve_start start;

@@ -69,10 +69,6 @@ static pendres_status half_at(pendres_context *ctx, const pendres_curve *t, int 
   return status;
 }
 
-/* An orbit that misses closing by a half map by less than this is next to where the branch was born
-   from such orbits: it may be so far away by the length of a step. */
-static const double nearly = 1e-3;
-
 /* Find the number of the half map by which an orbit at a place nearly closes; -1: by none. */
 static pendres_status closing_half(pendres_context *ctx, const pendres_curve *t,
                                    const pendres_u u, int *which)
@@ -82,7 +78,7 @@ static pendres_status closing_half(pendres_context *ctx, const pendres_curve *t,
     double off = NAN;
     const pendres_status status = half_at(ctx, t, *which, u, &half, &off);
     if (status == PENDRES_NOT_CONVERGED) break;
-    if (status != PENDRES_OK || off < nearly) return status;
+    if (status != PENDRES_OK || off < curve_near_birth) return status;
   }
   *which = -1;
   return PENDRES_OK;

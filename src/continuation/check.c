@@ -19,17 +19,13 @@ static int regular(const pendres_curve *b, size_t i)
   return b->branch_point[i].bifurcation < 0;
 }
 
-/* Multipliers this close to a bifurcation, errors aside, do not tell on which side of it an orbit
-   is. */
-static const double told = 1e-6;
-
 /* Sign of (s - m1)(s - m2), s = 1 or -1; 0 where the sign is not known: right at a bifurcation, or
    within the error. */
 static int sign_of(const pendres_orbit *o, double s)
 {
   if (fabs(o->multiplier_im[0]) > 0.0) return 1;
   const double first = s - o->multiplier_re[0], second = s - o->multiplier_re[1];
-  const double least = told + pendres_several_errors * o->multiplier_error;
+  const double least = curve_untold + pendres_several_errors * o->multiplier_error;
   if (!(fmin(fabs(first), fabs(second)) > least)) return 0;
   return (first > 0.0) == (second > 0.0) ? 1 : -1;
 }

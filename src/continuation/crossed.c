@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "continuation/curve.h"
+#include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
@@ -89,11 +90,6 @@ pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *
  * back between them, and take the value twice or three times.
  */
 
-/* A third or fourth node is at least this share of the chord away from it, or the cubic would come
-   from differences of rounding. A bifurcation is within two lengths of the chord of where the cubic
-   has it, and this much besides, for chords that are short. Two guesses lead to one place if what
-   they lead to is closer than this share of their own distance. */
-static const double not_too_close = 0.2, besides = 1e-3, together = 0.1;
 enum { NODES = 4, ROOTS = 3, PARTS = 16, SAMPLES = 2 * PARTS, BISECTIONS = 40 };
 
 /* Points around a chord, which goes from t = 0 to its length. */
@@ -119,7 +115,7 @@ static void add_beyond(stencil *s, const pendres_curve *c, size_t from, size_t o
   double away = 0.0, here[PENDRES_U_COUNT], beyond[PENDRES_U_COUNT];
   size_t at = from;
   memcpy(here, s->u[side < 0 ? 0 : 1], sizeof here);
-  while (away < not_too_close * s->length) {
+  while (away < crossed_not_too_close * s->length) {
     if ((side < 0 ? at == 0 : at + 1 == c->count) && !pendres_curve_closed(c)) return;
     at = (at + (side < 0 ? c->count - 1 : 1)) % c->count;
     if (at == other) return;
@@ -235,13 +231,14 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
       for (int k = PENDRES_U_OMEGA; k < PENDRES_U_COUNT; k++)
         if (k != c->kind.system.unknown[2]) guess[k] = k == second ? value : c->u[i][k];
       pendres_status status =
-        pendres_curve_locate(ctx, &c->kind, condition, guess, 2.0 * s.length + besides, &located);
+        pendres_curve_locate(ctx, &c->kind, condition, guess, 2.0 * s.length + crossed_besides,
+                             &located);
       if (status == PENDRES_NOT_CONVERGED) continue;
       if (!pendres_located_found(status)) return status;
       /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
       const int again = *found > 0 &&
                         pendres_arc_distance(located.pair.fine, last) <
-                          together * pendres_arc_distance(guess, last_guess);
+                          crossed_together * pendres_arc_distance(guess, last_guess);
       memcpy(last_guess, guess, sizeof last_guess);
       memcpy(last, located.pair.fine, sizeof last);
       if (again) continue;

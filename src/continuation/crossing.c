@@ -44,20 +44,14 @@ void pendres_crossing_rows(const pendres_crossing_pivot *pivot, const pendres_im
 
 int pendres_crossing_closes(const pendres_image *image, int parameter, int steps, double error)
 {
-  /* Of a step, with an ample margin: what keeps branches apart and is not larger than this, no
-     double can tell. */
-  static const double rounding = 6e-15;
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(image, parameter);
   double rows[4];
   pendres_crossing_rows(&pivot, image, rows);
   return fabs(rows[3]) <=
-         rounding * sqrt(steps) * fmax(1.0, pendres_map_growth(image)) + error;
+         crossing_rounding * sqrt(steps) * fmax(1.0, pendres_map_growth(image)) + error;
 }
 
 /* ---- directions ---- */
-
-/* Of two directions at a branch point the second is another if it goes across by more than this. */
-static const double another_way = 1e-6;
 
 static double dot(const double a[3], const double b[3])
 {
@@ -170,6 +164,6 @@ pendres_status pendres_crossing_direction(pendres_context *ctx, const pendres_sy
   const double root = sqrt(mixed * mixed - bend[0][0] * bend[1][1]);
   const double across = mixed + copysign(root, mixed);
   for (int k = 0; k < 3; k++) crossing[k] = across * plane[1][k] - bend[1][1] * plane[0][k];
-  return normalise(crossing) && fabs(across) > another_way * fabs(bend[1][1]) ? PENDRES_OK
+  return normalise(crossing) && fabs(across) > curve_untold * fabs(bend[1][1]) ? PENDRES_OK
                                                                     : PENDRES_NOT_CONVERGED;
 }

@@ -6,16 +6,9 @@
 #include <string.h>
 
 #include "base/grow.h"
+#include "continuation/numbers.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
-
-/* A node on a bound has its parameter to this: the plane that it is corrected in is that value. */
-static const double on_bound = 1e-12;
-/* A curve is back at its start where it passes that in its own direction, to this cosine, and after
-   more than this many of its steps. */
-static const double back_along = 0.9, another_pass = 4.0;
-/* Special points of one kind whose unknowns are closer than this are one: their errors are less. */
-static const double one_place = 1e-8;
 
 static pendres_status no_memory(pendres_context *ctx)
 {
@@ -119,7 +112,8 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
   int found = 0;
   pendres_status status = pendres_follow_place(ctx, kind->tolerance, &c, &found);
   const double chord = pendres_arc_distance(inside->u, outside->u);
-  if (!found || pendres_arc_distance(inside->u, c.u) > chord || fabs(c.u[place] - bound) > on_bound)
+  if (!found || pendres_arc_distance(inside->u, c.u) > chord ||
+      fabs(c.u[place] - bound) > curve_on_bound)
     return status;
   memcpy(node->u, c.u, sizeof node->u);
   node->u[place] = bound;
@@ -160,7 +154,7 @@ static int passes(const pendres_system *s, const pendres_curve_node *start,
     along += t * b->tangent[k];
   }
   const double chord = pendres_arc_distance(a->u, b->u);
-  return before < 0.0 && behind >= 0.0 && along > back_along &&
+  return before < 0.0 && behind >= 0.0 && along > curve_back_along &&
          pendres_arc_distance(a->u, here) <= chord && pendres_arc_distance(b->u, here) <= chord;
 }
 
@@ -185,7 +179,7 @@ static pendres_status take(pendres_context *ctx, const pendres_curve_bounds *b,
       const pendres_status status = land(ctx, &f->kind, last, p, &at);
       if (status != PENDRES_OK) return status;
       if (at.landed && add(w, &at.node) != 0) return no_memory(ctx);
-    } else if (p->arclength > another_pass * pendres_arc_distance(last->u, p->u) &&
+    } else if (p->arclength > curve_another_pass * pendres_arc_distance(last->u, p->u) &&
                passes(&f->kind.system, &w->start, last, p)) {
       end_way(w, PENDRES_END_CLOSED);
     } else {
@@ -307,10 +301,10 @@ static int same_place(const pendres_curve *c, const pendres_curve_special *a,
   const double round = c->node[c->nodes - 1].arclength;
   double sum = 0.0, between = fabs(c->node[a->at.i].arclength - c->node[b->at.i].arclength);
   if (pendres_curve_closed(c)) between = fmin(between, round - between);
-  if (a->condition != b->condition || between > another_pass * c->kind.spacing) return 0;
+  if (a->condition != b->condition || between > curve_another_pass * c->kind.spacing) return 0;
   for (int k = 0; k < s->unknowns; k++)
     sum = hypot(sum, a->located.pair.fine[s->unknown[k]] - b->located.pair.fine[s->unknown[k]]);
-  return sum < one_place;
+  return sum < curve_same_place;
 }
 
 static int in_order(const void *a, const void *b)

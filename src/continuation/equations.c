@@ -7,23 +7,10 @@
 #include <gsl/gsl_linalg.h>
 
 #include "continuation/crossing.h"
+#include "continuation/numbers.h"
 #include "engine/room.h"
 
-/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
-   method, where a relative error of 1e-5 costs nothing. The step is so short since second
-   derivatives grow to 1e9 where orbits pass close to the top of the barrier; the determinant's own
-   rounding, 1e-15, does no harm. */
-static const double nudge = 2e-9;
-/* The derivative along the null vector enters the solution itself: central differences of order
-   six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
-static const double stencil_step = 8e-3;
 enum { STENCIL = 6 };
-
-/* Newton's method gives up where a step is longer than this, far outside of all scales, */
-static const double longest_ever = 1e3;
-/* and ends where steps are rounding, or are short and no longer fall: determinants' derivatives are
-   differences, so the next step is a hundredth of the last or less, unless it is rounding. */
-static const double always_rounding = 1e-13, may_be_rounding = 1e-5;
 
 /* Derivative of the fold's determinant along the null vector, from its stencil's images. */
 static double stencil_value(const pendres_image stencil[STENCIL])
@@ -32,13 +19,13 @@ static double stencil_value(const pendres_image stencil[STENCIL])
   double sum = 0.0;
   for (int i = 0; i < STENCIL / 2; i++)
     sum += weight[i] * (pendres_map_fold(&stencil[2 * i]) - pendres_map_fold(&stencil[2 * i + 1]));
-  return sum / (60.0 * stencil_step);
+  return sum / (60.0 * null_vector_step);
 }
 
 static void stencil_points(const pendres_u u, const double v[2], pendres_u *points)
 {
   for (int i = 0; i < STENCIL; i++) {
-    const double far = stencil_step * (i / 2 + 1) * (i % 2 == 0 ? 1.0 : -1.0);
+    const double far = null_vector_step * (i / 2 + 1) * (i % 2 == 0 ? 1.0 : -1.0);
     memcpy(points[i], u, sizeof points[i]);
     points[i][PENDRES_U_Y] += far * v[0];
     points[i][PENDRES_U_W] += far * v[1];
@@ -66,7 +53,8 @@ static void append_row(pendres_equations *e, const pendres_system *s, double val
   const int row = e->equations++;
   e->r[row] = value;
   for (int k = 0; k < PENDRES_U_COUNT; k++) e->j[row][k] = 0.0;
-  for (int k = 0; k < s->unknowns; k++) e->j[row][s->unknown[k]] = (nudged[k] - value) / nudge;
+  for (int k = 0; k < s->unknowns; k++)
+    e->j[row][s->unknown[k]] = (nudged[k] - value) / determinant_step;
 }
 
 /* Append the equation of a condition's determinant. */
@@ -173,7 +161,7 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < each; k++) {
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
-      if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += nudge;
+      if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += determinant_step;
     }
   pendres_status status = pendres_map_images(ctx, s, points, (const pendres_u *)w.u, w.image);
   if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
@@ -221,11 +209,10 @@ pendres_system pendres_system_of(const pendres_map *map, pendres_condition condi
 pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_system *s,
                                        double longest, pendres_u u, pendres_equations *at)
 {
-  enum { MOST = 20 };
   const int n = s->unknowns;
   double last = INFINITY;
 
-  for (int i = 0; i < MOST; i++) {
+  for (int i = 0; i < NEWTON_STEPS; i++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
     const pendres_status status = pendres_equations_at(ctx, s, 1, (const pendres_u *)u, at);
     if (status != PENDRES_OK) return status;
@@ -235,12 +222,12 @@ pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_syste
     }
     if (!pendres_equations_linear(n, a, d)) return PENDRES_NOT_CONVERGED;
     for (int k = 0; k < n; k++) length = hypot(length, d[k]);
-    if (!(length < longest_ever)) return PENDRES_NOT_CONVERGED;
+    if (!(length < newton_lost)) return PENDRES_NOT_CONVERGED;
     const double part = length > longest ? longest / length : 1.0;
     for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];
     const pendres_pendulum p = pendres_map_pendulum(s->map.force, u);
     if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
-    if (length < always_rounding || (length < may_be_rounding && length > 0.5 * last))
+    if (length < newton_always_rounding || (length < newton_stalled && length > 0.5 * last))
       return PENDRES_OK;
     last = length;
   }

@@ -24,34 +24,6 @@ pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_conditi
   return kind;
 }
 
-enum { MOST_ITERATIONS = 6 };
-/* A Newton step below this leaves an error of its square. */
-static const double last_step = 1e-8;
-/* Points ahead may not turn by more than this cosine from one to the next, nor lie further from
-   their prediction than this share of the way. */
-static const double sharpest_turn = 0.92;
-static const double farthest_miss = 0.25;
-/* The chord from one point to the next goes along the mean of their tangents, to this share of its
-   length: exactly so where the curve bends steadily. Of forty thousand chords one in a hundred is
-   off by more than 0.01, none by more than 0.06; those that lead from one branch to another where
-   they come close, as next to a sharp fold, are off by 0.1 and more; less of it is trusted where
-   points were stepped over. */
-static const double farthest_off = 0.08;
-static const double shortest_step = 1e-6;
-/* With steps shorter than this many of the shortest no crossing is looked into: branches that come
-   closer are told by the doubts of their points. */
-static const double steps_to_crossing = 32.0;
-/* A follower begins with this share of the largest spacing, and from eight points ahead that all
-   converged goes on with steps longer by this factor. */
-static const double first_share = 0.1, faster = 1.6;
-/* A tangent with less than this along the last unknown stands at a fold of it, which gives no
-   direction. */
-static const double stands_still = 1e-6;
-static const int widest_gap = 3; /* how many steps lie between one point and the next */
-/* An orbit closes by half if it misses that by less than this. Next to where a branch was born, one
-   of its orbits that does not close by half comes as near only within half of this distance. */
-static const double too_close = 1e-6;
-
 /* The scale of unknown number k at a place. */
 static double scale_at(const pendres_system *s, int k, const pendres_u u)
 {
@@ -128,7 +100,7 @@ static void correct(pendres_correction *c)
   if (!(length < 1.0)) return;
   for (int k = 0; k < n; k++) c->u[s->unknown[k]] += scale_at(s, k, c->u) * d[k];
   if (!is_possible(c)) return;
-  c->state = length < last_step ? PENDRES_CORRECTION_CONVERGED : PENDRES_CORRECTION_ACTIVE;
+  c->state = length < follow_last_step ? PENDRES_CORRECTION_CONVERGED : PENDRES_CORRECTION_ACTIVE;
 }
 
 /* The inverse of the linearised equations, by columns, tells how rounding moves the point. */
@@ -211,7 +183,7 @@ static pendres_status keep_off(pendres_context *ctx, int which, size_t n, pendre
     if (!pendres_map_half(&c[first].kind->system.map, which, &half)) continue;
     status = pendres_map_closes(ctx, &half, c[first].steps, count, (const pendres_u *)u, miss);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++)
-      if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close))
+      if (!(hypot(miss[i].off[0], miss[i].off[1]) > curve_untold))
         c[index[i]].state = PENDRES_CORRECTION_FAILED;
   }
   return pendres_room_close(&room, status);
@@ -225,7 +197,7 @@ static pendres_status converge(pendres_context *ctx, size_t n, pendres_correctio
   pendres_u *u = pendres_room_take(&room, n, sizeof *u);
   pendres_equations *at = pendres_room_take(&room, n, sizeof *at);
   pendres_status status = room.status;
-  for (int i = 0; i < MOST_ITERATIONS && active > 0 && status == PENDRES_OK; i++) {
+  for (int i = 0; i < FOLLOW_ITERATIONS && active > 0 && status == PENDRES_OK; i++) {
     status = evaluate(ctx, n, c, index, u, at);
     active = 0;
     for (size_t k = 0; k < n && status == PENDRES_OK; k++)
@@ -274,7 +246,7 @@ static int first_tangent(const pendres_system *s, const pendres_equations *e,
     best = k;
   }
   if (best < 0) return 0;
-  const double ahead = fabs(tangent[last]) > stands_still ? tangent[last] : tangent[best];
+  const double ahead = fabs(tangent[last]) > curve_untold ? tangent[last] : tangent[best];
   if (ahead * direction < 0.0)
     for (int k = 0; k < n; k++) tangent[k] = -tangent[k];
   return 1;
@@ -298,7 +270,7 @@ static pendres_status find_apart(pendres_context *ctx, int steps, const pendres_
     pendres_map_miss miss;
     if (!pendres_map_half(&kind->system.map, which, &half)) break;
     status = pendres_map_closes(ctx, &half, steps, 1, (const pendres_u *)u, &miss);
-    if (status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > too_close)
+    if (status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > curve_untold)
       kind->apart |= 1 << which;
   }
   return status;
@@ -309,7 +281,7 @@ pendres_status pendres_follow_begin(pendres_context *ctx, const pendres_followed
 {
   const pendres_system *s = &kind->system;
   pendres_equations e;
-  *w = (pendres_follower){.kind = *kind, .step = first_share * kind->spacing};
+  *w = (pendres_follower){.kind = *kind, .step = follow_first_share * kind->spacing};
   w->kind.apart = 0;
   pendres_correction place = {.kind = &w->kind};
   memcpy(place.u, u, sizeof place.u);
@@ -388,9 +360,9 @@ static int follows(const pendres_follower *w, const pendres_curve_node *last, in
     miss = hypot(miss, (c->u[i] - predicted[i]) / pendres_arc_scale(i, c->u[i]));
     turn += last->tangent[k] * node->tangent[k];
   }
-  if (turn < sharpest_turn || way > 2.0 * gap * w->step ||
-      miss > farthest_miss * w->step * (rank + 1) ||
-      off_chord(s, last, c, node, way) > farthest_off / gap)
+  if (turn < follow_sharpest_turn || way > 2.0 * gap * w->step ||
+      miss > follow_farthest_miss * w->step * (rank + 1) ||
+      off_chord(s, last, c, node, way) > follow_farthest_off / gap)
     return 0;
   memcpy(node->u, c->u, sizeof node->u);
   node->held = 0;
@@ -412,7 +384,7 @@ static pendres_status stays(pendres_context *ctx, const pendres_follower *w,
   pendres_u u;
   pendres_located at;
   *same = 1;
-  if (!(w->step >= steps_to_crossing * shortest_step && a * b < 0.0)) return PENDRES_OK;
+  if (!(w->step >= follow_to_crossing * follow_shortest && a * b < 0.0)) return PENDRES_OK;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
     u[i] = last->u[i] + a / (a - b) * (node->u[i] - last->u[i]);
   const pendres_system crossings =
@@ -431,7 +403,7 @@ static pendres_status accept(pendres_context *ctx, pendres_follower *w, const pe
   const pendres_curve_node *last = &start;
   pendres_status status = PENDRES_OK;
   w->found = 0;
-  for (int rank = 0, gap = 1; rank < PENDRES_AHEAD && gap <= widest_gap; rank++) {
+  for (int rank = 0, gap = 1; rank < PENDRES_AHEAD && gap <= FOLLOW_WIDEST_GAP; rank++) {
     pendres_curve_node *next = &w->ahead[w->found];
     int keep = follows(w, last, gap, rank, &c[rank], next);
     if (keep && w->kind.system.condition == PENDRES_CONDITION_NONE)
@@ -448,7 +420,7 @@ static pendres_status accept(pendres_context *ctx, pendres_follower *w, const pe
     w->step /= PENDRES_AHEAD;
     /* With a shorter step the bend may be the wrong one of a longer past. */
     memset(w->bend, 0, sizeof w->bend);
-    w->stuck = w->step < shortest_step;
+    w->stuck = w->step < follow_shortest;
     return status;
   }
   const pendres_curve_node *before = w->found > 1 ? &w->ahead[w->found - 2] : &start;
@@ -456,7 +428,7 @@ static pendres_status accept(pendres_context *ctx, pendres_follower *w, const pe
     w->bend[k] = (last->tangent[k] - before->tangent[k]) / (last->arclength - before->arclength);
   w->here = *last;
   if (w->found == PENDRES_AHEAD)
-    w->step = fmin(faster * w->step, w->kind.spacing);
+    w->step = fmin(follow_faster * w->step, w->kind.spacing);
   else if (w->found < PENDRES_AHEAD / 2)
     w->step *= 0.5;
   return status;

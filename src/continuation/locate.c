@@ -11,13 +11,6 @@
 #include "continuation/numbers.h"
 #include "engine/steps.h"
 
-/* Newton's steps are cut at this length, and earlier where they begin at the solution by fewer
-   steps of the integration. */
-static const double longest_first = 0.1, longest_again = 0.01;
-/* Parts of an error that cancel to less than this share may do so by chance. A determinant is off
-   by at least this share of what the entries of its matrix are. */
-static const double by_chance = 1.0 / 32.0, own_share = 0.125;
-
 /* By how much the unknowns move when the equations are off by so much, all at once. 0 if
    singular. */
 static int moved_at_once(const pendres_equations *e, const int *unknown,
@@ -134,7 +127,7 @@ static pendres_status distance_of(pendres_context *ctx, const pendres_system *sy
   if (!moved_at_once(at, system->unknown, late, out->late)) return PENDRES_NOT_CONVERGED;
   const double entries = fabs(image[2].n[0][0] - image[0].n[0][0]) +
                          fabs(image[2].n[1][1] - image[0].n[1][1]);
-  for (int k = crosses ? 1 : 2; k < 3; k++) early[k] = fmax(early[k], own_share * entries);
+  for (int k = crosses ? 1 : 2; k < 3; k++) early[k] = fmax(early[k], locate_own_share * entries);
   return moved_by_each(at, system->unknown, early, out->parts) ? PENDRES_OK
                                                                 : PENDRES_NOT_CONVERGED;
 }
@@ -220,7 +213,8 @@ static pendres_status solve_finely(pendres_context *ctx, const pendres_system *s
   const int *const unknown = system->unknown;
   double off[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
   distance away;
-  pendres_status status = pendres_equations_solve(ctx, system, longest_again, pair->fine, &at);
+  pendres_status status =
+    pendres_equations_solve(ctx, system, locate_longest_again, pair->fine, &at);
   if (status != PENDRES_OK) return status;
   out->parted =
     system->condition == PENDRES_CONDITION_CROSSING && !crosses(system, few, &at.image);
@@ -233,7 +227,7 @@ static pendres_status solve_finely(pendres_context *ctx, const pendres_system *s
   pair->apart = 0.0;
   for (int i = 0; i < system->unknowns; i++) {
     const double fine = pair->fine[unknown[i]], coarse = pair->coarse[unknown[i]];
-    const double apart = fmax(fabs(fine - coarse), away.late[i]) + by_chance * away.parts[i];
+    const double apart = fmax(fabs(fine - coarse), away.late[i]) + locate_by_chance * away.parts[i];
     out->error[i] = pendres_solution_error(
       0.0, apart, rounding[i] + 0.5 * DBL_EPSILON * fabs(fine));
     if (i < 2) pair->apart = hypot(pair->apart, apart);
@@ -245,7 +239,6 @@ static pendres_status solve_finely(pendres_context *ctx, const pendres_system *s
 static pendres_status solve_twice(pendres_context *ctx, pendres_system system, const pendres_u u,
                                   double reach, pendres_located *out)
 {
-  enum { MOST_TIMES = 4 };
   pendres_equations at;
   pendres_solution *pair = &out->pair;
   const int steps = system.steps;
@@ -257,7 +250,7 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system, c
   pair->fine_steps += pair->fine_steps % 2;
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status =
-    pendres_equations_solve(ctx, &system, fmin(reach, longest_first), pair->coarse, &at);
+    pendres_equations_solve(ctx, &system, fmin(reach, locate_longest), pair->coarse, &at);
   if (status == PENDRES_OK && !(pendres_arc_distance(u, pair->coarse) <= reach))
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
@@ -265,7 +258,7 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system, c
   const pendres_image few = at.image;
   system.steps = pair->fine_steps;
   status = solve_finely(ctx, &system, &few, out);
-  for (int times = 0; status == PENDRES_OK && times < MOST_TIMES; times++) {
+  for (int times = 0; status == PENDRES_OK && times < TRIES; times++) {
     int solved = 0;
     status = is_solved(ctx, &system, out, &solved);
     if (status != PENDRES_OK || solved) break;
@@ -280,7 +273,6 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system, c
 pendres_status pendres_locate(pendres_context *ctx, const pendres_system *of,
                               const pendres_u u, double reach, pendres_located *out)
 {
-  enum { MOST_TRIES = 5 };
   const double tolerance = ctx->options.tolerance;
   pendres_system system = *of;
   pendres_status status = pendres_map_steps(
@@ -288,7 +280,7 @@ pendres_status pendres_locate(pendres_context *ctx, const pendres_system *of,
   pendres_u from;
   memcpy(from, u, sizeof from);
   out->parted = 0;
-  for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {
+  for (int attempt = 0; attempt < TRIES && status == PENDRES_OK; attempt++) {
     double worst = 0.0;
     status = solve_twice(ctx, system, from, reach, out);
     if (status != PENDRES_OK) return status;

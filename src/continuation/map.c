@@ -64,7 +64,8 @@ static int reflected_after(int period)
    the centre; of a pendulum at one of them. */
 static int is_own_reflection(const pendres_orbit *o, double centre)
 {
-  const double nothing = 1e-7 + pendres_several_errors * o->first_harmonic_amplitude_error;
+  const double nothing =
+    orbit_same_amplitude + pendres_several_errors * o->first_harmonic_amplitude_error;
   if (pendres_model_of(o->pendulum.force)->period == 0.0 &&
       !(fabs(o->mean_angle - centre) <= nothing + o->x_error))
     return 0;
@@ -152,9 +153,8 @@ double pendres_arc_least_scale(int i)
 
 double pendres_arc_scale(int i, double value)
 {
-  static const double logarithmic = 20.0;
   const double least = pendres_arc_least_scale(i);
-  return i < PENDRES_U_OMEGA ? least : fmax(least, fabs(value) / logarithmic);
+  return i < PENDRES_U_OMEGA ? least : fmax(least, fabs(value) / scale_logarithmic);
 }
 
 double pendres_arc_distance(const pendres_u a, const pendres_u b)

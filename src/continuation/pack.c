@@ -3,6 +3,7 @@
  *
  * The bytes are a head, then of each curve a head and its arrays as they stand in memory.
  */
+#include "continuation/numbers.h"
 #include "continuation/sets.h"
 
 #include <stdlib.h>
@@ -26,18 +27,16 @@ static pendres_curve head_of(const pendres_curve *c)
 
 /* ---- whether bytes can be what they seem: they may come from elsewhere ---- */
 
-enum { LONGEST_PERIOD = 1000000 };
-
 static int orbit_fits(const pendres_orbit *o)
 {
   return (unsigned)o->pendulum.force < PENDRES_FORCE_COUNT && o->period >= 1 &&
-         o->period <= LONGEST_PERIOD;
+         o->period <= ORBIT_LONGEST_PERIOD;
 }
 
 static int map_fits(const pendres_map *m)
 {
   return (unsigned)m->force < PENDRES_FORCE_COUNT && (unsigned)m->mirror <= PENDRES_MIRROR_WHOLE &&
-         m->period >= 1 && m->period <= LONGEST_PERIOD;
+         m->period >= 1 && m->period <= ORBIT_LONGEST_PERIOD;
 }
 
 static int ends_fit(const pendres_branch_end end[2])

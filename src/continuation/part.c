@@ -4,16 +4,9 @@
 #include <math.h>
 
 #include "base/angles.h"
+#include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "model/model.h"
-
-/* In the parameter's scale: values that differ by less are those of one place, and by so much a
-   branch is followed beyond where it is needed. */
-static const double same_value = 1e-8, margin = 0.003;
-/* A point this close to a bifurcation does not tell what there is before or behind that: it may be
-   on either of two branches that meet there. For orbits of period one; all of a late branch of a
-   cascade may be as close. */
-static const double next_to = 1e-4;
 
 static pendres_parameter parameter_of(const pendres_part *s)
 {
@@ -42,12 +35,12 @@ double pendres_part_ahead(const pendres_part *s, double value, double of)
 
 double pendres_part_same(const pendres_part *s)
 {
-  return same_value * pendres_parameter_scale(parameter_of(s));
+  return curve_same_place * pendres_parameter_scale(parameter_of(s));
 }
 
 double pendres_part_margin(pendres_parameter parameter)
 {
-  return margin * pendres_parameter_scale(parameter);
+  return part_margin * pendres_parameter_scale(parameter);
 }
 
 pendres_branch_end pendres_part_branch_end(const pendres_part *s)
@@ -83,7 +76,7 @@ static const pendres_bifurcation *bifurcation_at(const pendres_part *s,
 static int is_beside(const pendres_part *s, const pendres_branch_point *p,
                      const pendres_bifurcation *at)
 {
-  return pendres_part_distance(s->branch, p, &at->orbit) < next_to / p->orbit.period;
+  return pendres_part_distance(s->branch, p, &at->orbit) < just_beyond / p->orbit.period;
 }
 
 /* Whether point number k has such a bifurcation before it, with nothing in between but points as
@@ -92,7 +85,7 @@ static int is_before_bifurcation(const pendres_part *s, size_t k)
 {
   const pendres_branch_point *p = pendres_part_point(s, k), *q;
   while ((q = pendres_part_point(s, ++k)) != NULL && is_regular(q))
-    if (pendres_part_distance(s->branch, q, &p->orbit) >= next_to / p->orbit.period) return 0;
+    if (pendres_part_distance(s->branch, q, &p->orbit) >= just_beyond / p->orbit.period) return 0;
   return q != NULL && is_beside(s, p, bifurcation_at(s, q));
 }
 

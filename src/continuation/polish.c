@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "continuation/numbers.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
@@ -13,20 +14,6 @@
 #include "engine/steps.h"
 #include "orbits/attractor_set.h"
 #include "orbits/orbit_measure.h"
-
-/* The values of a parameter by few and by more steps may agree by chance: it is not known better
-   than to this share of what the points differ by. Errors of the steps act like a change of
-   coordinates for the most part, which moves the orbit but not the parameter at which it
-   bifurcates. They do change a lag: with a quarter none of 1700 claims on backbones was too small,
-   without it one in fifty. */
-static const double agree = 0.005, agree_in_lag = 0.25;
-
-/* Next to a fold a branch goes along its parameter by at least this share of its length: nearer by,
-   the orbit moves as the root of what the parameter is off by, and rounding hides the rest. */
-static const double flattest = 1e-3;
-/* The coarser point of a pair is moved along the branch if that is less than this share of the way
-   to the next fold, as far as the tangent tells. */
-static const double before_fold = 0.05;
 
 /*
  * The two computations of a point of a branch differ in the parameter as well. What an orbit at one
@@ -41,7 +28,7 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
   const double along = at->tangent[2];
   const double scale = pendres_arc_scale(place, pair->fine[place]);
   const double off = (pair->fine[place] - pair->coarse[place]) / scale;
-  if (!(fabs(off) < before_fold * along * along)) {
+  if (!(fabs(off) < polish_before_fold * along * along)) {
     pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
     return;
   }
@@ -49,7 +36,7 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
     pair->coarse[s->unknown[k]] +=
       pendres_arc_scale(s->unknown[k], pair->fine[s->unknown[k]]) * at->tangent[k] * off / along;
   pair->coarse[place] = pair->fine[place];
-  pair->rounding /= fmax(fabs(along), flattest);
+  pair->rounding /= fmax(fabs(along), polish_flattest);
 }
 
 /* Nodes that are still to be made more exact: their numbers, and what their correction needs. */
@@ -138,8 +125,8 @@ static double errors_at(const pendres_curve *c, size_t i, double error[2])
   const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
                              p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
   /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
-  const double turning = across(c, i) ? fmax(fabs(c->node[i].tangent[2]), flattest) : 1.0;
-  const double chance = s->condition == PENDRES_CONDITION_LAG ? agree_in_lag : agree;
+  const double turning = across(c, i) ? fmax(fabs(c->node[i].tangent[2]), polish_flattest) : 1.0;
+  const double chance = s->condition == PENDRES_CONDITION_LAG ? polish_agree_in_lag : polish_agree;
   double worst = 0.0;
   for (int k = 0; k < s->unknowns; k++) {
     const int place = s->unknown[k];
@@ -170,16 +157,15 @@ static void keep_inexact(const pendres_options *options, int last, pendres_curve
 pendres_status pendres_curve_polish(pendres_context *ctx, pendres_curve *c, size_t n,
                                     const size_t *index)
 {
-  enum { MOST_TRIES = 4 };
   pendres_room room = pendres_room_open(ctx, "points");
   polish w = {.left = n, .index = pendres_room_take(&room, n, sizeof *w.index),
               .point = pendres_room_take(&room, n, sizeof *w.point)};
   pendres_status status = room.status;
   if (status == PENDRES_OK) status = begin(ctx, c, index, &w);
-  for (int attempt = 0; attempt < MOST_TRIES && w.left > 0 && status == PENDRES_OK; attempt++) {
+  for (int attempt = 0; attempt < TRIES && w.left > 0 && status == PENDRES_OK; attempt++) {
     status = correct(ctx, c, &w, 0);
     if (status == PENDRES_OK) status = correct(ctx, c, &w, 1);
-    if (status == PENDRES_OK) keep_inexact(&ctx->options, attempt + 1 == MOST_TRIES, c, &w);
+    if (status == PENDRES_OK) keep_inexact(&ctx->options, attempt + 1 == TRIES, c, &w);
   }
   for (size_t k = 0; k < n && status == PENDRES_OK && c->kind.system.unknowns == 3; k++) {
     const size_t i = index != NULL ? index[k] : k;

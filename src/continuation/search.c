@@ -9,8 +9,6 @@
 #include "continuation/units.h"
 #include "engine/context_internal.h"
 
-static const double widest_range = 3.0; /* of a branch's parameter, as a ratio */
-
 /* Whether the parameter of a branch has left the range that is searched. */
 static int is_far(const pendres_system *s, const pendres_curve_node *start,
                   const pendres_curve_node *here)
@@ -19,9 +17,9 @@ static int is_far(const pendres_system *s, const pendres_curve_node *start,
   const double from = start->u[place], value = here->u[place];
   if (s->condition != PENDRES_CONDITION_NONE) return 0;
   if (pendres_parameter_of((pendres_parameter)(place - PENDRES_U_OMEGA))->plain)
-    return value > widest_range * from || value * widest_range < from;
+    return value > search_widest_range * from || value * search_widest_range < from;
   /* What may be negative, or 0, has no ratio. */
-  return fabs(value - from) > (widest_range - 1.0) * fabs(from) + 1.0;
+  return fabs(value - from) > (search_widest_range - 1.0) * fabs(from) + 1.0;
 }
 
 static double value_at(const pendres_goal *goal, const pendres_curve_node *start,

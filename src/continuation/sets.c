@@ -75,13 +75,6 @@ static pendres_status no_memory(pendres_context *ctx)
   return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for branches or curves");
 }
 
-/*
- * An orbit that lies on a branch has measures that differ by less than this from those interpolated
- * along the branch's chord. Orbits of different branches at one parameter differ by more, unless
- * the branches meet right there.
- */
-static const double alike = 5e-3;
-
 static double mixed(double a, double b, double part)
 {
   return a + part * (b - a);
@@ -102,9 +95,9 @@ static int fits_chord(const pendres_orbit *a, const pendres_orbit *b, double par
                       const pendres_orbit *o)
 {
   if (a->symmetric != o->symmetric && b->symmetric != o->symmetric) return 0;
-  if (fabs(mixed(a->amplitude, b->amplitude, part) - o->amplitude) > alike) return 0;
-  if (fabs(mixed(a->loop_area, b->loop_area, part) - o->loop_area) > alike) return 0;
-  return !(fabs(mixed(a->phase_lag, b->phase_lag, part) - o->phase_lag) > alike);
+  if (fabs(mixed(a->amplitude, b->amplitude, part) - o->amplitude) > curve_alike) return 0;
+  if (fabs(mixed(a->loop_area, b->loop_area, part) - o->loop_area) > curve_alike) return 0;
+  return !(fabs(mixed(a->phase_lag, b->phase_lag, part) - o->phase_lag) > curve_alike);
 }
 
 static int lies_on(const pendres_curve *b, const pendres_orbit *o)
@@ -201,14 +194,11 @@ pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendr
   return pendres_door_close(&d);
 }
 
-/* Of bifurcations, errors aside. */
-static const double same_value = 1e-6;
-
 /* Two locations of one bifurcation, mirror images included. Two that lie as close and differ are of
    opposite curvature: where two branches part or where they meet in a cusp. */
 static int same_bifurcation(const pendres_bifurcation *a, const pendres_bifurcation *b)
 {
-  const double e = same_value + pendres_several_errors * (a->value_error + b->value_error);
+  const double e = curve_untold + pendres_several_errors * (a->value_error + b->value_error);
   const double apart = pendres_same_orbit + pendres_several_errors * (a->orbit.amplitude_error +
                                                                       b->orbit.amplitude_error);
   return a->kind == b->kind && a->orbit.period == b->orbit.period &&
@@ -258,9 +248,6 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
 
 /* ---- curves ---- */
 
-/* A curve's points reach within this of its cusps and turning points. */
-static const double just_beyond = 1e-4;
-
 static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendres_parameter second)
 {
   const double value = pendres_parameter_get(second, &b->orbit.pendulum);
@@ -275,9 +262,9 @@ static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendre
     const double part = from * to <= 0.0 && from != to ? from / (from - to) : 0.0;
     /* At a cusp or a turning point the value may lie just beyond the points. */
     if (from * to > 0.0 && fmin(fabs(from), fabs(to)) > just_beyond) continue;
-    if (fabs(mixed(p->value[0], q->value[0], part) - b->value) < alike &&
+    if (fabs(mixed(p->value[0], q->value[0], part) - b->value) < curve_alike &&
         fabs(mixed(p->orbit.amplitude, q->orbit.amplitude, part) - b->orbit.amplitude) <
-          alike + fabs(p->orbit.amplitude - q->orbit.amplitude))
+          curve_alike + fabs(p->orbit.amplitude - q->orbit.amplitude))
       return 1;
   }
   return 0;

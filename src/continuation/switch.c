@@ -10,15 +10,6 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
-/* How far from the bifurcation the other branch is looked for at first: further than rounding and
-   the errors of the bifurcation reach, and nearer than most branches bend. */
-static const double away_at_first = 0.02;
-/* A branch that crosses departs from its direction by no more than this share of the way. */
-static const double straight = 0.05;
-enum { HALVINGS = 6 /* of the distance, until it does */ };
-/* A point whose parameter is known no better than this is not taken: it has not converged. */
-static const double most_error = 1e-6;
-
 /* Correct a node of a kind of orbits to where they meet the plane across its tangent; *error
    becomes that of the parameter. */
 static pendres_status meet_plane(pendres_context *ctx, const pendres_followed *kind,
@@ -49,8 +40,8 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
   for (int k = 0; k < 3; k++) way[k] /= scale[k];
   for (int k = 0; k < 3; k++) length = hypot(length, way[k]);
   for (int k = 0; k < 3; k++) way[k] /= length;
-  for (int halving = 0; halving < HALVINGS; halving++) {
-    const double away = ldexp(away_at_first, -halving);
+  for (int halving = 0; halving < SWITCH_HALVINGS; halving++) {
+    const double away = ldexp(switch_away, -halving);
     int found = 0;
     for (int side = 1; side >= -1; side -= 2) {
       pendres_orbit here;
@@ -62,8 +53,8 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
       for (int k = 0; k < 3; k++) node.u[unknown[k]] += side * away * way[k] * scale[k];
       pendres_status status = meet_plane(ctx, &orbits, &node, &pair, &error);
       if (status == PENDRES_NOT_CONVERGED) continue;
-      const int good = status == PENDRES_OK && error < most_error &&
-                       pendres_arc_distance(pair.fine, node.u) <= straight * away;
+      const int good = status == PENDRES_OK && error < curve_untold &&
+                       pendres_arc_distance(pair.fine, node.u) <= switch_straight * away;
       if (good) status = pendres_solution_measure(ctx, 1, &pair, &here);
       if (status != PENDRES_OK) return status;
       if (good && (!found || here.stable)) *out = here;
@@ -110,7 +101,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   map->period = once.mirror ? once.period : 2 * once.period;
   map->winding = once.mirror ? 0 : 2 * once.winding;
   /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time. */
-  const double reach = away_at_first * pow(once.period, -1.3);
+  const double reach = switch_away * pow(once.period, -1.3);
   static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0};
   for (size_t k = 0; k < sizeof tries / sizeof *tries && reach * tries[k] < 0.5; k++) {
     const double away = reach * tries[k];
@@ -122,7 +113,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     node.u[PENDRES_U_W] += away * v[1];
     status = meet_plane(ctx, &twice, &node, &pair, &error);
     if (status != PENDRES_OK) return status;
-    if (error > most_error || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
+    if (error > curve_untold || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
     /* Keep away from the branch that it came from, which the plane meets as well. Orbits of the
        other branch are on the far side after one map, and so twice as far away. */
     status = pendres_map_states(ctx, &once, steps, 1, (const pendres_u *)pair.fine, &image);

@@ -9,16 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "continuation/crossing.h"
-
-/* A minimum above this share of its neighbours' values is no zero that the points missed. */
-static const double suspicious = 0.3;
-/* A minimum below this share of them may be a zero that is touched and not crossed: where branches
-   cross, points are hard to correct, and the search ends early. */
-static const double touching = 0.05;
-static const double narrowest = 1e-9; /* of a search, in arclength */
-/* A vertex this close to the least point, as a share of what is searched, tells nothing new. */
-static const double known_already = 0.02;
-enum { MOST_TRIALS = 24, HALVE_EVERY = 4 /* trials, in case parabolas close in from one side */ };
+#include "continuation/numbers.h"
 
 double pendres_curve_between(const pendres_curve *t, const pendres_curve_zero *z, pendres_u u)
 {
@@ -109,7 +100,7 @@ static int touches(const pendres_curve *t, pendres_curve_function *test, size_t 
   three(t, test, i - 1, s, g);
   if (!dips(g)) return 0;
   const parabola p = parabola_of(s, g);
-  return fabs(value_of(&p, vertex_of(&p))) < touching * fmin(fabs(g[0]), fabs(g[2]));
+  return fabs(value_of(&p, vertex_of(&p))) < zero_touching * fmin(fabs(g[0]), fabs(g[2]));
 }
 
 /* How many chords a curve has. */
@@ -235,7 +226,7 @@ static pendres_status descend(pendres_context *ctx, const pendres_curve *t,
                               pendres_curve_node *beyond, int *found)
 {
   *found = 0;
-  for (int trial = 0; trial < MOST_TRIALS; trial++) {
+  for (int trial = 0; trial < ZERO_TRIALS; trial++) {
     double s[3], g[3];
     int good = 0;
     for (int m = 0; m < 3; m++) {
@@ -245,11 +236,11 @@ static pendres_status descend(pendres_context *ctx, const pendres_curve *t,
     const parabola p = parabola_of(s, g);
     double next = vertex_of(&p);
     const double least = value_of(&p, next), width = s[2] - s[0];
-    if (width < narrowest) break;
-    if (least * g[1] > 0.0 && fabs(least) > suspicious * fmin(fabs(g[0]), fabs(g[2]))) break;
+    if (width < zero_narrowest) break;
+    if (least * g[1] > 0.0 && fabs(least) > zero_suspicious * fmin(fabs(g[0]), fabs(g[2]))) break;
     /* Where the vertex is known already, or would be next to an end, halve the longer side. */
-    if (!(next > s[0] && next < s[2]) || fabs(next - s[1]) < known_already * width ||
-        trial % HALVE_EVERY == HALVE_EVERY - 1)
+    if (!(next > s[0] && next < s[2]) || fabs(next - s[1]) < zero_known * width ||
+        trial % ZERO_HALVE_EVERY == ZERO_HALVE_EVERY - 1)
       next = s[2] - s[1] > s[1] - s[0] ? 0.5 * (s[1] + s[2]) : 0.5 * (s[0] + s[1]);
     const int side = next < s[1] ? 0 : 1;
     pendres_curve_node here;
