@@ -219,10 +219,40 @@ static void weak_order_is_four_driven(void **state)
   }
 }
 
+/* A ring whose inductance changes: coefficient a1 falls from 0.6 to 0.5 in a period. */
+static pendres_pendulum opening_ring(void *arg, double time)
+{
+  (void)arg;
+  return (pendres_pendulum){ .damping = 0.3, .drive_amplitude = 0.4, .drive_frequency = 0.7,
+                             .force = PENDRES_FORCE_SQUID,
+                             .force_coefficients = { 0.6 - 0.1 * time } };
+}
+
+/* Without noise lanes that start alike do alike, whichever coefficients of their force move. */
+static void lanes_move_alike(void **state)
+{
+  enum { ALIKE = 16 };
+  const pendres_pendulum p = opening_ring(NULL, 0.0);
+  pendres_langevin_block b = { 0 };
+  (void)state;
+  check_ok(pendres_langevin_block_make(&b, ALIKE, 0));
+  check_ok(pendres_langevin_block_set_steps(&b, 40));
+  pendres_langevin_block_resize(&b, ALIKE);
+  for (size_t i = 0; i < ALIKE; i++) pendres_langevin_block_load(&b, i, &p, i, 0.8, 0.1);
+  pendres_langevin_block_finish(&b);
+  check_ok(pendres_langevin_block_moving(&b, 0, opening_ring, NULL));
+  for (size_t i = 1; i < ALIKE; i++) {
+    assert_true(b.x[i] == b.x[0]);
+    assert_true(b.v[i] == b.v[0]);
+  }
+  pendres_langevin_block_clear(&b);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(no_temperature_is_deterministic),
+    cmocka_unit_test(lanes_move_alike),
     cmocka_unit_test(weak_order_is_four),
     cmocka_unit_test(weak_order_is_four_driven),
   };

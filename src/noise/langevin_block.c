@@ -70,10 +70,11 @@ pendres_status pendres_langevin_block_make(pendres_langevin_block *b, size_t cap
 
   double *row = b->memory;
 #define TAKE(name, count) b->name = row, row += (size_t)(count) * capacity
-  TAKE(x, 1), TAKE(v, 1), TAKE(base, 1), TAKE(drive, 1), TAKE(pivot_speed, 1);
-  TAKE(cosine, 1), TAKE(sine, 1), TAKE(work, 1);
-  for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) TAKE(reach[d], 1), TAKE(decay[d], 1);
+  TAKE(x, 1), TAKE(v, 1), TAKE(base, 1), TAKE(cosine, 1), TAKE(sine, 1), TAKE(work, 1);
   TAKE(rows.u, 1), TAKE(rows.w, 1), TAKE(gauss, PENDRES_LANGEVIN_WORDS);
+  /* From here on what follows from the parameters: tune() takes them together. */
+  TAKE(drive, 1), TAKE(pivot_speed, 1);
+  for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) TAKE(reach[d], 1), TAKE(decay[d], 1);
 #undef TAKE
   /* The kernels only read the following rows; loading a lane writes them by way of `memory`. */
   b->rows.pivot_cos = row, row += capacity;
@@ -283,21 +284,13 @@ pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t
 /* Give all lanes the parameters of this pendulum. */
 static void tune(pendres_langevin_block *b, const pendres_pendulum *p)
 {
-  enum { FIXED = 7 /* rows from pivot_cos on that hold no coefficient of a force */ };
-  double *row[2 + 2 * PENDRES_LANGEVIN_DURATIONS + FIXED + COEFFICIENTS] = {b->drive,
-                                                                            b->pivot_speed};
-  size_t rows = 2;
-  for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) {
-    row[rows++] = b->reach[d];
-    row[rows++] = b->decay[d];
-  }
-  double *const first = b->memory + (b->rows.pivot_cos - b->memory);
+  enum { FIXED = 2 + 2 * PENDRES_LANGEVIN_DURATIONS + 7 /* rows but coefficients of a force */ };
   b->terms = pendres_model_kind(p);
-  const size_t last = b->terms == PENDRES_MODEL_POLYNOMIAL ? FIXED + COEFFICIENTS : FIXED;
-  for (size_t k = 0; k < last; k++) row[rows++] = first + k * b->capacity;
+  const size_t rows = b->terms >= PENDRES_MODEL_POLYNOMIAL ? FIXED + COEFFICIENTS : FIXED;
   set_constants(b, 0, p);
   for (size_t k = 0; k < rows; k++)
-    for (size_t i = 1; i < b->stride; i++) row[k][i] = row[k][0];
+    for (size_t i = 1; i < b->stride; i++)
+      b->drive[k * b->capacity + i] = b->drive[k * b->capacity];
 }
 
 /* The same between two steps: the states are the same, expressed in another frame. */
