@@ -124,12 +124,11 @@ static void linear_image(const pendres_orbit *o, int looks, double d[2])
 }
 
 /* The difference of the image of point i, counted round the ring, from its linear image. */
-static void point_departure(const pendres_trapping_ring *r, const pendres_trapping_point *points,
-                            int i,
-                            const pendres_orbit *o, double d[2])
+static void point_departure(const pendres_trapping_ring *r, int i, const pendres_orbit *o,
+                            double d[2])
 {
   const pendres_trapping_ellipse *t = r->ellipse;
-  const pendres_trapping_point *p = &points[(i + r->points) % r->points];
+  const pendres_trapping_point *p = &r->point[(i + r->points) % r->points];
   double at[2] = {p->y[0] - t->y, p->w[0] - t->w};
   linear_image(o, r->looks, at);
   const double y = p->y[r->looks] - t->y - at[0];
@@ -146,15 +145,14 @@ static void point_departure(const pendres_trapping_ring *r, const pendres_trappi
  * Its tangents are taken from the neighbouring points: it changes like the double and threefold
  * angle, which 12 points resolve.
  */
-static double ring_departure(const pendres_trapping_ring *r, const pendres_trapping_point *points,
-                             const pendres_orbit *o)
+static double ring_departure(const pendres_trapping_ring *r, const pendres_orbit *o)
 {
   pendres_trapping_ellipse origin = *r->ellipse;
   origin.y = origin.w = 0.0;
   double worst = 0.0, d[4][2];
   for (int i = 0; i < r->points; i++) {
     double chord[2], first[2], last[2];
-    for (int k = 0; k < 4; k++) point_departure(r, points, i - 1 + k, o, d[k]);
+    for (int k = 0; k < 4; k++) point_departure(r, i - 1 + k, o, d[k]);
     for (int j = 0; j < 2; j++) {
       chord[j] = d[2][j] - d[1][j];
       first[j] = 0.5 * (d[2][j] - d[0][j]);
@@ -214,8 +212,7 @@ static int patience(const pendres_orbit *o, pendres_trapping_effort effort)
 }
 
 static void choose_ring(search *s, const pendres_trapping_ellipse *t, double radius, double home,
-                        int points,
-                        int looks)
+                        int points, int looks)
 {
   s->ring[s->rings++] = (pendres_trapping_ring){
     .ellipse = t,
@@ -245,9 +242,9 @@ static void choose_rings(search *s, const pendres_trapping_ellipse *t)
 }
 
 /* Judge a base ring: the next one has a better radius, or the climb begins. */
-static void judge_base(search *s, const pendres_trapping_point *points, const pendres_orbit *o)
+static void judge_base(search *s, const pendres_orbit *o)
 {
-  const double departure = ring_departure(&s->ring[0], points + s->ring[0].first, o);
+  const double departure = ring_departure(&s->ring[0], o);
   s->pass++;
   if (departure <= trapping_base_departure) {
     /* As the departure grows with the square of the radius, a larger one may do: try that once. */
@@ -266,16 +263,15 @@ static void judge_base(search *s, const pendres_trapping_point *points, const pe
 }
 
 /* Judge the rings of this pass, and set the next stage. */
-static void judge(search *s, const pendres_trapping_point *points, const pendres_orbit *o,
-                  pendres_trapping_effort effort)
+static void judge(search *s, const pendres_orbit *o, pendres_trapping_effort effort)
 {
   const int many = effort == PENDRES_TRAPPING_MANY;
   if (s->stage == STAGE_BASE) {
-    judge_base(s, points, o);
+    judge_base(s, o);
     return;
   }
   for (int k = 0; k < s->rings; k++) {
-    if (!pendres_trapping_ring_holds(&s->ring[k], points + s->ring[k].first)) {
+    if (!pendres_trapping_ring_holds(&s->ring[k])) {
       s->failed = s->ring[k].radius;
       break;
     }
@@ -292,27 +288,23 @@ static void judge(search *s, const pendres_trapping_point *points, const pendres
   }
 }
 
-/* The points of all rings of a pass, and the lanes that they are integrated in. */
-typedef struct ring_points {
+/* All rings of a pass, their points, and the lanes that these are integrated in. */
+typedef struct pass {
+  pendres_trapping_effort effort;
+  pendres_trapping_ring **rings;
   pendres_trapping_point *points;
   pendres_strobe_lane *lanes;
-} ring_points;
+} pass;
 
 /* Integrate the rings of all searches at once, and close the arcs of those that come home. */
 static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
-                                const pendres_orbit *orbits, pendres_trapping_effort effort,
-                                const ring_points *of)
+                                const pendres_orbit *orbits, const pass *of)
 {
-  const int many = effort == PENDRES_TRAPPING_MANY;
-  pendres_trapping_point *points = of->points;
   size_t count = 0;
-  pendres_trapping_ring **rings = malloc((n * TRAPPING_RINGS + 1) * sizeof *rings);
   pendres_status status = PENDRES_OK;
-  if (rings == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
   for (size_t i = 0; i < n; i++)
     for (int k = 0; k < s[i].rings && status == PENDRES_OK; k++) {
-      pendres_trapping_ring *r = rings[count++] = &s[i].ring[k];
+      pendres_trapping_ring *r = of->rings[count++] = &s[i].ring[k];
       r->pendulum = &orbits[s[i].orbit].pendulum;
       const pendres_trapping_ellipse *t = r->ellipse;
       const double speed = pendres_model_of(r->pendulum->force)->period > 0.0
@@ -322,12 +314,13 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
       status = pendres_steps_choose(ctx, r->pendulum, speed,
                                     pendres_trapping_tolerance(r->margin), &r->steps);
     }
-  if (status == PENDRES_OK) status = pendres_trapping_rings_run(ctx, count, rings, points,
-                                                                of->lanes);
   if (status == PENDRES_OK)
-    status = pendres_trapping_rings_close(ctx, count, rings, points,
-                                          many ? 2 * TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS);
-  free(rings);
+    status = pendres_trapping_rings_run(ctx, count, of->rings, of->points, of->lanes);
+  if (status == PENDRES_OK)
+    status = pendres_trapping_rings_close(ctx, count, of->rings,
+                                          of->effort == PENDRES_TRAPPING_MANY
+                                            ? 2 * TRAPPING_MANY_POINTS
+                                            : TRAPPING_FEW_POINTS);
   return status;
 }
 
@@ -358,15 +351,17 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
   const int many = effort == PENDRES_TRAPPING_MANY;
   const size_t most =
     left * TRAPPING_RINGS * (many ? TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS);
-  const ring_points all = {pendres_room_take(&room, most, sizeof *all.points),
-                           pendres_room_take(&room, most, sizeof *all.lanes)};
+  const pass all = {.effort = effort,
+                    .rings = pendres_room_take(&room, left * TRAPPING_RINGS, sizeof *all.rings),
+                    .points = pendres_room_take(&room, most, sizeof *all.points),
+                    .lanes = pendres_room_take(&room, most, sizeof *all.lanes)};
   pendres_status status = room.status;
   while (left > 0 && status == PENDRES_OK) {
     for (size_t i = 0; i < left; i++) choose_rings(&s[i], &ellipses[s[i].orbit]);
-    status = run_rings(ctx, left, s, orbits, effort, &all);
+    status = run_rings(ctx, left, s, orbits, &all);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-      judge(&s[i], all.points, &orbits[s[i].orbit], effort);
+      judge(&s[i], &orbits[s[i].orbit], effort);
       ellipses[s[i].orbit].radius = (1.0 - trapping_margin) * s[i].proven;
       ellipses[s[i].orbit].room = trapping_margin * ellipses[s[i].orbit].radius;
       if (s[i].stage != STAGE_DONE) s[again++] = s[i];

@@ -90,7 +90,7 @@ pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     pendres_trapping_ring *r = rings[i];
-    r->first = count;
+    r->point = points + count;
     for (int j = 0; j < r->points; j++, count++)
       start(&points[count], r, two_pi * j / r->points, &lanes[count]);
   }
@@ -99,9 +99,9 @@ pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
 
 /* ---- points ---- */
 
-int pendres_trapping_ring_holds(const pendres_trapping_ring *r,
-                                const pendres_trapping_point *points)
+int pendres_trapping_ring_holds(const pendres_trapping_ring *r)
 {
+  const pendres_trapping_point *points = r->point;
   if (r->failed) return 0;
   for (int i = 0; i < r->points; i++) {
     const pendres_trapping_point *a = &points[i], *b = &points[(i + 1) % r->points];
@@ -119,8 +119,7 @@ int pendres_trapping_ring_holds(const pendres_trapping_ring *r,
 /* ---- arcs ---- */
 
 double pendres_trapping_departure(const pendres_trapping_ellipse *t, const double chord[2],
-                                  const double first[2],
-                                  const double last[2])
+                                  const double first[2], const double last[2])
 {
   return 0.25 * (length_of(t, first[0] - chord[0], first[1] - chord[1]) +
                  length_of(t, last[0] - chord[0], last[1] - chord[1]));
@@ -145,13 +144,11 @@ static int arc_home(const pendres_trapping_ring *r, const pendres_trapping_point
   return 0;
 }
 
-size_t pendres_trapping_ring_open(const pendres_trapping_ring *r,
-                                  const pendres_trapping_point *points,
-                                  pendres_trapping_arc *arcs)
+size_t pendres_trapping_ring_open(const pendres_trapping_ring *r, pendres_trapping_arc *arcs)
 {
   size_t open = 0;
   for (int i = 0; i < r->points; i++) {
-    const pendres_trapping_arc arc = {&points[i], &points[(i + 1) % r->points]};
+    const pendres_trapping_arc arc = {&r->point[i], &r->point[(i + 1) % r->points]};
     if (!arc_home(r, arc.a, arc.b)) arcs[open++] = arc;
   }
   return open;
@@ -203,34 +200,32 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
 
 /* Take the tangents at all points of the rings that hold, and list their open arcs. */
 static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trapping_ring **rings,
-                                 pendres_trapping_point *points, closing *c)
+                                 closing *c)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     pendres_trapping_ring *r = rings[i];
-    if (!pendres_trapping_ring_holds(r, points + r->first)) continue;
+    if (!pendres_trapping_ring_holds(r)) continue;
     const double step = trapping_beside * two_pi / r->points;
     for (int j = 0; j < r->points; j++, count++)
-      start(&c->points[count], r, points[r->first + (size_t)j].angle + step, &c->lanes[count]);
+      start(&c->points[count], r, r->point[j].angle + step, &c->lanes[count]);
   }
   const pendres_status status = pendres_strobe_run(ctx, count, c->lanes, look, c->points);
   for (size_t k = 0; k < count && status == PENDRES_OK;) {
     const pendres_trapping_ring *r = c->points[k].of;
-    pendres_trapping_point *own = points + r->first;
     for (int j = 0; j < r->points; j++, k++)
-      if (!r->failed) take_tangents(&own[j], &c->points[k]);
-    if (!r->failed) c->open += pendres_trapping_ring_open(r, own, c->arcs + c->open);
+      if (!r->failed) take_tangents(&r->point[j], &c->points[k]);
+    if (!r->failed) c->open += pendres_trapping_ring_open(r, c->arcs + c->open);
   }
   return status;
 }
 
 pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
-                                            pendres_trapping_ring **rings,
-                                            pendres_trapping_point *points, int most)
+                                            pendres_trapping_ring **rings, int most)
 {
   size_t arcs = 0, hold = 0;
   for (size_t i = 0; i < n; i++) {
-    if (!pendres_trapping_ring_holds(rings[i], points + rings[i]->first)) continue;
+    if (!pendres_trapping_ring_holds(rings[i])) continue;
     arcs += (size_t)rings[i]->points;
     hold++;
   }
@@ -242,7 +237,7 @@ pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
                .points = pendres_room_take(&room, all, sizeof *c.points),
                .lanes = pendres_room_take(&room, all, sizeof *c.lanes)};
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  pendres_status status = first_arcs(ctx, n, rings, points, &c);
+  pendres_status status = first_arcs(ctx, n, rings, &c);
   c.used = arcs;
   while (c.open > 0 && status == PENDRES_OK) status = bisect(ctx, &c);
   return pendres_room_close(&room, status);

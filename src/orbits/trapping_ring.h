@@ -36,7 +36,7 @@ typedef struct pendres_trapping_ring {
   int points, looks, steps;
   int more;      /* points put between the first ones so far */
   int failed;    /* a point has left: the others need not go on */
-  size_t first;  /* its first point */
+  struct pendres_trapping_point *point; /* [points] */
 } pendres_trapping_ring;
 
 /* A point of a ring, where it has been at each look, and the derivatives of that by the angle. */
@@ -59,15 +59,13 @@ pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
                                           pendres_trapping_point *points,
                                           pendres_strobe_lane *lanes);
 
-/* Whether all points came home, side by side; `points` are those of the ring. */
-int pendres_trapping_ring_holds(const pendres_trapping_ring *r,
-                                const pendres_trapping_point *points);
+/* Whether all points came home, side by side. */
+int pendres_trapping_ring_holds(const pendres_trapping_ring *r);
 
 /* How far an arc may depart from its chord, in the metric of t (see above); both tangents times the
    arc's width. */
 double pendres_trapping_departure(const pendres_trapping_ellipse *t, const double chord[2],
-                                  const double first[2],
-                                  const double last[2]);
+                                  const double first[2], const double last[2]);
 
 /* An arc of a ring. */
 typedef struct pendres_trapping_arc {
@@ -75,16 +73,13 @@ typedef struct pendres_trapping_arc {
 } pendres_trapping_arc;
 
 /* The arcs that are not home, at most as many as the ring has points; their number. */
-size_t pendres_trapping_ring_open(const pendres_trapping_ring *r,
-                                  const pendres_trapping_point *points,
-                                  pendres_trapping_arc *arcs);
+size_t pendres_trapping_ring_open(const pendres_trapping_ring *r, pendres_trapping_arc *arcs);
 
 /*
  * Put points where the arcs of rings that hold are not home, at most `most` to a ring. A ring whose
  * arcs are not all home then has failed.
  */
 pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
-                                            pendres_trapping_ring **rings,
-                                            pendres_trapping_point *points, int most);
+                                            pendres_trapping_ring **rings, int most);
 
 #endif

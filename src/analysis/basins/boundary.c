@@ -16,6 +16,7 @@
 #include "engine/block.h"
 #include "engine/coordinates.h"
 #include "engine/door.h"
+#include "engine/room.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
@@ -83,9 +84,7 @@ static int by_generation(const void *a, const void *b)
 typedef struct measuring {
   const pendres_boundary_seed *seed;
   pendres_pendulum forward;
-  const pendres_boundary_node *nodes;
-  size_t n;
-  double *distance;
+  const pendres_boundary_curve *curve;
 } measuring;
 
 /*
@@ -95,10 +94,10 @@ typedef struct measuring {
  */
 static void across(const measuring *m, size_t i, double out[2])
 {
-  const pendres_boundary_node *own = &m->nodes[i], *before = own, *after = own;
+  const pendres_boundary_node *own = &m->curve->node[i], *before = own, *after = own;
   const double omega = m->forward.drive_frequency;
   if (i > 0 && own[-1].piece == own->piece) before = own - 1;
-  if (i + 1 < m->n && own[1].piece == own->piece) after = own + 1;
+  if (i + 1 < m->curve->count && own[1].piece == own->piece) after = own + 1;
   const double dy = after->y - before->y, dv = (after->w - before->w) * omega;
   const double length = hypot(dy, dv);
   out[0] = length > 0.0 ? -dv / length : 1.0;
@@ -120,13 +119,13 @@ static double distance_of(const pendres_boundary_seed *seed, double y, double w,
 
 /* Of nodes of one generation, as many as a block holds at most. */
 static pendres_status measure(pendres_block *b, const measuring *m, size_t count,
-                              const pendres_boundary_node *const *order)
+                              pendres_boundary_node *const *order)
 {
   pendres_status status = PENDRES_OK;
   pendres_block_resize(b, count);
   for (size_t i = 0; i < count; i++) {
     double vector[2];
-    across(m, (size_t)(order[i] - m->nodes), vector);
+    across(m, (size_t)(order[i] - m->curve->node), vector);
     pendres_block_load(b, i, &m->forward, order[i]->y, order[i]->w);
     for (int k = 0; k < 2; k++) pendres_block_put_tangent(b, i, k, vector);
   }
@@ -137,24 +136,24 @@ static pendres_status measure(pendres_block *b, const measuring *m, size_t count
   for (size_t i = 0; i < count; i++) {
     double vector[2];
     pendres_block_get_tangent(b, i, 0, vector);
-    m->distance[order[i] - m->nodes] =
-      distance_of(m->seed, pendres_rows_get(&rows, PENDRES_ROW_Y, i),
-                  pendres_rows_get(&rows, PENDRES_ROW_W, i), vector);
+    order[i]->error = distance_of(m->seed, pendres_rows_get(&rows, PENDRES_ROW_Y, i),
+                                  pendres_rows_get(&rows, PENDRES_ROW_W, i), vector);
   }
   return status;
 }
 
 static pendres_status measure_all(pendres_context *ctx, const measuring *m,
-                                  const pendres_boundary_node *const *order)
+                                  pendres_boundary_node *const *order)
 {
   pendres_block *b;
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, m->seed->steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(b);
   status = pendres_block_carry(b, PENDRES_FLOW_TANGENTS);
-  for (size_t first = 0, count; first < m->n && status == PENDRES_OK; first += count) {
+  const size_t n = m->curve->count;
+  for (size_t first = 0, count; first < n && status == PENDRES_OK; first += count) {
     count = 1;
-    while (count < capacity && first + count < m->n &&
+    while (count < capacity && first + count < n &&
            order[first + count]->generation == order[first]->generation)
       count++;
     status = measure(b, m, count, order + first);
@@ -165,25 +164,22 @@ static pendres_status measure_all(pendres_context *ctx, const measuring *m,
 
 /*
  * The distance of nodes in the (x, v) plane from the stable manifold that belongs to the seed's own
- * number of steps. Mapped forward, a node comes close to the local manifold; its distance from
- * that, divided by what the map makes of a unit vector across the curve, is its distance here. The
- * curve contracts, so that errors along it do not matter. Nodes of a piece are consecutive.
+ * number of steps, into their errors. Mapped forward, a node comes close to the local manifold; its
+ * distance from that, divided by what the map makes of a unit vector across the curve, is its
+ * distance here. The curve contracts, so that errors along it do not matter.
  */
 static pendres_status find_distances(pendres_context *ctx, const pendres_boundary_seed *seed,
-                                     size_t n, const pendres_boundary_node *nodes,
-                                     double *distance)
+                                     const pendres_boundary_curve *curve)
 {
-  const pendres_boundary_node **order = malloc((n + 1) * sizeof *order);
-  if (order == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
-  for (size_t i = 0; i < n; i++) order[i] = &nodes[i];
+  const size_t n = curve->count;
+  pendres_room room = pendres_room_open(ctx, "points of a boundary");
+  pendres_boundary_node **order = pendres_room_take(&room, n, sizeof *order);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0; i < n; i++) order[i] = &curve->node[i];
   qsort(order, n, sizeof *order, by_generation);
-  measuring m = {.seed = seed, .forward = seed->backward, .nodes = nodes, .n = n,
-                 .distance = distance};
+  measuring m = {.seed = seed, .forward = seed->backward, .curve = curve};
   m.forward.damping = -m.forward.damping;
-  const pendres_status status = measure_all(ctx, &m, order);
-  free(order);
-  return status;
+  return pendres_room_close(&room, measure_all(ctx, &m, order));
 }
 
 /* ---- into the window ---- */
@@ -210,23 +206,18 @@ static pendres_status append(pendres_context *ctx, growing *g, double x, double 
   return PENDRES_OK;
 }
 
-/* A curve with the errors of its nodes. */
-typedef struct traced {
-  const pendres_boundary_node *node;
-  const double *x, *v, *error;
-  size_t count;
-} traced;
-
 /* Add the part of the curve, moved by `shift`, that is in the window: runs of nodes inside. */
-static pendres_status show(pendres_context *ctx, const traced *t, const pendres_boundary_options *o,
+static pendres_status show(pendres_context *ctx, const pendres_boundary_curve *curve,
+                           const pendres_pendulum *p, const pendres_boundary_options *o,
                            double shift, growing *b)
 {
   int open = 0;
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
-    const double x = t->x[i] + shift, v = t->v[i];
+  for (size_t i = 0; i < curve->count && status == PENDRES_OK; i++) {
+    const pendres_boundary_node *n = &curve->node[i];
+    const double x = n->y + pendres_model_origin(p) + shift, v = n->w * p->drive_frequency;
     const int inside = x >= o->x_low && x <= o->x_high && v >= o->v_low && v <= o->v_high;
-    const int goes_on = i > 0 && t->node[i].piece == t->node[i - 1].piece;
+    const int goes_on = i > 0 && n->piece == n[-1].piece;
     if (open && !(inside && goes_on)) {
       b->pieces++;
       open = 0;
@@ -234,7 +225,7 @@ static pendres_status show(pendres_context *ctx, const traced *t, const pendres_
     /* Nodes may coincide where the curve is stretched to the limit of rounding. */
     const int again = open && x == b->x[b->seen.count - 1] && v == b->v[b->seen.count - 1];
     if (!inside || again) continue;
-    status = append(ctx, b, x, v, t->error[i]);
+    status = append(ctx, b, x, v, n->error);
     open = 1;
   }
   if (open) b->pieces++;
@@ -248,38 +239,28 @@ static pendres_status show(pendres_context *ctx, const traced *t, const pendres_
  */
 static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
                             const pendres_boundary_options *o, int steps,
-                            const pendres_boundary_curve *curve, growing *b)
+                            pendres_boundary_curve *curve, growing *b)
 {
-  const size_t n = curve->count;
-  const double omega = saddle->pendulum.drive_frequency;
-  const double origin = pendres_model_origin(&saddle->pendulum);
+  const pendres_pendulum *p = &saddle->pendulum;
   pendres_boundary_seed coarse;
-  double *memory = malloc((3 * n + 1) * sizeof *memory);
-  if (memory == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
-  double *x = memory, *v = x + n, *error = v + n;
   pendres_status status = pendres_boundary_grow_seed(ctx, saddle, steps, &coarse);
-  if (status == PENDRES_OK)
-    status = find_distances(ctx, &coarse, n, curve->node, error);
-  if (status != PENDRES_OK) goto done;
+  if (status == PENDRES_OK) status = find_distances(ctx, &coarse, curve);
+  if (status != PENDRES_OK) return status;
   double low = INFINITY, high = -INFINITY;
-  for (size_t i = 0; i < n; i++) {
-    x[i] = curve->node[i].y + origin;
-    v[i] = curve->node[i].w * omega;
+  for (size_t i = 0; i < curve->count; i++) {
+    pendres_boundary_node *n = &curve->node[i];
+    const double x = n->y + pendres_model_origin(p);
     /* The coarser manifold is some fifteen times as far from the true one as the finer. */
-    error[i] = 0.25 * error[i] + 1.5 * curve->node[i].sagitta + rounding;
-    low = fmin(low, x[i]);
-    high = fmax(high, x[i]);
+    n->error = 0.25 * n->error + 1.5 * n->sagitta + rounding;
+    low = fmin(low, x);
+    high = fmax(high, x);
   }
-  const traced t = {.node = curve->node, .x = x, .v = v, .error = error, .count = n};
   /* For an angle, the curve moved by whole turns is a boundary, too. */
-  const double turn = pendres_model_of(saddle->pendulum.force)->period;
+  const double turn = pendres_model_of(p->force)->period;
   const double from = turn > 0.0 ? floor((o->x_low - high) / turn) : 0.0;
   const double to = turn > 0.0 ? ceil((o->x_high - low) / turn) : 0.0;
   for (double k = from; k <= to && status == PENDRES_OK; k++)
-    status = show(ctx, &t, o, k * turn, b);
-done:
-  free(memory);
+    status = show(ctx, curve, p, o, k * turn, b);
   return status;
 }
 

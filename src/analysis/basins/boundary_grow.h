@@ -31,6 +31,7 @@ typedef struct pendres_boundary_node {
   int piece;   /* nodes of one piece are consecutive and neighbours on the curve */
   double y, w; /* y unwrapped */
   double sagitta; /* of the chords beside it */
+  double error;   /* in x and v, once it has been estimated */
 } pendres_boundary_node;
 
 typedef struct pendres_boundary_curve {
