@@ -61,4 +61,8 @@ static const double claimed_share = 0.25;
    is compared with an error that was claimed, three stand for the same. */
 static const double surely = 3.0;
 
+/* An error that is claimed may be too small, though hardly ever by this factor: what lies further
+   apart than so many errors is not the same. */
+static const double pendres_several_errors = 10.0;
+
 #endif

@@ -9,10 +9,6 @@
 
 /* ---- when two are the same ---- */
 
-/* An error that is claimed may be too small, though hardly ever by this factor: what lies further
-   apart than so many errors is not the same. */
-static const double pendres_several_errors = 10.0;
-
 /* Orbits whose amplitudes differ by less, errors aside, may be one. */
 static const double pendres_same_orbit = 1e-5;
 

@@ -18,6 +18,10 @@ static const double orbit_same_point = 1e-6;
    coexist by more, unless they are about to meet. Harmonics below this are none. */
 static const double orbit_same_amplitude = 1e-7;
 
+/* The amplitudes of a state at adjacent parameters differ by less than this, and an orbit further
+   from where it was looked for is another one. */
+static const double orbit_another = 0.02;
+
 /* Guesses closer than this lead to the same orbit, so one of them is enough. */
 static const double guess_same = 0.05;
 

@@ -6,24 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/chaos/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
 
 enum {
   BINS = PENDRES_CORRELATION_SCALES,
-  STRETCHES = 16, /* of time, for the jackknife */
-  APART = 32,     /* pairs that are closer than this in time are left out */
   TILE = 256,     /* points that are compared at a time */
-  TABLES = 4,     /* histograms that take pairs in turn, so that no addition waits for the last */
-  FEWEST = 500,   /* least number of pairs that are closer than the shortest distance */
-  LEAST = 5       /* least number of distances from which a slope is taken */
+  TABLES = 4     /* histograms that take pairs in turn, so that no addition waits for the last */
 };
 
 static const double ln2 = 0.69314718055994530942;
-/* The longest distance as a share of the points' extent: the edges have no effect up to there. */
-static const double close_by = 1.0 / 32.0;
-/* The error of a slope by rounding. */
-static const double rounding = 1e-14;
 
 typedef struct survey {
   size_t n;
@@ -32,12 +25,12 @@ typedef struct survey {
   double extent;       /* the longest distance that there can be */
   /* Pairs between stretches a <= b: [a][b][k] at distances from extent / 2^((k+1)/2) to
      extent / 2^(k/2). */
-  uint64_t pairs[STRETCHES][STRETCHES][BINS];
+  uint64_t pairs[BATCHES][BATCHES][BINS];
 } survey;
 
 static size_t first_of(const survey *s, int stretch)
 {
-  return s->n * (size_t)stretch / STRETCHES;
+  return s->n * (size_t)stretch / BATCHES;
 }
 
 /* ---- counting ------------------------------------------------------------------------------ */
@@ -69,7 +62,7 @@ static pendres_status count_stretches(pendres_context *ctx, survey *s, int a, in
   for (size_t i = first_of(s, a); i < first_of(s, a + 1); i++) {
     const size_t last = first_of(s, b + 1);
     size_t first = first_of(s, b);
-    if (first < i + APART) first = i + APART;
+    if (first < i + DIMENSION_APART) first = i + DIMENSION_APART;
     for (; first < last; first += TILE)
       count_row(s, i, first, last - first < TILE ? last : first + TILE, table);
     if (i % 64 == 0) {
@@ -90,8 +83,8 @@ static double sums(const survey *s, int without, double closer[BINS])
 {
   double all = 0.0;
   for (int k = 0; k < BINS; k++) closer[k] = 0.0;
-  for (int a = 0; a < STRETCHES; a++)
-    for (int b = a; b < STRETCHES; b++)
+  for (int a = 0; a < BATCHES; a++)
+    for (int b = a; b < BATCHES; b++)
       for (int k = 0; k < BINS && a != without && b != without; k++)
         closer[k] += (double)s->pairs[a][b][k];
   for (int k = BINS - 2; k >= 0; k--) closer[k] += closer[k + 1];
@@ -112,38 +105,39 @@ static double slope(const double closer[BINS], int from, int to)
 }
 
 /* The standard error, from values that each leave out one stretch. */
-static double jackknife(const double value[STRETCHES])
+static double jackknife(const double value[BATCHES])
 {
   double mean = 0.0, square = 0.0;
-  for (int a = 0; a < STRETCHES; a++) mean += value[a] / STRETCHES;
-  for (int a = 0; a < STRETCHES; a++) square += (value[a] - mean) * (value[a] - mean);
-  return sqrt(square * (STRETCHES - 1.0) / STRETCHES);
+  for (int a = 0; a < BATCHES; a++) mean += value[a] / BATCHES;
+  for (int a = 0; a < BATCHES; a++) square += (value[a] - mean) * (value[a] - mean);
+  return sqrt(square * (BATCHES - 1.0) / BATCHES);
 }
 
 static void judge(const survey *s, double resolution, pendres_correlation *out)
 {
-  double closer[BINS], less[STRETCHES][BINS], all_less[STRETCHES], value[STRETCHES];
+  double closer[BINS], less[BATCHES][BINS], all_less[BATCHES], value[BATCHES];
   const double all = sums(s, -1, closer);
   int from = 0, to = 0;
-  for (int a = 0; a < STRETCHES; a++) all_less[a] = sums(s, a, less[a]);
-  while (from < BINS && exp2(-0.5 * from) > close_by) from++;
+  for (int a = 0; a < BATCHES; a++) all_less[a] = sums(s, a, less[a]);
+  while (from < BINS && exp2(-0.5 * from) > dimension_close_by) from++;
   for (to = from; to < BINS - 1; to++)
-    if (closer[to + 1] < FEWEST || s->extent * exp2(-0.5 * (to + 1)) < resolution) break;
+    if (closer[to + 1] < DIMENSION_FEWEST || s->extent * exp2(-0.5 * (to + 1)) < resolution) break;
   out->scales = to + 1;
   for (int k = 0; k <= to; k++) {
     const int at = to - k;
     out->distance[at] = s->extent * exp2(-0.5 * k);
     out->sum[at] = closer[k] / all;
-    for (int a = 0; a < STRETCHES; a++) value[a] = less[a][k] / all_less[a];
+    for (int a = 0; a < BATCHES; a++) value[a] = less[a][k] / all_less[a];
     out->sum_error[at] = jackknife(value);
   }
-  if (to - from + 1 < LEAST) return;
+  if (to - from + 1 < DIMENSION_LEAST) return;
   const int half = (from + to) / 2, quarter = (to - from) / 4;
-  for (int a = 0; a < STRETCHES; a++) value[a] = slope(less[a], from, to);
+  for (int a = 0; a < BATCHES; a++) value[a] = slope(less[a], from, to);
   out->dimension = slope(closer, from, to);
   const double ends = slope(closer, from, half) - slope(closer, half, to);
   const double middle = slope(closer, from + quarter, to - quarter) - out->dimension;
-  out->dimension_error = 2.0 * jackknife(value) + fmax(fabs(ends), fabs(middle)) + rounding;
+  out->dimension_error = 2.0 * jackknife(value) + fmax(fabs(ends), fabs(middle)) +
+                         dimension_rounding;
   out->longest = s->extent * exp2(-0.5 * from);
   out->shortest = s->extent * exp2(-0.5 * to);
 }
@@ -186,8 +180,8 @@ static pendres_status measure(pendres_context *ctx, survey *s, double resolution
     out->dimension = out->dimension_error = 0.0;
     return PENDRES_OK;
   }
-  for (int a = 0; a < STRETCHES; a++)
-    for (int b = a; b < STRETCHES; b++) {
+  for (int a = 0; a < BATCHES; a++)
+    for (int b = a; b < BATCHES; b++) {
       const pendres_status status = count_stretches(ctx, s, a, b);
       if (status != PENDRES_OK) return status;
     }

@@ -15,16 +15,9 @@
 #include "orbits/settle_lanes.h"
 #include "analysis/chaos/lyapunov_move.h"
 #include "analysis/chaos/lyapunov_verdict.h"
+#include "analysis/chaos/numbers.h"
 #include "base/angles.h"
 #include "base/sized.h"
-
-enum {
-  PERIODS = 512,     /* of a first average, unless the caller says so */
-  LONGER = 1536,     /* by which what may be chaos is followed before */
-  ROUNDS = 6,        /* of averages, each twice as long as the one before: next to the end of a lock
-                        a rotation slips once in thousands of periods */
-  FEW_PERIODS = 256  /* of the first average of what is known to be close to a rotation */
-};
 
 /*
  * ---- verdicts that rounding cannot change ----
@@ -36,15 +29,8 @@ enum {
  */
 
 enum {
-  FEW = 4,        /* copies that are tried first: most of those that differ are seen by them */
-  COPIES = 16,    /* what one copy in five does is missed by all of them once in thirty times */
   AT_A_TIME = 1024 /* pendulums with copies: they need memory */
 };
-
-/* An error this many times as large as one that may decide has parted motions for good. */
-static const double parted = 100.0;
-/* Verdicts of copies agree within this many times their errors. */
-static const double agreement = 5.0;
 
 typedef pendres_lyapunov verdict;
 
@@ -57,12 +43,12 @@ static int in_doubt(const verdict *l)
    copies part whatever distance they start at. In chaos errors grow in any case. */
 static int hopeless(const pendres_lyapunov_job *job, size_t i)
 {
-  return job->out[i].label != PENDRES_LABEL_CHAOTIC && !(job->runner[i].doubt <= parted);
+  return job->out[i].label != PENDRES_LABEL_CHAOTIC && !(job->runner[i].doubt <= copies_parted);
 }
 
 static int near(double a, double a_error, double b, double b_error)
 {
-  return fabs(a - b) <= agreement * (a_error + b_error) || (isnan(a) && isnan(b));
+  return fabs(a - b) <= copies_agree * (a_error + b_error) || (isnan(a) && isnan(b));
 }
 
 static int alike(const verdict *a, const verdict *b)
@@ -132,7 +118,7 @@ static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
 static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *job, size_t n,
                               const size_t *those, int last)
 {
-  static const size_t begin[] = {1, 1 + FEW, 1 + COPIES};
+  static const size_t begin[] = {1, 1 + COPIES_FEW, 1 + COPIES};
   size_t which[AT_A_TIME]; /* that agree so far */
   pendres_room room = pendres_room_open(ctx, "copies of pendulums");
   verdict *copy = pendres_room_take(&room, n * COPIES, sizeof *copy);
@@ -237,14 +223,15 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
                                      pendres_lyapunov_care care)
 {
   static const struct { long periods; int rounds; } looks[] = {
-    [PENDRES_CARE_FULL] = {PERIODS, ROUNDS}, [PENDRES_CARE_LABEL] = {PERIODS, ROUNDS},
-    [PENDRES_CARE_ONCE] = {PERIODS, 1},
-    [PENDRES_CARE_CLOSE] = {FEW_PERIODS, ROUNDS + 1}};
+    [PENDRES_CARE_FULL] = {EXPONENT_PERIODS, EXPONENT_ROUNDS},
+    [PENDRES_CARE_LABEL] = {EXPONENT_PERIODS, EXPONENT_ROUNDS},
+    [PENDRES_CARE_ONCE] = {EXPONENT_PERIODS, 1},
+    [PENDRES_CARE_CLOSE] = {EXPONENT_PERIODS / 2, EXPONENT_ROUNDS + 1}};
   const size_t n = m->n;
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = m->pendulum, .x = m->x, .v = m->v, .out = m->out, .orbit = m->orbit,
     .accuracy = pendres_accuracy_to_average(ctx), .care = care, .periods = looks[care].periods,
-    .rounds = looks[care].rounds, .longer = care <= PENDRES_CARE_LABEL ? LONGER : 0,
+    .rounds = looks[care].rounds, .longer = care <= PENDRES_CARE_LABEL ? 3 * EXPONENT_PERIODS : 0,
     .runner = malloc((n + 1) * sizeof *j.runner)};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
@@ -280,8 +267,9 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = p, .x = x, .v = v, .out = out,
     .accuracy = pendres_accuracy_to_average(ctx), .transient = o->transient,
-    .periods = o->periods > 0 ? o->periods : PERIODS, .asked = o->periods > 0, .rounds = ROUNDS,
-    .coarse = o->periods == 0, .longer = o->periods > 0 ? 0 : LONGER,
+    .periods = o->periods > 0 ? o->periods : EXPONENT_PERIODS, .asked = o->periods > 0,
+    .rounds = EXPONENT_ROUNDS,
+    .coarse = o->periods == 0, .longer = o->periods > 0 ? 0 : 3 * EXPONENT_PERIODS,
     .care = PENDRES_CARE_FULL, .points = 1,
     .runner = pendres_room_take(&room, n, sizeof *j.runner),
     .orbit = pendres_room_take(&room, n, sizeof *j.orbit)};

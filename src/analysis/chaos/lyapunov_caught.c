@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "analysis/chaos/numbers.h"
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
@@ -11,14 +12,6 @@
 #include "model/model.h"
 #include "orbits/orbit_pair.h"
 #include "orbits/orbit_prime.h"
-
-/* Each time that an orbit has turned out not to attract a pendulum, as the unstable one beside a
-   fold does not, it must come closer, by this factor. */
-static const double closer = 0.1;
-/* An orbit found further from the point that came back is another one. */
-static const double same_orbit = 0.02;
-/* Copies of a pendulum that are caught this close to each other are next to the same orbit. */
-static const double same_place = 1e-3;
 
 typedef pendres_lyapunov_job job;
 
@@ -51,7 +44,7 @@ void pendres_lyapunov_take_orbit(const pendres_orbit *o, pendres_lyapunov *out)
     .exponent = log(modulus) / time,
     .exponent_error = o->multiplier_error / (modulus * time),
     .rotation = (double)o->winding / o->period,
-    .rotation_error = 2.2e-16 * fabs((double)o->winding / o->period),
+    .rotation_error = last_place_of_one * fabs((double)o->winding / o->period),
     .period = o->period,
     .winding = o->winding};
 }
@@ -65,7 +58,7 @@ static double apart(const pendres_strobe_lane *l, double y, double w)
 static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
 {
   return apart(l, o->x - pendres_model_origin(l->pendulum),
-               o->v / o->pendulum.drive_frequency) < same_orbit;
+               o->v / o->pendulum.drive_frequency) < orbit_another;
 }
 
 /* Among the bands of chaos points come back next to orbits of many periods whose multipliers may
@@ -109,7 +102,7 @@ static void find_like(const job *j, const caught_list *l)
     for (size_t i = k; i-- > 0 && l->at[i].index / j->copies == c->index / j->copies;) {
       const caught *other = &l->at[i];
       if (other->like == i && other->period == c->period && other->winding == c->winding &&
-          apart(&other->at, c->at.y, c->at.w) < same_place)
+          apart(&other->at, c->at.y, c->at.w) < caught_same_place)
         c->like = i;
     }
   }
@@ -154,7 +147,7 @@ static void take(const job *j, const caught *c)
   if (c->runner == NULL) return;
   c->runner->state = c->on != NULL ? PENDRES_RUNNER_DONE : PENDRES_RUNNER_MOVING;
   if (c->on == NULL) {
-    c->runner->near *= closer;
+    c->runner->near *= caught_closer;
     return;
   }
   if (!is_surely_stable(c->on)) c->runner->doubt = INFINITY;

@@ -1,5 +1,6 @@
 /* lyapunov_means.c -- rotations without a lock, by their means; see lyapunov_runner.h. */
 #include "analysis/chaos/lyapunov_runner.h"
+#include "analysis/chaos/numbers.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,23 +8,6 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/steps.h"
-
-enum {
-  SLIPS = 3,   /* of a rotation by where a lock has ended, for its mean to be known */
-  SHOWS = 1024, /* periods after which chaos shows in means */
-  SHORT_ORBIT = 16 /* drive periods of one beside which a rotation may be slow */
-};
-
-/* A rotation that slips once in n periods is known to a few slips in n periods. */
-static const double few_slips = 5.0;
-/* In less than that of a slip nothing is seen of how the rotation becomes slower and faster. */
-static const double half_slip = 0.5;
-/* With this factor more steps errors are seen; they fall by its fourth power at least. */
-static const double more_steps = 1.4, order = 4.0;
-/* The last digits of a mean are lost to rounding. */
-static const double rounding = 2.2e-14;
-/* A mean this many errors from a fraction is taken for it. By chance one in a thousand is. */
-static const double as_near = 10.0;
 
 /* The fraction p/q nearest to a mean, relative to its denominator of `most` at most: one of its
    continued fraction's convergents. Returns by how much q times the mean misses p. */
@@ -52,16 +36,19 @@ int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_l
   int q = 0, p = 0;
   const double turned = pendres_mean_take(&r->turns, &off);
   const double square = pendres_mean_take(&r->squares, &square_off);
-  if (!(off < enough && square_off < 10.0 * pendres_means_least * square)) return 0;
+  if (!(off < enough && square_off < 10.0 * means_least * square)) return 0;
   /* What has come back to where there is no stable orbit is slow there: what it does between slips
      is not its mean. Elsewhere it may be a little slower in one place than in another. */
   const double slips = fabs(turned * r->period - r->winding) * (double)periods;
-  if (r->period > 0 && slips < SLIPS) return 0;
-  const double passed = nearest(turned, SHORT_ORBIT, &q, &p) * (double)periods;
-  if (passed < SLIPS)
-    off = fmax(off, pendres_mean_halves(&r->turns) * SLIPS / fmin(1.0, passed));
-  if (passed > rounding * q * (double)periods && (passed < half_slip || !(off < enough))) return 0;
-  if (nearest(turned, PENDRES_RUNNER_LONGEST_ORBIT, &q, &p) < q * (as_near * off + rounding)) {
+  if (r->period > 0 && slips < MEANS_SLIPS) return 0;
+  const double passed = nearest(turned, MEANS_SHORT_ORBIT, &q, &p) * (double)periods;
+  if (passed < MEANS_SLIPS)
+    off = fmax(off, pendres_mean_halves(&r->turns) * MEANS_SLIPS / fmin(1.0, passed));
+  if (passed > means_rounding * q * (double)periods &&
+      (passed < means_half_slip || !(off < enough)))
+    return 0;
+  if (nearest(turned, PENDRES_RUNNER_LONGEST_ORBIT, &q, &p) <
+      q * (pendres_several_errors * off + means_rounding)) {
     r->period = q;
     r->winding = p;
     r->state = PENDRES_RUNNER_CAUGHT;
@@ -76,13 +63,13 @@ int pendres_means_scatter(const pendres_runner *r, long periods)
 {
   double off = 0.0;
   (void)pendres_mean_take(&r->turns, &off);
-  return periods >= SHOWS && off > few_slips / (double)periods;
+  return periods >= MEANS_SHOW && off > means_few_slips / (double)periods;
 }
 
 static pendres_status steps_of_finer(pendres_context *ctx, const pendres_runner *r, int *steps)
 {
   const pendres_pendulum *p = r->lane.pendulum;
-  const int fewest = (int)ceil(more_steps * r->steps);
+  const int fewest = (int)ceil(finer_steps * r->steps);
   pendres_status status = pendres_steps_choose(ctx, p, pendres_steps_turning_speed(p),
                                                pendres_accuracy_of_means(ctx), steps);
   if (status == PENDRES_TOLERANCE_UNREACHABLE) status = PENDRES_OK; /* the error says so */
@@ -93,15 +80,15 @@ static pendres_status steps_of_finer(pendres_context *ctx, const pendres_runner 
 
 static void compare(pendres_runner *r, const pendres_runner *finer, pendres_lyapunov *out)
 {
-  const double closer_by = pow((double)r->steps / finer->lane.steps, order);
+  const double closer_by = pow((double)r->steps / finer->lane.steps, 4);
   double off = 0.0;
   const double turned = pendres_mean_take(&finer->turns, &off);
   const double apart = fabs(turned - out->rotation) + out->rotation_error;
   r->lane = finer->lane;
   r->lane.steps = r->steps;
   out->rotation = turned;
-  out->rotation_error = off + closer_by * apart + rounding * (1.0 + fabs(turned));
-  if (off + apart < 10.0 * pendres_means_least) return;
+  out->rotation_error = off + closer_by * apart + means_rounding * (1.0 + fabs(turned));
+  if (off + apart < 10.0 * means_least) return;
   out->label = PENDRES_LABEL_UNRESOLVED;
   r->state = PENDRES_RUNNER_MOVING;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "analysis/chaos/numbers.h"
 #include "engine/block.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
@@ -11,14 +12,6 @@
 #include "model/model.h"
 #include "orbits/escape.h"
 #include "orbits/numbers.h"
-
-enum {
-  TURNING = 16 /* periods in which the tangent vector turns into the growing direction */
-};
-
-/* The distance of a neighbour. Both its rounding errors and its departure from the linear equation
-   are some 1e-8 of that distance. */
-static const double apart = 1e-8;
 
 typedef pendres_runner runner;
 
@@ -115,8 +108,8 @@ static void put(const average_job *a, size_t lane, const runner *r)
   const pendres_strobe_lane *l = &r->lane;
   pendres_block_put_state(a->block, lane, l->y, l->w);
   if (a->beside == PENDRES_BESIDE_NEIGHBOUR)
-    pendres_block_put_state(a->block, lane + 1, l->y + apart * r->u[0][0],
-                            l->w + apart * r->u[0][1]);
+    pendres_block_put_state(a->block, lane + 1, l->y + neighbour_apart * r->u[0][0],
+                            l->w + neighbour_apart * r->u[0][1]);
 }
 
 static void load(const average_job *a, size_t lane, runner *r)
@@ -141,7 +134,8 @@ static void turn(const average_job *a, size_t lane, long step, runner *r)
     const pendres_rows rows = pendres_block_rows(a->block);
     for (int k = 0; k < 2; k++)
       r->u[0][k] = r->u[1][k] = (pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane + 1) -
-                                 pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane)) / apart;
+                                 pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane)) /
+                                neighbour_apart;
     pendres_tangents_shorten(r->u, grown);
   } else {
     pendres_tangents_take(a->block, lane, (step + 1) % a->batch == 0, r->u, grown);
@@ -183,7 +177,7 @@ static pendres_status average_block(const average_job *a, size_t n, const pendre
   const size_t each = a->beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1;
   pendres_block_resize(a->block, each * n);
   for (size_t i = 0; i < n; i++) load(a, each * i, &runners[rank[i].index]);
-  for (long k = -TURNING; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
+  for (long k = -EXPONENT_TURNING; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
     const pendres_mean_weights weights = pendres_mean_weights_at(k, a->batch * BATCHES);
     status = pendres_block_period(a->block);
     for (size_t i = 0; i < n && status == PENDRES_OK; i++)

@@ -86,10 +86,6 @@ double pendres_runner_extrapolate(pendres_runner *r, long batch);
 /* ---- lyapunov_means.c: rotations that are not locked to the drive, by how many digits of their
    means over time are known (orbits/mean.h), and what errors of the integration do to them ---- */
 
-/* Mean turns a period are known to this at least, and the mean square of the velocity to ten times
-   this share of it: in chaos that would take 1e10 periods. */
-static const double pendres_means_least = 1e-6;
-
 /* Whether a runner that has been averaged over this many periods is on such a rotation: its mean
    turns are known to `enough`. One whose mean is a fraction of small numbers is caught: it may be
    on its slow way to an orbit. */

@@ -17,17 +17,8 @@
 #include "orbits/linear.h"
 #include "orbits/settle_lanes.h"
 #include "analysis/chaos/lyapunov_caught.h"
+#include "analysis/chaos/numbers.h"
 #include "orbits/numbers.h"
-
-/* A pendulum whose strobe point comes back this closely is taken to be next to an orbit, at first.
-   */
-static const double close_by = 1e-4;
-/* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more:
-   half a minute's where it is alone. */
-static const double most_steps = 5e7;
-/* A chaos that comes back this close to the last state that the pendulum was in for certain is the
-   one that its start leads to. The errors there are a hundredth at most. */
-static const double returned = 0.1;
 
 typedef pendres_lyapunov_job job;
 
@@ -42,7 +33,7 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 
 static double longest_transient(const pendres_strobe_lane *lane)
 {
-  return fmin(1e7, most_steps / lane->steps);
+  return fmin(settle_first_most, exponent_most_steps / lane->steps);
 }
 
 /* Distances shrink as exp(-gamma t / 2) at best; exp(-40) of them is below double precision. */
@@ -52,8 +43,8 @@ static long transient_of(const job *j, const pendres_strobe_lane *lane)
   if (j->transient > 0) return j->transient;
   /* Across the curve of a rotation they shrink by all of the damping; to exp(-25), 1e-11, here. */
   const double forgets = p->drive_frequency / (two_pi * p->damping);
-  if (j->care == PENDRES_CARE_CLOSE) return 16 + (long)(25.0 * forgets);
-  return (long)fmax(WARM_UP, fmin(longest_transient(lane), 80.0 * forgets));
+  if (j->care == PENDRES_CARE_CLOSE) return EXPONENT_TURNING + (long)(exponent_forgets * forgets);
+  return (long)fmax(WARM_UP, fmin(longest_transient(lane), exponent_forgets_all * forgets));
 }
 
 /* Whether the start is forgotten before averages begin. Where damping is so weak that it is not,
@@ -62,7 +53,8 @@ static int forgets_start(const job *j, const pendres_strobe_lane *lane)
 {
   const pendres_pendulum *p = lane->pendulum;
   return j->transient > 0 ||
-         80.0 * p->drive_frequency / (two_pi * p->damping) <= longest_transient(lane);
+         exponent_forgets_all * p->drive_frequency / (two_pi * p->damping) <=
+           longest_transient(lane);
 }
 
 static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
@@ -184,7 +176,7 @@ static void give_up(const job *j, long batch, int first)
   for (size_t i = 0; i < j->n && !j->asked; i++) {
     pendres_runner *r = &j->runner[i];
     const double steps = (double)(batch * BATCHES) * r->lane.steps;
-    if (r->state != PENDRES_RUNNER_MOVING || steps <= most_steps) continue;
+    if (r->state != PENDRES_RUNNER_MOVING || steps <= exponent_most_steps) continue;
     r->state = PENDRES_RUNNER_DONE;
     if (first)
       j->out[i] = (pendres_lyapunov){.label = PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
@@ -203,7 +195,7 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   const double usual = pendres_accuracy_to_average(ctx);
   const double speed =
     fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
-  *r = pendres_runner_at(&lane, close_by);
+  *r = pendres_runner_at(&lane, caught_close_by);
   r->until = transient_of(j, &lane);
   r->rotates = pendres_lyapunov_may_rotate(p);
   r->beside = j->care == PENDRES_CARE_CLOSE ? PENDRES_BESIDE_NOTHING : PENDRES_BESIDE_TANGENTS;
@@ -265,7 +257,7 @@ static void grow_errors(const job *j)
 static int is_certain(const pendres_runner *r, pendres_label label)
 {
   if (label == PENDRES_LABEL_UNRESOLVED) return 0;
-  return label == PENDRES_LABEL_CHAOTIC ? r->back < returned : r->doubt <= 1.0;
+  return label == PENDRES_LABEL_CHAOTIC ? r->back < copies_returned : r->doubt <= 1.0;
 }
 
 /* The speed that steps are chosen for. */
@@ -348,7 +340,7 @@ static pendres_status look_at_rotations(pendres_context *ctx, const job *j, long
 
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
 {
-  const double least = pendres_means_least;
+  const double least = means_least;
   const double wanted = j->care == PENDRES_CARE_LABEL ? least : pendres_accuracy_of_means(ctx);
   long batch = (j->periods + BATCHES - 1) / BATCHES;
   pendres_status status = PENDRES_OK;

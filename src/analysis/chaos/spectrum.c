@@ -8,11 +8,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_fft_real.h>
 
+#include "analysis/chaos/numbers.h"
 #include "base/angles.h"
 #include "base/student.h"
-
-/* The rounding error of an amplitude, as a share of the largest amplitude. */
-static const double rounding = 4e-15;
 
 struct pendres_spectrum {
   size_t length;   /* of a segment */
@@ -129,7 +127,7 @@ static void errors(const pendres_spectrum *s, double *error)
   const double overlap = 1.0 + 2.0 * s->shared * (k - 1.0) / k;
   double peak = 0.0;
   for (size_t i = 0; i < pendres_spectrum_count(s); i++) peak = fmax(peak, s->mean[i]);
-  const double least = rounding * sqrt(peak);
+  const double least = spectrum_rounding * sqrt(peak);
   for (size_t i = 0; i < pendres_spectrum_count(s); i++) {
     const double scatter = sqrt(s->square[i] / (k - 1.0) / k * overlap);
     error[i] = k > 1.0 ? wider * scatter + least * (2.0 * sqrt(s->mean[i]) + least) : INFINITY;

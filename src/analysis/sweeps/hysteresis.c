@@ -14,10 +14,9 @@
 #include "analysis/sweeps/hysteresis_rotation.h"
 #include "analysis/sweeps/hysteresis_unlocked.h"
 #include "analysis/chaos/lyapunov_move.h"
+#include "analysis/sweeps/numbers.h"
 #include "model/model.h"
 #include "model/parameter.h"
-
-enum { MOST_TRIES = 4 /* to come from chaos to an orbit on the way from one value to the next */ };
 
 void pendres_hysteresis_free(pendres_hysteresis *h)
 {
@@ -70,7 +69,7 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
     .share = NAN};
   pendres_status status = PENDRES_OK;
   const int back = (to - w->at) * j.direction <= 0.0; /* from trials beyond the value */
-  if (w->tries <= MOST_TRIES && !(back && pendres_settled_closed(&old->attractor))) {
+  if (w->tries <= TRIES && !(back && pendres_settled_closed(&old->attractor))) {
     status = pendres_chaos_end(w->ctx, w->parameter, old, w->at, &w->state, &j);
   } else { /* chaos and windows of orbits in turn, or one orbit and another: somewhere between */
     j.from = old->attractor.label;

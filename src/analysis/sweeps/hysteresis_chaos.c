@@ -7,27 +7,8 @@
 
 #include "continuation/parameter.h"
 #include "analysis/sweeps/cascade.h"
+#include "analysis/sweeps/numbers.h"
 #include "analysis/sweeps/stable_part.h"
-
-enum {
-  HALVINGS = 8,    /* of the distance of two values between which chaos ends */
-  LIVES = 32,      /* pendulums whose lives in chaos that ends are averaged */
-  APART = 8,       /* periods after which chaos has lost its memory, for their starts */
-  MOST_BIRTHS = 8, /* of an orbit from another, one after the other */
-  SHORT = 16,      /* period of orbits of a cascade that pendulums settle on soon */
-  FURTHER = 4      /* lives are measured so far from the end, and so much farther still, in what
-                      halving has left of the interval */
-};
-
-/* The distance of trials from the birth of an orbit, in the parameter's scale, and from that of a
-   lock, to which a rotation goes the more slowly the closer it is. */
-static const double beside = 1e-4, beside_lock = 1e-3;
-/* Lives in chaos grow as a power of the distance from its end, of at least this (Grebogi, Ott and
-   Yorke, Physical Review Letters 57 (1986) 1284). */
-static const double least_power = 0.5;
-/* Chaos that was watched for this many lives without an end has been seen to end, but for one case
-   in twenty: e^-3. */
-static const double lives_watched = 3.0;
 
 int pendres_chaos_ends(const pendres_attractor *old, const pendres_attractor *there)
 {
@@ -72,13 +53,13 @@ static pendres_jump_kind kind_of(pendres_special kind)
 static pendres_status spread(const search *w, const pendres_settled *from, int n, double *x,
                              double *v)
 {
-  double xs[LIVES * APART + 1], vs[LIVES * APART + 1];
+  double xs[LIVES * LIVES_APART + 1], vs[LIVES * LIVES_APART + 1];
   const pendres_status status =
     pendres_strobe_record(w->ctx, &from->pendulum, &(pendres_state){from->x, from->v},
-                          (long)n * APART, 1, &(pendres_record){.x = xs, .v = vs});
+                          (long)n * LIVES_APART, 1, &(pendres_record){.x = xs, .v = vs});
   for (int i = 0; i < n && status == PENDRES_OK; i++) {
-    x[i] = xs[i * APART];
-    v[i] = vs[i * APART];
+    x[i] = xs[i * LIVES_APART];
+    v[i] = vs[i * LIVES_APART];
   }
   return status;
 }
@@ -141,7 +122,7 @@ static pendres_status try_beside(search *w, const place *at, pendres_jump *jump,
    not between them. */
 static double room(const search *w, double value)
 {
-  const double near = rotates(w) ? beside_lock : beside;
+  const double near = rotates(w) ? ends_beside_lock : just_beyond;
   const double to = value_of(w), small = near * pendres_parameter_scale(w->parameter);
   if (!((value - w->from) * (to - value) > 0.0)) return 0.0;
   return fmin(small, 0.5 * fmin(fabs(value - w->from), fabs(to - value)));
@@ -162,7 +143,7 @@ static pendres_status accumulation(const search *w, const pendres_orbit *orbit, 
   const pendres_status status = pendres_cascade_follow(w->ctx, &way, &c, &last);
   *found = status == PENDRES_OK && last.period > 0 && room(w, c.limit) > c.limit_error;
   if (!*found) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
-  while (k + 2 < c.doublings && 4 * c.period[k] <= SHORT) k++;
+  while (k + 2 < c.doublings && 4 * c.period[k] <= ENDS_SHORT) k++;
   *out = (place){.kind = PENDRES_JUMP_FLIP, .value = c.limit, .error = c.limit_error,
                  .before = c.limit - (value_of(w) > w->from ? 1 : -1) * room(w, c.limit),
                  .behind = 0.5 * (c.value[k] + c.value[k + 1]), .period = 2 * c.period[k],
@@ -198,7 +179,7 @@ static pendres_status go_back(const search *w, pendres_part *s, int *births)
   *births = 0;
   pendres_status status =
     pendres_part_from(w->ctx, &w->state->attractor.orbit, w->parameter, w->from, s);
-  while (status == PENDRES_OK && s->end == PENDRES_PART_BIRTH && *births < MOST_BIRTHS) {
+  while (status == PENDRES_OK && s->end == PENDRES_PART_BIRTH && *births < ENDS_BIRTHS) {
     const pendres_orbit parent = s->bifurcation.orbit;
     ++*births;
     pendres_part_free(s);
@@ -236,7 +217,7 @@ static pendres_status halve(search *w, pendres_jump *jump)
   double from = w->from, to = value_of(w);
   pendres_settled last = w->before;
   pendres_status status = PENDRES_OK;
-  for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
+  for (int k = 0; k < ENDS_HALVINGS && status == PENDRES_OK; k++) {
     const double middle = 0.5 * (from + to);
     const pendres_pendulum p = pendulum_at(w, middle);
     pendres_settled there;
@@ -283,16 +264,16 @@ static pendres_status mean_life(const search *w, double value, const double *x, 
 static pendres_status leave_open(const search *w, pendres_jump *jump)
 {
   const int direction = value_of(w) > w->from ? 1 : -1;
-  const double step = 2.0 * jump->value_error, first = FURTHER * step;
+  const double step = 2.0 * jump->value_error, first = ENDS_FURTHER * step;
   const double watched = w->before.attractor.watched_periods;
   double x[LIVES], v[LIVES], near, far;
   pendres_status status = spread(w, &w->before, LIVES, x, v);
   if (status == PENDRES_OK)
     status = mean_life(w, jump->value + direction * first, x, v, &near);
   if (status == PENDRES_OK)
-    status = mean_life(w, jump->value + FURTHER * direction * first, x, v, &far);
+    status = mean_life(w, jump->value + ENDS_FURTHER * direction * first, x, v, &far);
   if (status != PENDRES_OK) return status;
-  const double power = fmax(least_power, log(near / far) / log(FURTHER));
+  const double power = fmax(ends_least_power, log(near / far) / log(ENDS_FURTHER));
   const double open = first * pow(lives_watched * near / watched, 1.0 / power);
   jump->value_error += open < step ? open : step; /* the step where that is not known */
   return status;

@@ -13,6 +13,7 @@
 
 #include <pendres/strobe.h>
 
+#include "analysis/sweeps/numbers.h"
 #include "continuation/parameter.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -21,32 +22,9 @@
 #include "model/model.h"
 
 enum {
-  LANES = 32,     /* pendulums on one chaos, ... */
-  APART = 8,      /* ... which start from states so many periods apart, ... */
-  WARM_UP = 100,  /* ... come to it where the parameter has changed, ... */
-  PERIODS = 256,  /* ... and are watched */
-  CELLS = 32,     /* of a region, a side. It reaches beyond what it was made of by one to two of
-                     them, of 1.5 times its size together: 5 to 10 %, the least change seen */
   MOST_CELLS = 128, /* a side with those that only the larger chaos visits */
-  HALVINGS = 12,  /* of the interval: what changes gradually does so by its size within 1/4096 */
-  ROUNDS = 4,     /* of halvings, each from where the one before has led */
-  MOST_LIVES = 64 * PERIODS, /* periods that pendulums may take to leave a region */
-  FURTHER = 8,    /* lives are measured at two distances from the crisis, at most this factor */
-  CLOSER = 4      /* and at least this factor apart */
+  MOST_LIVES = 64 * CRISIS_PERIODS /* periods that pendulums may take to leave a region */
 };
-
-/* Chaos that is larger is outside the region of the smaller for this share of its time. */
-static const double least_share = 0.01;
-/* Lives become longer towards a crisis, as a power of the distance, mostly of 1/2 to 1. Each of two
-   lives, the means of 32, has a standard error of 18 %, and the power one of 0.12 to 0.18. For
-   the error it is taken to be 1 unless it is more: with a higher one lives are long for further. */
-static const double least_power = 0.25, safe_power = 1.0;
-/* The nearer distance is one at which lives are shorter than this share of all the periods for
-   which the smaller chaos was watched, so that it would have left there several times. */
-static const double short_life = 0.1;
-/* Chaos that was watched for this many lives without leaving has been seen to leave, but for one
-   case in twenty: e^-3. */
-static const double lives_watched = 3.0;
 
 /* Cells of the Poincare plane that chaos visits, or that touch such a cell. There are cells
    wherever the larger chaos goes: what grows gradually would seem to leave at a nearer edge. */
@@ -59,12 +37,12 @@ typedef struct region {
 
 /* Strobe points of pendulums on one chaos, side by side. */
 typedef struct sample {
-  double y[LANES * PERIODS], w[LANES * PERIODS];
+  double y[LIVES * CRISIS_PERIODS], w[LIVES * CRISIS_PERIODS];
 } sample;
 
 /* States of these pendulums. */
 typedef struct states {
-  double x[LANES], v[LANES];
+  double x[LIVES], v[LIVES];
 } states;
 
 /* A search for a crisis between a value at which chaos is smaller and one at which it is larger. */
@@ -108,7 +86,7 @@ static void add(region *r, double y, double w)
 
 static void add_all(region *r, const sample *s)
 {
-  for (int i = 0; i < LANES * PERIODS; i++) add(r, s->y[i], s->w[i]);
+  for (int i = 0; i < LIVES * CRISIS_PERIODS; i++) add(r, s->y[i], s->w[i]);
 }
 
 /* The corners of all that samples have visited. */
@@ -116,7 +94,7 @@ static void corners_of(const sample *s, double low[2], double high[2])
 {
   low[0] = high[0] = s->y[0];
   low[1] = high[1] = s->w[0];
-  for (int i = 1; i < LANES * PERIODS; i++) {
+  for (int i = 1; i < LIVES * CRISIS_PERIODS; i++) {
     low[0] = fmin(low[0], s->y[i]);
     high[0] = fmax(high[0], s->y[i]);
     low[1] = fmin(low[1], s->w[i]);
@@ -136,26 +114,26 @@ static int cells_to(double way, double size, int most)
 static void make_region(const pendres_pendulum *p, const sample *s, const sample *other, region *r)
 {
   const double turn = pendres_model_turn(p);
-  const int most = (MOST_CELLS - CELLS) / 2;
+  const int most = (MOST_CELLS - CRISIS_CELLS) / 2;
   double low[2], high[2], least[2], largest[2];
   memset(r, 0, sizeof *r);
   corners_of(s, low, high);
   corners_of(other, least, largest);
-  r->across = 1.5 * (high[0] - low[0]) / CELLS;
-  r->up = 1.5 * (high[1] - low[1]) / CELLS;
-  r->y = 0.5 * (low[0] + high[0]) - 0.5 * CELLS * r->across;
-  r->w = 0.5 * (low[1] + high[1]) - 0.5 * CELLS * r->up;
-  r->rows = r->columns = CELLS;
-  r->columns += cells_to(largest[1] - r->w - CELLS * r->up, r->up, most);
+  r->across = 1.5 * (high[0] - low[0]) / CRISIS_CELLS;
+  r->up = 1.5 * (high[1] - low[1]) / CRISIS_CELLS;
+  r->y = 0.5 * (low[0] + high[0]) - 0.5 * CRISIS_CELLS * r->across;
+  r->w = 0.5 * (low[1] + high[1]) - 0.5 * CRISIS_CELLS * r->up;
+  r->rows = r->columns = CRISIS_CELLS;
+  r->columns += cells_to(largest[1] - r->w - CRISIS_CELLS * r->up, r->up, most);
   const int left = cells_to(r->y - least[0], r->across, most);
   const int below = cells_to(r->w - least[1], r->up, most);
-  r->rows += left + cells_to(largest[0] - r->y - CELLS * r->across, r->across, most);
+  r->rows += left + cells_to(largest[0] - r->y - CRISIS_CELLS * r->across, r->across, most);
   r->columns += below;
   r->y -= left * r->across;
   r->w -= below * r->up;
   r->round = r->rows * r->across >= turn;
   if (r->round) {
-    r->rows = r->rows > CELLS ? (int)ceil(turn / r->across) : CELLS;
+    r->rows = r->rows > CRISIS_CELLS ? (int)ceil(turn / r->across) : CRISIS_CELLS;
     r->across = turn / r->rows;
     r->y = -0.5 * turn;
   }
@@ -165,8 +143,8 @@ static void make_region(const pendres_pendulum *p, const sample *s, const sample
 static double share_outside(const region *r, const sample *s)
 {
   int outside = 0;
-  for (int i = 0; i < LANES * PERIODS; i++) outside += !holds(r, s->y[i], s->w[i]);
-  return (double)outside / (LANES * PERIODS);
+  for (int i = 0; i < LIVES * CRISIS_PERIODS; i++) outside += !holds(r, s->y[i], s->w[i]);
+  return (double)outside / (LIVES * CRISIS_PERIODS);
 }
 
 /* ---- pendulums ---- */
@@ -175,31 +153,31 @@ static double share_outside(const region *r, const sample *s)
 typedef struct look {
   sample *points;      /* kept; NULL: none */
   const region *where; /* whether it is left; NULL: not asked */
-  long left[LANES];    /* the period in which it was; 0: it was not */
+  long left[LIVES];    /* the period in which it was; 0: it was not */
 } look;
 
 static int visit(void *arg, size_t index, const pendres_strobe_lane *l)
 {
   look *k = arg;
-  const long at = l->period - WARM_UP - 1;
+  const long at = l->period - CRISIS_WARM_UP - 1;
   if (k->where != NULL) {
     if (!holds(k->where, l->y, l->w)) k->left[index] = l->period;
     return k->left[index] > 0 || l->period >= MOST_LIVES;
   }
   if (at >= 0) {
-    k->points->y[index * PERIODS + (size_t)at] = l->y;
-    k->points->w[index * PERIODS + (size_t)at] = l->w;
+    k->points->y[index * CRISIS_PERIODS + (size_t)at] = l->y;
+    k->points->w[index * CRISIS_PERIODS + (size_t)at] = l->w;
   }
-  return at + 1 == PERIODS || !(isfinite(l->y) && isfinite(l->w));
+  return at + 1 == CRISIS_PERIODS || !(isfinite(l->y) && isfinite(l->w));
 }
 
 /* Run pendulums from these states, which become those at the end. */
 static pendres_status run(pendres_context *ctx, const pendres_pendulum *p, states *s, look *k)
 {
   const double accuracy = pendres_accuracy_to_average(ctx);
-  pendres_strobe_lane lane[LANES];
+  pendres_strobe_lane lane[LIVES];
   pendres_status status = PENDRES_OK;
-  for (int i = 0; i < LANES && status == PENDRES_OK; i++) {
+  for (int i = 0; i < LIVES && status == PENDRES_OK; i++) {
     const double speed =
       fmax(pendres_steps_speed(p, s->x[i], s->v[i]), pendres_steps_turning_speed(p));
     lane[i] = pendres_strobe_lane_at(p, s->x[i], s->v[i]);
@@ -207,8 +185,8 @@ static pendres_status run(pendres_context *ctx, const pendres_pendulum *p, state
     status = pendres_steps_choose(ctx, p, speed, accuracy, &lane[i].steps);
   }
   if (status == PENDRES_OK)
-    status = pendres_strobe_run_within(ctx, accuracy, LANES, lane, visit, k);
-  for (int i = 0; i < LANES && status == PENDRES_OK; i++)
+    status = pendres_strobe_run_within(ctx, accuracy, LIVES, lane, visit, k);
+  for (int i = 0; i < LIVES && status == PENDRES_OK; i++)
     pendres_strobe_lane_out(&lane[i], &s->x[i], &s->v[i]);
   return status;
 }
@@ -217,20 +195,20 @@ static pendres_status take_sample(pendres_context *ctx, const pendres_pendulum *
                                   sample *out)
 {
   look k = {.points = out};
-  for (int i = 0; i < LANES * PERIODS; i++) out->y[i] = out->w[i] = NAN; /* if it is lost */
+  for (int i = 0; i < LIVES * CRISIS_PERIODS; i++) out->y[i] = out->w[i] = NAN; /* if it is lost */
   return run(ctx, p, s, &k);
 }
 
 /* States that a pendulum in chaos comes through. */
 static pendres_status spread(pendres_context *ctx, const pendres_settled *s, states *out)
 {
-  double xs[LANES * APART + 1], vs[LANES * APART + 1];
+  double xs[LIVES * LIVES_APART + 1], vs[LIVES * LIVES_APART + 1];
   const pendres_status status =
-    pendres_strobe_record(ctx, &s->pendulum, &(pendres_state){s->x, s->v}, LANES * APART, 1,
+    pendres_strobe_record(ctx, &s->pendulum, &(pendres_state){s->x, s->v}, LIVES * LIVES_APART, 1,
                           &(pendres_record){.x = xs, .v = vs});
-  for (int i = 0; i < LANES && status == PENDRES_OK; i++) {
-    out->x[i] = xs[i * APART];
-    out->v[i] = vs[i * APART];
+  for (int i = 0; i < LIVES && status == PENDRES_OK; i++) {
+    out->x[i] = xs[i * LIVES_APART];
+    out->v[i] = vs[i * LIVES_APART];
   }
   return status;
 }
@@ -244,8 +222,8 @@ static pendres_status mean_life(const search *w, double value, double *life)
   states s = w->in;
   const pendres_status status = run(w->ctx, &p, &s, &k);
   *life = 0.0;
-  for (int i = 0; i < LANES && status == PENDRES_OK; i++)
-    *life += k.left[i] > 0 ? (double)k.left[i] / LANES : INFINITY;
+  for (int i = 0; i < LIVES && status == PENDRES_OK; i++)
+    *life += k.left[i] > 0 ? (double)k.left[i] / LIVES : INFINITY;
   return status;
 }
 
@@ -273,10 +251,10 @@ static pendres_status halve(search *w)
   const double other = w->large;
   pendres_status status = PENDRES_OK;
   int left = 0;
-  for (int round = 0; round < ROUNDS && !left && w->small != other && status == PENDRES_OK;
+  for (int round = 0; round < TRIES && !left && w->small != other && status == PENDRES_OK;
        round++) {
     w->large = other;
-    for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
+    for (int k = 0; k < CRISIS_HALVINGS && status == PENDRES_OK; k++) {
       const double middle = 0.5 * (w->small + w->large);
       status = leaves(w, middle, &left);
       if (left) w->large = middle;
@@ -291,8 +269,8 @@ static pendres_status halve(search *w)
    from there at which it has such a life. */
 static double furthest(double power, double life)
 {
-  const double longer = (double)LANES * PERIODS / (lives_watched * life);
-  return 1.0 / (pow(longer, 1.0 / fmax(safe_power, power)) - 1.0);
+  const double longer = (double)LIVES * CRISIS_PERIODS / (lives_watched * life);
+  return 1.0 / (pow(longer, 1.0 / fmax(crisis_safe_power, power)) - 1.0);
 }
 
 /*
@@ -303,20 +281,20 @@ static double furthest(double power, double life)
 static pendres_status by_lives(const search *w, double other, pendres_jump *jump, int *found)
 {
   const double width = w->large - w->small, room = (other - w->small) / width;
-  const double soon = short_life * LANES * PERIODS;
+  const double soon = crisis_short_life * LIVES * CRISIS_PERIODS;
   double near = INFINITY, far = INFINITY, at = 1.0;
   pendres_status status = PENDRES_OK;
   *found = 0;
   if (width == 0.0) return status;
   while (near > soon && status == PENDRES_OK) {
     at *= 2.0;
-    if (CLOSER * at > room) return status;
+    if (CRISIS_CLOSER * at > room) return status;
     status = mean_life(w, w->small + at * width, &near);
   }
-  const double further = fmin(FURTHER, room / at);
+  const double further = fmin(CRISIS_FURTHER, room / at);
   if (status == PENDRES_OK) status = mean_life(w, w->small + further * at * width, &far);
   const double power = log(near / far) / log(further);
-  if (status != PENDRES_OK || !(power > least_power)) return status;
+  if (status != PENDRES_OK || !(power > crisis_least_power)) return status;
   jump->value = 0.5 * (w->small + w->large);
   jump->value_error = fabs(width) * (0.5 + at * furthest(power, near));
   *found = 1;
@@ -351,8 +329,8 @@ static pendres_status compare(search *w, const pendres_settled *old, const pendr
   if (status == PENDRES_OK) {
     make_region(&old->pendulum, first, &w->points, &before);
     make_region(&there->pendulum, &w->points, first, &after);
-    if (share_outside(&before, &w->points) > least_share) *larger = 1;
-    else if (share_outside(&after, first) > least_share) *larger = -1;
+    if (share_outside(&before, &w->points) > crisis_least_share) *larger = 1;
+    else if (share_outside(&after, first) > crisis_least_share) *larger = -1;
     w->where = *larger < 0 ? after : before;
     w->in = in[*larger < 0];
   }

@@ -6,6 +6,7 @@
 
 #include <pendres/strobe.h>
 
+#include "analysis/sweeps/numbers.h"
 #include "base/angles.h"
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
@@ -14,22 +15,9 @@
 #include "analysis/sweeps/rotation_table.h"
 
 enum {
-  TRIALS = PENDRES_HYSTERESIS_TRIALS,
-  ROUNDS = 3,      /* of trials, each further beyond the end than the one before */
-  ON_THE_WAY = 500 /* periods after which a pendulum on no closed orbit is on its attractor */
+  TRIALS = PENDRES_HYSTERESIS_TRIALS
 };
 
-/* The distances of trials beyond a bifurcation, in the parameter's scale there: one for half of
-   them, one for the others. Within each half they vary by a factor of 1.5. The time to pass a fold
-   goes as one over the root of the distance, and so differs by a fifth, which is many periods. */
-static const double beyond[2] = {1e-4, 1e-5};
-static const double further = 10.0;
-/* Trials start this far from an orbit that has become unstable, where deviations grow fast. */
-static const double away = 0.03;
-/* Amplitudes of the same state at adjacent parameters differ by less than this. */
-static const double same_amplitude = 0.02;
-/* The mean turns of chaos that was taken for a rotation are known no better than this. */
-static const double scatter = 1e-3;
 /* Student's t for sixteen batches, at 99.9 %. */
 static const double batches_sure = 4.073;
 
@@ -45,7 +33,7 @@ int pendres_settled_alike(const pendres_attractor *a, const pendres_attractor *b
   if (!pendres_settled_closed(a) || !pendres_settled_closed(b)) return a->label == b->label;
   return a->orbit.period == b->orbit.period &&
          abs(a->orbit.winding) == abs(b->orbit.winding) &&
-         fabs(a->orbit.amplitude - b->orbit.amplitude) < same_amplitude;
+         fabs(a->orbit.amplitude - b->orbit.amplitude) < orbit_another;
 }
 
 pendres_attractor pendres_settled_nothing(const pendres_pendulum *p)
@@ -153,7 +141,7 @@ static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const s
     to->v = a.v[k];
     to->certain = a.told[k].certain;
     to->slips = care == PENDRES_CARE_CLOSE && a.told[k].label == PENDRES_LABEL_UNRESOLVED &&
-                a.told[k].rotation_error < scatter;
+                a.told[k].rotation_error < jump_scatter;
     take_verdict(&a.told[k], &a.orbit[k], to);
   }
   free_averaged(&a);
@@ -224,7 +212,7 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
   if (s->attractor.label == PENDRES_LABEL_RUNNING) return PENDRES_OK; /* it is there */
   if (pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK; /* its averages were there */
   const pendres_status status =
-    pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);
+    pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, JUMP_ON_THE_WAY, NULL);
   /* Whole turns are taken off, since chaos that drifts would go far. */
   s->x = fmod(s->x, pendres_model_turn(&s->pendulum));
   return status;
@@ -252,9 +240,10 @@ static void begin(const pendres_bifurcation *at, int direction, double distance[
   const double scale = pendres_parameter_scale_at(at->parameter, at->value);
   for (int i = 0; i < TRIALS; i++) {
     const double part = (double)(i / 2) / (TRIALS / 2), angle = golden_angle * i;
-    distance[i] = scale * beyond[i % 2] * (1.0 + 0.5 * part);
+    const double beyond = i % 2 == 0 ? just_beyond : just_beyond / jump_further;
+    distance[i] = scale * beyond * (1.0 + 0.5 * part);
     const pendres_pendulum p = beyond_by(at, direction * distance[i]);
-    const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
+    const double off = at->kind == PENDRES_FOLD ? 0.0 : jump_away * (1.0 + 0.5 * part);
     went[i] = pendres_settled_nothing_at(&p, at->orbit.x + off * cos(angle),
                                          at->orbit.v + off * sin(angle));
   }
@@ -271,18 +260,18 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
   pendres_settled some[TRIALS];
   int which[TRIALS];
   pendres_status status = PENDRES_OK;
-  for (int round = 0; round < ROUNDS && status == PENDRES_OK; round++) {
+  for (int round = 0; round < JUMP_ROUNDS && status == PENDRES_OK; round++) {
     size_t n = 0;
     for (int i = 0; i < TRIALS; i++) {
       pendres_settled *s = &went[i];
       if (s->attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
-      distance[i] *= further;
+      distance[i] *= jump_further;
       s->pendulum = beyond_by(at, direction * distance[i]);
       some[n] = pendres_settled_nothing_at(&s->pendulum, s->x, s->v);
       which[n++] = i;
     }
     if (n == 0) break;
-    const int last = round + 1 == ROUNDS;
+    const int last = round + 1 == JUMP_ROUNDS;
     status = settle_all(ctx, n, last ? PENDRES_CARE_LABEL : PENDRES_CARE_ONCE, some);
     for (size_t k = 0; k < n; k++) went[which[k]] = some[k];
   }

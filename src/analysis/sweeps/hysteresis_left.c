@@ -5,12 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/sweeps/numbers.h"
 #include "engine/context_internal.h"
-
-/* Evaluations of the slope that one value may take. The most that was seen in sweeps of hundreds of
-   values, at a state that ends in a cascade of doublings, is a fifth of it; a path of a few values
-   on which all of a cascade and a crisis lie between two of them takes two thirds. */
-static const double usual_slopes = 3e9;
 
 int pendres_path_own(pendres_status status)
 {
@@ -43,7 +39,7 @@ void pendres_path_left_close(pendres_path_left *left)
 
 void pendres_path_allow(pendres_path *w)
 {
-  const double most = w->most_slopes > 0.0 ? w->most_slopes : usual_slopes;
+  const double most = w->most_slopes > 0.0 ? w->most_slopes : sweep_usual_slopes;
   w->ctx->most_slopes = pendres_context_slopes(w->ctx) + most;
 }
 

@@ -9,14 +9,7 @@
 #include "model/model.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
-
-enum { MOST_JUMPS = 256 /* between two values of the path */ };
-
-/* A state is followed to values this close at once, in the same scale; the work for one further
-   away is counted as its own. */
-static const double in_sight = 100.0;
-/* Orbits whose amplitudes differ by less at one value of the parameter are one orbit. */
-static const double same_orbit = 1e-6;
+#include "analysis/sweeps/numbers.h"
 
 /* Whether a part ends at one of the later doublings of a cascade. */
 static int cascades(const pendres_part *s)
@@ -52,7 +45,7 @@ static int about_one_place(const pendres_orbit *a, const pendres_orbit *b)
 {
   const double turn = pendres_model_turn(&a->pendulum);
   const double middle = 0.5 * (a->mean_angle + b->mean_angle);
-  const double bound = same_orbit + a->amplitude_error + b->amplitude_error;
+  const double bound = orbit_same_point + a->amplitude_error + b->amplitude_error;
   if (fabs(remainder(a->mean_angle - b->mean_angle, turn)) < bound) return 1;
   if (!pendres_pendulum_symmetric(&a->pendulum)) return 0;
   const double aside = middle - pendres_model_centre(&a->pendulum, middle);
@@ -80,7 +73,7 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
   pendres_part_free(&back);
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
   *same = found && fabs(there.amplitude - old->orbit.amplitude) <
-                     same_orbit + there.amplitude_error + old->orbit.amplitude_error &&
+                     orbit_same_point + there.amplitude_error + old->orbit.amplitude_error &&
           about_one_place(&there, &old->orbit);
   return status;
 }
@@ -197,7 +190,7 @@ done:
 static double turning_point(const pendres_path *w, size_t i)
 {
   const int up = w->value[i] > w->at;
-  const double most = in_sight * pendres_parameter_scale(w->parameter);
+  const double most = sweep_in_sight * pendres_parameter_scale(w->parameter);
   while (i + 1 < w->n && fabs(w->value[i + 1] - w->value[i]) <= most &&
          (up ? w->value[i + 1] >= w->value[i] : w->value[i + 1] <= w->value[i]))
     i++;
@@ -212,7 +205,7 @@ int pendres_path_short(const pendres_attractor *a)
 pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
 {
   const size_t start = *i;
-  for (int ends = 0; ends < MOST_JUMPS && *i == start; ends++) {
+  for (int ends = 0; ends < SWEEP_MOST_JUMPS && *i == start; ends++) {
     const double limit = turning_point(w, *i);
     const int direction = w->value[*i] >= w->at ? 1 : -1;
     pendres_status status = PENDRES_OK;

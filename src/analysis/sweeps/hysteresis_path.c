@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "analysis/sweeps/numbers.h"
 #include "base/grow.h"
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
@@ -31,7 +32,7 @@ void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
   if (closed) {
     const double turns = (double)a->orbit.winding / a->orbit.period;
     p->mean_velocity = omega * turns;
-    p->mean_velocity_error = 2.2e-16 * fabs(p->mean_velocity);
+    p->mean_velocity_error = last_place_of_one * fabs(p->mean_velocity);
   } else {
     p->mean_velocity = omega * a->drift;
     p->mean_velocity_error = omega * a->drift_error;

@@ -7,10 +7,7 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "analysis/sweeps/hysteresis_left.h"
-
-/* Where rotations end in a saddle-node, the equilibrium that is left is followed from this distance
-   beyond on, in the parameter's scale. */
-static const double beyond = 1e-4;
+#include "analysis/sweeps/numbers.h"
 
 /* The lower equilibrium; at a torque of 1 exactly it is the upper one, too. */
 static pendres_status stand_still(const pendres_path *w, double at, pendres_settled *out)
@@ -46,7 +43,8 @@ static pendres_status end_rotation(pendres_path *w, size_t i)
   } else if (status == PENDRES_OK) {
     j.kind = limit.end == PENDRES_ROTATION_SADDLE_NODE ? PENDRES_JUMP_FOLD
                                                        : PENDRES_JUMP_HOMOCLINIC;
-    const double next = limit.value + j.direction * beyond * pendres_parameter_scale(w->parameter);
+    const double step = just_beyond * pendres_parameter_scale(w->parameter);
+    const double next = limit.value + j.direction * step;
     if ((at - next) * j.direction > 0.0) at = next;
   }
   if (status == PENDRES_OK) status = stand_still(w, at, &w->state);

@@ -7,14 +7,7 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "analysis/sweeps/hysteresis_left.h"
-
-/* So many at once that the few lanes left at last, which slip past the end of a lock seldom, are
-   those of all values of most paths. */
-enum { ABREAST = 4096 };
-
-/* In the parameter's scale: values this close are averaged side by side; what is found so close is
-   what the pendulum comes to, whatever it is. */
-static const double within = 20.0, close_by = 0.1;
+#include "analysis/sweeps/numbers.h"
 
 /* A rotation that is known. */
 struct pendres_unlocked {
@@ -83,13 +76,13 @@ static pendres_status go_on(pendres_context *ctx, size_t n, pendres_settled *s)
 static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
 {
   const double scale = pendres_parameter_scale(w->parameter);
-  pendres_unlocked *known[ABREAST];
-  pendres_settled *s = malloc(ABREAST * sizeof *s);
+  pendres_unlocked *known[SWEEP_ABREAST];
+  pendres_settled *s = malloc(SWEEP_ABREAST * sizeof *s);
   size_t n = 0;
   if (s == NULL)
     return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for rotations");
-  for (size_t k = i; k < w->n && n < ABREAST; k++) {
-    if (fabs(w->value[k] - w->at) > within * scale && k > i) break;
+  for (size_t k = i; k < w->n && n < SWEEP_ABREAST; k++) {
+    if (fabs(w->value[k] - w->at) > sweep_side_by_side * scale && k > i) break;
     pendres_unlocked *u = at(w, w->value[k]);
     if (u->tried && k > i) continue;
     const pendres_pendulum p = pendres_path_pendulum(w, u->value);
@@ -143,7 +136,7 @@ static void leave_open(pendres_path *w, size_t i)
 
 pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled *next)
 {
-  const double close = close_by * pendres_parameter_scale(w->parameter);
+  const double close = sweep_close_by * pendres_parameter_scale(w->parameter);
   pendres_status status = make_table(w);
   next->attractor.label = PENDRES_LABEL_UNRESOLVED;
   while (*i < w->n && status == PENDRES_OK) {

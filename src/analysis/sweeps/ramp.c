@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "analysis/sweeps/numbers.h"
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -13,8 +14,6 @@
 #include "noise/langevin_internal.h"
 #include "orbits/escape.h"
 #include "analysis/sweeps/ramp_watch.h"
-
-enum { FEWEST_STEPS = 16, MOST_STEPS = 65536, PROBES = 8 };
 
 /* ---- ramps ---- */
 
@@ -89,7 +88,7 @@ static pendres_status check(pendres_context *ctx, const pendres_ramp *r)
   const char *why = refuses(r);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   motion m = {.ramp = r, .temperature = r->pendulum.temperature, .clock = 1};
-  const pendres_langevin_moving run = {.motion = pendulum_at, .arg = &m, .steps = MOST_STEPS,
+  const pendres_langevin_moving run = {.motion = pendulum_at, .arg = &m, .steps = RAMP_MOST_STEPS,
                                        .x = r->point[0].x, .v = r->point[0].v};
   for (size_t i = 0; i < r->corners; i++) {
     const pendres_status status = pendres_langevin_moving_accept(ctx, &run, (double)r->period[i]);
@@ -149,8 +148,8 @@ static pendres_status choose_steps(pendres_context *ctx, const motion *m, double
   const int asked = ctx->options.steps_per_period;
   *steps = asked > 0 ? (int)fmax(2.0, ceil(asked / (double)m->clock)) : 0;
   if (*steps > 0) return PENDRES_OK;
-  *steps = FEWEST_STEPS;
-  const size_t apart = (r->points + PROBES - 1) / PROBES;
+  *steps = RAMP_FEWEST_STEPS;
+  const size_t apart = (r->points + RAMP_PROBES - 1) / RAMP_PROBES;
   for (size_t i = 0; i < r->points; i += apart) {
     if (!(isfinite(r->point[i].x) && isfinite(r->point[i].v))) continue;
     if (r->point[i].attractor.label == PENDRES_LABEL_ESCAPE) continue; /* no state to stay in */
@@ -158,7 +157,7 @@ static pendres_status choose_steps(pendres_context *ctx, const motion *m, double
       double off = 0.0;
       const pendres_status status = probe(ctx, m, &r->point[i], *steps, &off);
       if (status != PENDRES_OK) return status;
-      if (off <= tolerance || *steps >= MOST_STEPS) break;
+      if (off <= tolerance || *steps >= RAMP_MOST_STEPS) break;
       *steps *= 2;
     }
   }
@@ -239,7 +238,7 @@ static double left_after(const pendres_ramp *r, double time, double periods)
 /* The rounding errors of the steps that have not died away yet. */
 static double rounding_of(const pendres_ramp *r, double steps)
 {
-  return 4.4e-16 * sqrt(steps) / (1.0 - left_after(r, 0.0, 1.0));
+  return 2.0 * last_place_of_one * sqrt(steps) / (1.0 - left_after(r, 0.0, 1.0));
 }
 
 /*
@@ -257,7 +256,7 @@ static void compare(const pendres_ramp *r, const pendres_ramp_record *record, si
     const double dv = fabs(record->v[k] - record->v_error[k]);
     off = fmax(error_of(fmax(dx, dv)), off * left_after(r, apart * (double)k, apart));
     if (!(off < INFINITY)) lost = INFINITY;
-    record->x_error[k] = lost + off + rounding + 2.2e-16 * fabs(record->x[k]);
+    record->x_error[k] = lost + off + rounding + last_place_of_one * fabs(record->x[k]);
     record->v_error[k] = lost + off + rounding;
   }
   if (n > 0) record->x_error[0] = record->v_error[0] = 0.0;
@@ -297,7 +296,7 @@ static void judge(const pendres_ramp *r, const double *coarse, const double *fin
     const double rate = fabs(pendres_ramp_value(r, behind) - out->value);
     /* Not less than rounding, of the state and of the parameter itself. */
     out->value_error = (isnan(off) ? INFINITY : rate * (off + 10.0 * rounding)) +
-                       4.4e-16 * fabs(out->value);
+                       2.0 * last_place_of_one * fabs(out->value);
     out->delay = j->direction * (out->value - j->value);
     out->delay_error = out->value_error + j->value_error;
   }

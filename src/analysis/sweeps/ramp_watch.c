@@ -8,16 +8,7 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "analysis/sweeps/hysteresis_jump.h"
-
-/* States whose x advances differently by more in the time of a window, in rad, are told apart by
-   that: a rotation's window has a turn, but for those locked to many drive periods a turn. */
-static const double advance_apart = 0.5;
-/* States whose first harmonics, or positions of rest, differ by a smaller share are not told apart
-   by these. */
-static const double harmonic_apart = 1e-3;
-/* So many of a state's own times a trajectory must have left it for: a turn that passes the saddle
-   point closely takes longer than the turns before it. */
-static const double own_times = 2.0;
+#include "analysis/sweeps/numbers.h"
 
 /* ---- what states look like ---- */
 
@@ -72,8 +63,8 @@ static void measure(pendres_ramp_gate *g, const pendres_ramp *r)
   const pendres_ramp_reading a = reading_of(r, old), b = reading_of(r, new);
   const double apart = hypot(b.cosine - a.cosine, b.sine - a.sine);
   g->own = fmax(own_time(r, old), own_time(r, new));
-  g->by_advance = fabs(b.advance - a.advance) * g->own > advance_apart;
-  g->usable = g->by_advance || apart > harmonic_apart * fmax(hypot(a.cosine, a.sine),
+  g->by_advance = fabs(b.advance - a.advance) * g->own > ramp_advance_apart;
+  g->usable = g->by_advance || apart > ramp_harmonic_apart * fmax(hypot(a.cosine, a.sine),
                                                              hypot(b.cosine, b.sine));
 }
 
@@ -144,7 +135,7 @@ static long patience(const pendres_ramp_watch *w, const pendres_ramp_gate *g, do
   const pendres_pendulum p =
     pendres_parameter_with(&r->pendulum, r->parameter, pendres_ramp_value(r, time));
   const double fading = 2.0 * p.drive_frequency / (p.damping * two_pi);
-  const double own = driven(r) ? 0.0 : own_times * g->own;
+  const double own = driven(r) ? 0.0 : ramp_own_times * g->own;
   return (long)fmin(1e6, ceil((fading + own) * (double)w->clock / (double)g->parts));
 }
 
@@ -253,13 +244,10 @@ void pendres_ramp_watch_end(pendres_ramp_watch *w)
 
 /* ---- all of it ---- */
 
-/* No gate needs a drive period in more parts, nor one without a drive in parts of more steps. */
-enum { MOST_PARTS = 65536 };
-
 /* The parts of a drive period: the shortest window has one at least. */
 static long clock_of(const pendres_ramp *r, const pendres_ramp_gate *gate)
 {
-  const double most = fmin(MOST_PARTS, (double)UINT32_MAX / (double)pendres_ramp_periods(r));
+  const double most = fmin(RAMP_MOST_STEPS, (double)UINT32_MAX / (double)pendres_ramp_periods(r));
   double shortest = 1.0;
   for (size_t k = 0; k < r->jumps && !driven(r); k++)
     if (gate[k].usable) shortest = fmin(shortest, gate[k].own);

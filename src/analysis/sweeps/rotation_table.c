@@ -7,18 +7,14 @@
 
 #include <pendres/strobe.h>
 
+#include "analysis/sweeps/numbers.h"
 #include "base/angles.h"
 #include "engine/context_internal.h"
 
 enum {
   NODES = 25,     /* of an interpolation */
-  LAST = 3,       /* coefficients that tell what is missing */
-  HALVINGS = 200, /* of the damping at which rotations end */
-  WATCHED = 20    /* turns' worth of time, beside that in which friction stops a turn */
+  LAST = 3       /* coefficients that tell what is missing */
 };
-
-/* Polynomials are good to this, of the velocity, or to a hundredth of the tolerance. */
-static const double finest = 1e-12, of_tolerance = 1e-2;
 
 struct pendres_rotation_table {
   pendres_pendulum pendulum; /* but for the parameter */
@@ -166,7 +162,7 @@ pendres_status pendres_rotation_table_create(pendres_context *ctx, const pendres
   } else {
     t->pendulum = *p;
     t->parameter = parameter;
-    t->tolerance = fmax(finest, of_tolerance * ctx->options.tolerance);
+    t->tolerance = fmax(table_finest, table_of_tolerance * ctx->options.tolerance);
     memcpy(t->value, value, n * sizeof *value);
     qsort(t->value, n, sizeof *value, ascending);
     for (size_t i = 0; i < n; i++)
@@ -202,7 +198,7 @@ static pendres_status limit_of_damping(const pendres_pendulum *p, double with, d
 {
   pendres_rotation_onset o = {.torque = NAN};
   double slope = NAN;
-  for (int k = 0; k < HALVINGS; k++) {
+  for (int k = 0; k < ITERATIONS; k++) {
     const double middle = 0.5 * (with + without);
     if (middle == with || middle == without) break;
     const double before = o.torque, from = out->value;
@@ -258,7 +254,7 @@ pendres_status pendres_rotation_reached(pendres_context *ctx, const pendres_pend
   /* Without a drive any clock will do: this one ticks about once an oscillation. */
   pendres_pendulum q = *p;
   q.drive_frequency = 1.0;
-  const long most = WATCHED + (long)(WATCHED / (two_pi * p->damping));
+  const long most = TABLE_WATCHED + (long)(TABLE_WATCHED / (two_pi * p->damping));
   for (long k = 0; k < most && !*reached; k++) {
     const double before = passed(p, x);
     const pendres_status status = pendres_strobe_advance(ctx, 1, &q, &x, &v, 1, NULL);

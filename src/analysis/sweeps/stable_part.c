@@ -5,25 +5,11 @@
 #include <stdlib.h>
 
 #include "analysis/chaos/lyapunov_move.h"
+#include "analysis/sweeps/numbers.h"
 #include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/sets.h"
 #include "engine/context_internal.h"
-
-/* A branch is not followed where errors grow by more than this in a map: it has long been
-   unstable. */
-static const double wildest = 3000.0;
-/* Points each way. For pendulums whose rotations lock to the drive there are few at first, then
-   four times as many until they are enough: a lock of q periods lies on a closed branch that passes
-   all of its q points, and the part is one of many. */
-enum { FEW_POINTS = 48, MOST_POINTS = PENDRES_CURVE_POINTS, ENOUGH = 8 };
-
-/* From an orbit a part goes one way: the branch is followed the other way by this share of the
-   margin only, which shows that there is an orbit, too. */
-static const double little = 0.01;
-
-/* How close to a bifurcation the branch that is born there has that, too. */
-static const double near_birth = 1e-5;
 
 void pendres_part_free(pendres_part *s)
 {
@@ -51,7 +37,7 @@ static size_t nearest(const pendres_branch *b, const pendres_orbit *o, int bifur
 static int is_enough(const pendres_part *s, size_t k)
 {
   return s->end == PENDRES_PART_LIMIT || pendres_part_branch_end(s) != PENDRES_END_POINTS ||
-         pendres_part_point(s, k + ENOUGH) != NULL;
+         pendres_part_point(s, k + STABLE_ENOUGH) != NULL;
 }
 
 /* ---- following ---- */
@@ -67,11 +53,11 @@ static pendres_status extend(pendres_context *ctx, pendres_part *s, double limit
   const double room = pendres_part_margin(parameter);
   const double least = fmin(fmin(from, limit), here), most = fmax(fmax(from, limit), here);
   /* A birth is located between points on both sides of it. */
-  const double behind = s->born ? room : little * room;
+  const double behind = s->born ? room : stable_little * room;
   const double below = s->direction > 0 ? behind : room, above = s->direction > 0 ? room : behind;
   const pendres_curve_bounds bounds = {
     .low = {pendres_parameter_beyond(parameter, least, -below)}, .high = {most + above},
-    .wildest = wildest, .most_points = points};
+    .wildest = stable_wildest, .most_points = points};
   s->points_each_way = points;
   return pendres_branch_extend(ctx, s->branch, &bounds);
 }
@@ -80,9 +66,9 @@ static pendres_status extend(pendres_context *ctx, pendres_part *s, double limit
    With half as many, folds of locks of some twenty periods were not reached. */
 static size_t most_points(const pendres_orbit *orbit)
 {
-  const size_t share = 2 * MOST_POINTS / (size_t)orbit->period;
-  if (!pendres_lyapunov_may_rotate(&orbit->pendulum)) return MOST_POINTS;
-  return share > FEW_POINTS ? share : FEW_POINTS;
+  const size_t share = 2 * PENDRES_CURVE_POINTS / (size_t)orbit->period;
+  if (!pendres_lyapunov_may_rotate(&orbit->pendulum)) return PENDRES_CURVE_POINTS;
+  return share > STABLE_FEW_POINTS ? share : STABLE_FEW_POINTS;
 }
 
 /* Follow the branch until that tells how the part ends, or has at most this many points each
@@ -96,7 +82,7 @@ static pendres_status find_end(pendres_context *ctx, pendres_part *s, double lim
     const pendres_status status = extend(ctx, s, limit, points);
     if (status != PENDRES_OK) return status;
     s->first = nearest(s->branch, &s->at, s->born, &off);
-    if (s->born && !(off < near_birth)) return PENDRES_NOT_FOUND;
+    if (s->born && !(off < stable_near_birth)) return PENDRES_NOT_FOUND;
     if (!pendres_part_choose_way(s) || is_enough(s, pendres_part_take(s, limit)) ||
         points == most)
       return status;
@@ -107,7 +93,8 @@ static pendres_status find_end(pendres_context *ctx, pendres_part *s, double lim
 static pendres_status follow(pendres_context *ctx, const pendres_orbit *start,
                              pendres_parameter parameter, double limit, pendres_part *s)
 {
-  const size_t few = pendres_lyapunov_may_rotate(&start->pendulum) ? FEW_POINTS : MOST_POINTS;
+  const size_t few =
+    pendres_lyapunov_may_rotate(&start->pendulum) ? STABLE_FEW_POINTS : PENDRES_CURVE_POINTS;
   s->direction = limit >= pendres_parameter_get(parameter, &s->at.pendulum) ? 1 : -1;
   /* Each doubling of a cascade reaches less far. */
   pendres_status status =
