@@ -209,7 +209,7 @@ static const double settle_most_steps = 5e6;
 /* The first budget is so many periods and so many times of settling; the last one counts these a
    hundred times. The slowest orbit's time, up to a bound, and that of transient chaos, of which one
    of e^10 pendulums is still in it then, are added with the weights of the first. */
-static const double settle_some = 20.0, settle_times = 10.0;
+static const double settle_least = 20.0, settle_times = 10.0;
 static const double settle_last_some = 2000.0, settle_last_times = 100.0;
 static const double settle_slowest = 1e4;
 

@@ -22,7 +22,7 @@ static double settling_time(const pendres_pendulum *p)
 
 long pendres_settle_first_budget(const pendres_pendulum *p)
 {
-  return (long)ceil(fmin(settle_some + settle_times * settling_time(p), settle_first_most));
+  return (long)ceil(fmin(settle_least + settle_times * settling_time(p), settle_first_most));
 }
 
 /*
@@ -39,7 +39,7 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attrac
     if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
   }
   const double most = settle_last_some + settle_last_times * settling_time(&c->pendulum) +
-                      settle_some * fmin(slowest, settle_slowest) +
+                      settle_least * fmin(slowest, settle_slowest) +
                       settle_times * fmin(c->transient, settle_slowest);
   return (long)ceil(fmin(most, settle_last_most));
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/numbers.h"
+#include "analysis/basins/numbers.h"
 #include "orbits/attractor_internal.h"
 #include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"
@@ -13,13 +13,6 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "orbits/settle.h"
-
-enum {
-  GUESS_SIDE = 24,     /* initial guesses over the grid: at most this many by this many */
-  EXTEND_GUESSES = 256, /* states that are used as guesses when some are unresolved */
-  WORTH_WAITING = 384, /* number of states that fill blocks well enough to be finished together */
-  MOST_EXTENSIONS = 4
-};
 
 static pendres_status check_grid(pendres_context *ctx, const pendres_attractors *set,
                                  const pendres_basin_grid *grid)
@@ -57,14 +50,14 @@ static void compact(const pendres_outcome *from, pendres_basin_state *to)
 static pendres_status basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
                                        const pendres_basin_grid *grid, pendres_attractors **out)
 {
-  double x[GUESS_SIDE * GUESS_SIDE], v[GUESS_SIDE * GUESS_SIDE];
+  double x[BASIN_GUESS_SIDE * BASIN_GUESS_SIDE], v[BASIN_GUESS_SIDE * BASIN_GUESS_SIDE];
   if (p == NULL || grid == NULL || out == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, grid and out");
   *out = NULL;
   if (grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "a grid needs x and v");
-  const size_t nx = grid->nx < GUESS_SIDE ? grid->nx : GUESS_SIDE;
-  const size_t nv = grid->nv < GUESS_SIDE ? grid->nv : GUESS_SIDE;
+  const size_t nx = grid->nx < BASIN_GUESS_SIDE ? grid->nx : BASIN_GUESS_SIDE;
+  const size_t nv = grid->nv < BASIN_GUESS_SIDE ? grid->nv : BASIN_GUESS_SIDE;
   size_t n = 0;
   for (size_t i = 0; i < nx; i++)
     for (size_t j = 0; j < nv; j++) {
@@ -154,7 +147,7 @@ static pendres_status defer(const picture *of, size_t offset, size_t n,
 {
   size_t left = 0;
   for (size_t k = 0; k < n; k++) left += state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN;
-  if (left < WORTH_WAITING) {
+  if (left < BASIN_WORTH_WAITING) {
     for (size_t k = 0; k < n; k++)
       if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) state[k].how = PENDRES_BASIN_DEFERRED;
     return PENDRES_OK;
@@ -211,8 +204,8 @@ static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set
   *grown = 0;
   pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK || n == 0) return status;
-  double x[EXTEND_GUESSES], v[EXTEND_GUESSES];
-  const size_t guesses = n < EXTEND_GUESSES ? n : EXTEND_GUESSES, before = set->count;
+  double x[BASIN_MORE_GUESSES], v[BASIN_MORE_GUESSES];
+  const size_t guesses = n < BASIN_MORE_GUESSES ? n : BASIN_MORE_GUESSES, before = set->count;
   for (size_t k = 0; k < guesses; k++) {
     const size_t one = index[k * n / guesses];
     if (one / grid->nv >= grid->nx)
@@ -279,10 +272,10 @@ static pendres_status basin_compute(pendres_context *ctx, pendres_attractors *se
   if (index == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for the grid");
   size_t grown = 1;
-  for (int round = 0; round <= MOST_EXTENSIONS && grown > 0 && status == PENDRES_OK; round++) {
+  for (int round = 0; round <= TRIES && grown > 0 && status == PENDRES_OK; round++) {
     grown = 0;
     status = compute_once(ctx, set, grid, index, state);
-    if (status != PENDRES_OK || round == MOST_EXTENSIONS) break;
+    if (status != PENDRES_OK || round == TRIES) break;
     const size_t lost = list_states(grid->nx * grid->nv, state, 0, index);
     status = pendres_basin_extend(ctx, set, grid, lost, index, &grown);
   }

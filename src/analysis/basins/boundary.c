@@ -10,6 +10,7 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "analysis/basins/boundary_grow.h"
+#include "analysis/basins/numbers.h"
 #include "base/sized.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -20,10 +21,6 @@
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
-
-/* The least error of a point in (x, v): rounding near the saddle, which is not amplified on the way
-   back in time. */
-static const double rounding = 1e-12;
 
 /* A boundary that grows; the public part comes first. */
 typedef struct growing {
@@ -251,7 +248,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
     pendres_boundary_node *n = &curve->node[i];
     const double x = n->y + pendres_model_origin(p);
     /* The coarser manifold is some fifteen times as far from the true one as the finer. */
-    n->error = 0.25 * n->error + 1.5 * n->sagitta + rounding;
+    n->error = 0.25 * n->error + 1.5 * n->sagitta + boundary_rounding;
     low = fmin(low, x);
     high = fmax(high, x);
   }

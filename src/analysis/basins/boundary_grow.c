@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/basins/numbers.h"
 #include "base/angles.h"
 #include "base/grow.h"
 #include "engine/context_internal.h"
@@ -13,17 +14,9 @@
 #include "engine/strobe_run.h"
 #include "model/model.h"
 
-/* The distance from the saddle at which the manifold begins. Its expansion to second order is exact
-   to the cube of this, an error that maps shrink further; a seed parameter is exact to rounding
-   over this. */
-static const double start_distance = 2e-4;
 static const double far_before = -1e4; /* a seed parameter on the saddle */
-enum { FIRST_NODES = 5, MOST_GENERATIONS = 400, MOST_ROUNDS = 60 };
 /* The coordinate that stands for a place at infinity, beyond all windows. */
 static const double at_infinity = 1e9;
-/* Rounding moves seed parameters by 1e-12: closer than this their order along the curve is not
-   known. */
-static const double closest_seeds = 1e-9;
 
 void pendres_boundary_grow_free(pendres_boundary_curve *curve)
 {
@@ -52,7 +45,7 @@ static pendres_status second_derivative(pendres_context *ctx, const pendres_syst
                                         const pendres_u u, const double e[2],
                                         const double l[2], double *out)
 {
-  const double h = 1e-4;
+  const double h = pendres_central_step;
   double points[2][PENDRES_U_COUNT], sum = 0.0;
   pendres_image image[2];
   for (int i = 0; i < 2; i++) {
@@ -112,7 +105,7 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
     .f = {across[0], -across[1]},
     /* Invariance under the map, second order in a, seen by the unstable left eigenvector. */
     .bend = 0.5 * second / ((small * small - large) * l_across),
-    .start = start_distance,
+    .start = boundary_start,
     .ratio = pow(1.0 / fabs(small), small < 0.0 ? 2.0 : 1.0)};
   seed->backward.damping = -saddle->pendulum.damping;
   return PENDRES_OK;
@@ -231,7 +224,7 @@ static int too_coarse(const front *f, size_t i)
 
 static int divisible(const front *f, size_t i)
 {
-  return f->node[i + 1].s - f->node[i].s > closest_seeds;
+  return f->node[i + 1].s - f->node[i].s > boundary_closest;
 }
 
 /* Neighbours i and i + 1 are not joined where both have left for good, nor where the curve is
@@ -344,11 +337,11 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
 {
   pendres_status status = PENDRES_OK;
   f->count = 0;
-  if (reserve(&f->node, &f->capacity, FIRST_NODES) != 0)
+  if (reserve(&f->node, &f->capacity, BOUNDARY_FIRST_NODES) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
-  for (int i = 0; i < FIRST_NODES; i++) {
+  for (int i = 0; i < BOUNDARY_FIRST_NODES; i++) {
     pendres_boundary_node *n = &f->node[f->count++];
-    *n = (pendres_boundary_node){.s = (double)i / (FIRST_NODES - 1), .side = side};
+    *n = (pendres_boundary_node){.s = (double)i / (BOUNDARY_FIRST_NODES - 1), .side = side};
     place(f->seed, n->s, side, &n->y, &n->w);
     n->w = -n->w;
   }
@@ -363,7 +356,7 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
   for (int generation = 1; f->count > 0 && status == PENDRES_OK; generation++) {
     size_t added = 1;
     status = next_generation(ctx, f);
-    for (int round = 0; round < MOST_ROUNDS && added > 0 && status == PENDRES_OK; round++) {
+    for (int round = 0; round < ITERATIONS && added > 0 && status == PENDRES_OK; round++) {
       const size_t taken = curve->count + f->count;
       const size_t most = taken < f->options->most_points ? f->options->most_points - taken : 0;
       if (most == 0) break;
@@ -371,7 +364,7 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
     }
     if (status == PENDRES_OK) status = deliver(ctx, f, curve);
     prune(f);
-    if (curve->count + f->count >= f->options->most_points || generation >= MOST_GENERATIONS) {
+    if (curve->count + f->count >= f->options->most_points || generation >= BOUNDARY_GENERATIONS) {
       curve->complete = 0;
       break;
     }

@@ -4,17 +4,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "analysis/basins/numbers.h"
 #include "base/student.h"
 
 enum {
-  QUANTITIES = PENDRES_SCATTER_QUANTITIES,
-  LEAST_COUNT = 25, /* a share is fitted if it comes from this many uncertain states */
-  LEAST_GROUPS = 4
+  QUANTITIES = PENDRES_SCATTER_QUANTITIES
 };
-
-/* Where the share of uncertain states is above this, the distance is no longer small against that
-   between neighbouring boundaries, and the share grows less than a power of it. */
-static const double most_uncertain = 0.5;
 
 void pendres_scatter_add(pendres_scatter *s, const double *group)
 {
@@ -33,7 +28,7 @@ void pendres_scatter_add(pendres_scatter *s, const double *group)
 
 double pendres_scatter_variance(const pendres_scatter *s, const double *weight)
 {
-  if (s->groups < LEAST_GROUPS) return NAN;
+  if (s->groups < SCATTER_LEAST_GROUPS) return NAN;
   const double n = (double)s->groups, differences = n - 2.0;
   double sum = 0.0;
   for (int k = 0; k < QUANTITIES; k++)
@@ -59,7 +54,7 @@ static usable list_usable(const pendres_scatter *s, int scales, const double *di
   usable u = {0};
   for (int k = 0; k < scales && u.n < PENDRES_SCATTER_MOST_SCALES; k++) {
     const double count = s->total[k];
-    if (count < LEAST_COUNT || count > most_uncertain * tried[k]) continue;
+    if (count < SCATTER_LEAST_COUNT || count > scatter_most_uncertain * tried[k]) continue;
     u.scale[u.n] = k;
     u.a[u.n] = log(distance[k]);
     u.b[u.n++] = log(count / tried[k]);

@@ -16,11 +16,6 @@
 
 #include <pendres/basin.h>
 
-enum {
-  PENDRES_SCATTER_LEAST_SCALES = 3, /* an exponent needs this many shares */
-  PENDRES_SCATTER_MOST_SCALES = 5   /* and takes no more */
-};
-
 /* Quantities of a group: counts of uncertain states at each distance, entropy, boundary boxes. */
 enum {
   PENDRES_SCATTER_ENTROPY = PENDRES_BASIN_SCALES,

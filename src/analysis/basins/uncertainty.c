@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/basins/numbers.h"
 #include "base/mix.h"
 #include "orbits/attractor_internal.h"
 #include "analysis/basins/scatter.h"
@@ -14,20 +15,6 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "orbits/settle.h"
-
-enum {
-  LEAST_STATES = 16,
-  FIRST_SAMPLE = 256, /* states that tell what more of them cost, and whether they are of use */
-  SAMPLES_AT_A_TIME = 4096
-};
-
-/*
- * Evaluations of the pendulum's equation that all states together may take: some ten seconds of
- * one processor, but the same number on every machine. Where chaos lasts long before it ends, a
- * state takes thousands of periods, and is integrated again and again with ever smaller errors;
- * elsewhere a third of this is enough.
- */
-static const double most_slopes = 4e9;
 
 /* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */
 static void place(const pendres_basin_window *w, const pendres_basin_sample *s, uint64_t i,
@@ -134,7 +121,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
    others took. */
 static size_t next_count(size_t left, size_t done, double spent, double most)
 {
-  size_t count = done == 0 ? FIRST_SAMPLE : SAMPLES_AT_A_TIME;
+  size_t count = done == 0 ? SAMPLE_FIRST : SAMPLE_AT_A_TIME;
   if (count > left) count = left;
   const double affordable = done == 0 ? (double)count : (most - spent) / spent * (double)done;
   return affordable >= (double)count ? count : affordable >= 1.0 ? (size_t)affordable : 0;
@@ -160,7 +147,7 @@ static pendres_status settle_sample(pendres_context *ctx, sample *a, size_t n, d
 static pendres_status compute_sample(pendres_context *ctx, sample *a, size_t n, double most,
                                      pendres_basin_statistics *out)
 {
-  const size_t at_a_time = n < SAMPLES_AT_A_TIME ? n : SAMPLES_AT_A_TIME;
+  const size_t at_a_time = n < SAMPLE_AT_A_TIME ? n : SAMPLE_AT_A_TIME;
   const size_t most_states = at_a_time * (1 + 2 * (size_t)out->scales);
   pendres_scatter counts = {0};
   pendres_room room = pendres_room_open(ctx, "random states");
@@ -184,7 +171,7 @@ pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double mos
   const size_t n = asked->n;
   const int scales = asked->scales;
   const double *distance = asked->distance;
-  if (n < LEAST_STATES || scales < PENDRES_SCATTER_LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
+  if (n < SAMPLE_LEAST || scales < PENDRES_SCATTER_LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
       set->sets != 1)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "an uncertainty exponent needs states and at least %d distances",
@@ -228,30 +215,25 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
     inside.distance = pendres_door_in(&d, &pendres_dim_speed, scales, asked->distance);
   }
   PENDRES_DOOR_OUT(&d, statistics, 1, out);
-  return PENDRES_DOOR_END(&d, pendres_basin_uncertainty_within(ctx, most_slopes, set, window,
+  return PENDRES_DOOR_END(&d, pendres_basin_uncertainty_within(ctx, sample_most_slopes, set, window,
                                                                sample, out));
 }
 
 /* ---- in place of a grid's exponent ---- */
 
-/* Random states and their distances, the smallest and the ratio of one to the next. Labels are
-   made certain down to rounding, whatever the tolerance is. This is far above it, and a thousandth
-   of the distances of a fine grid. Where half of the states are uncertain even there, states are
-   drawn that are nearer to each other, step by step, as long as rounding is far below. */
-enum { RANDOM_STATES = 16384, RANDOM_SEED = 1 };
-static const double nearest = 1e-5, ratio = 6.0, nearer = 0.01, near_rounding = 1e-12;
+enum { RANDOM_SEED = 1 };
 
 static int random_states_tell_more(const pendres_basin_statistics *s)
 {
-  enum { MET = 50 /* twice what makes a share worth fitting */ };
   if (!(s->boundary_boxes > 0.0)) return 0;
   /* Where that many states are uncertain, boundaries are everywhere as near as rounding, and shares
      do not follow a power of the distance. */
   if (3 * s->uncertain_states > s->states) return 0;
   if (!isfinite(s->uncertainty_exponent_error)) return 1;
-  const double closer = nearest / s->distance[0];
+  const double closer = sample_nearest / s->distance[0];
   return closer < 1.0 &&
-         RANDOM_STATES * s->uncertain[0] * pow(closer, s->uncertainty_exponent) > MET;
+         SAMPLE_STATES * s->uncertain[0] * pow(closer, s->uncertainty_exponent) >
+           2 * SCATTER_LEAST_COUNT; /* twice what makes a share worth fitting */
 }
 
 /* The exponent of random states of a window, at the largest distances at which most are alike. */
@@ -261,12 +243,13 @@ static pendres_status exponent_of_random(pendres_context *ctx, const pendres_att
 {
   double distance[PENDRES_SCATTER_MOST_SCALES];
   const pendres_basin_sample asked = {
-    .n = RANDOM_STATES, .seed = RANDOM_SEED, .scales = PENDRES_SCATTER_MOST_SCALES,
+    .n = SAMPLE_STATES, .seed = RANDOM_SEED, .scales = PENDRES_SCATTER_MOST_SCALES,
     .distance = distance};
   pendres_status status = PENDRES_NOT_FOUND;
   int many = 1;
-  for (double first = nearest; first > near_rounding && many; first *= nearer) {
-    for (int k = 0; k < PENDRES_SCATTER_MOST_SCALES; k++) distance[k] = first * pow(ratio, k);
+  for (double first = sample_nearest; first > boundary_rounding && many; first *= sample_nearer) {
+    for (int k = 0; k < PENDRES_SCATTER_MOST_SCALES; k++)
+      distance[k] = first * pow(sample_ratio, k);
     status = pendres_basin_uncertainty(ctx, set, window, &asked, out);
     many = status == PENDRES_NOT_FOUND && out->uncertain[PENDRES_SCATTER_LEAST_SCALES - 1] > 0.5;
   }

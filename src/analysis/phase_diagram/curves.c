@@ -9,11 +9,7 @@
 #include "continuation/sets.h"
 #include "continuation/units.h"
 #include "analysis/phase_diagram/line.h"
-
-/* Curves through the lines' bifurcations show branches that some lines have missed. The
-   bifurcations of these may lie on further curves, which the next round follows; mostly one round
-   is enough. */
-enum { MOST_ROUNDS = 4 };
+#include "base/numbers.h"
 
 /* What was followed of a family. */
 static void free_family(pendres_phase_family *f)
@@ -96,7 +92,7 @@ pendres_status pendres_phase_find_families(pendres_phase_diagram *d, size_t *fam
   size_t capacity = 0;
   free_families(d);
   pendres_status status = gather(d);
-  if (status != PENDRES_OK || d->bifurcations <= before || d->rounds == MOST_ROUNDS) return status;
+  if (status != PENDRES_OK || d->bifurcations <= before || d->rounds == TRIES) return status;
   if (d->curves == NULL) d->curves = pendres_curves_create();
   if (d->curves == NULL) return PENDRES_OUT_OF_MEMORY;
   d->rounds++;

@@ -1,4 +1,5 @@
 /* edge.c -- resonances at jumps: folds, and basins alone; see refine.h. */
+#include "analysis/resonance/numbers.h"
 #include "analysis/resonance/refine.h"
 
 #include <math.h>
@@ -25,7 +26,7 @@ static const pendres_attractor *ending_state(const pendres_response *here,
       const double distance = pendres_model_distance(&o->pendulum, o->x - p->x, o->v - p->v);
       /* Gaps are narrow: an orbit moves by far less than its distance from another one, except
          close to its fold, where it moves as a square root. */
-      goes_on |= o->period == p->period && o->winding == p->winding && distance < 0.02;
+      goes_on |= o->period == p->period && o->winding == p->winding && distance < orbit_another;
     }
     if (!goes_on && isfinite(o->x)) return &here->state[i];
   }
@@ -98,8 +99,6 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
   }
 }
 
-enum { DECIDERS = 8 /* members that are followed up to a fold */ };
-
 /* Starts of members. */
 typedef struct starts {
   size_t n;
@@ -157,7 +156,7 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
                                    const pendres_fold *fold, double side, int *decides)
 {
   static const double off[2] = {1e-3, 1e-6};
-  const size_t most[2] = {DECIDERS, e->members};
+  const size_t most[2] = {EDGE_DECIDERS, e->members};
   const double rate = pendres_model_units_of(&fold->orbit.pendulum).rate;
   pendres_room room = pendres_room_open(ctx, "members");
   starts s = {.x = pendres_room_take(&room, e->members, sizeof *s.x),
@@ -212,13 +211,12 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
   const double rate = pendres_model_units_of(&a->response.pendulum).rate;
   /* Where all members change together, the state of either point may be the one that ends; in a
      wide gap states that continue may have moved so far that they are not recognised. */
-  const double close = 1e-4;
   const ending ends[2] = {{ending_state(&a->response, &b->response), b, -1.0},
                           {ending_state(&b->response, &a->response), a, 1.0}};
   pendres_scan_point *at = out->at;
   pendres_status status = PENDRES_OK;
   out->points = 0;
-  if (ends[0].state != NULL && ends[1].state != NULL && range[1] - range[0] > close * rate)
+  if (ends[0].state != NULL && ends[1].state != NULL && range[1] - range[0] > just_beyond * rate)
     return status;
   for (int k = 0; k < 2 && out->points == 0 && status == PENDRES_OK; k++) {
     at->at_fold = 0;

@@ -1,4 +1,5 @@
 /* gap.c -- what may happen between two frequencies of a search; see search.h. */
+#include "analysis/resonance/numbers.h"
 #include "analysis/resonance/search.h"
 
 #include <math.h>
@@ -48,7 +49,7 @@ static int chaos_goes_on(const pendres_attractor *a, const pendres_attractor *b)
 {
   return a->label == PENDRES_LABEL_CHAOTIC && b->label == PENDRES_LABEL_CHAOTIC &&
          fabs(a->orbit.loop_area - b->orbit.loop_area) <=
-           3.0 * (a->orbit.loop_area_error + b->orbit.loop_area_error);
+           surely * (a->orbit.loop_area_error + b->orbit.loop_area_error);
 }
 
 static family both_ends(const pendres_attractor *a, const pendres_attractor *b, double width)
@@ -62,7 +63,7 @@ static family both_ends(const pendres_attractor *a, const pendres_attractor *b, 
     if (isnan(f.slope[e])) f.slope[e] = 2.0 * (f.area[1] - f.area[0]) / width - f.slope[1 - e];
   f.residual = fabs(f.area[1] - f.area[0] - 0.5 * width * (f.slope[0] + f.slope[1]));
   if (a->label == PENDRES_LABEL_CHAOTIC)
-    f.residual = 3.0 * (p->loop_area_error + q->loop_area_error);
+    f.residual = surely * (p->loop_area_error + q->loop_area_error);
   f.middle = 0.5 * (f.area[0] + f.area[1]);
   return f;
 }

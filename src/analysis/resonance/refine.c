@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 
+#include "analysis/resonance/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
@@ -191,7 +192,7 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
     const pendres_orbit *o = &there.state[i].orbit;
     *same = there.state_members[i] == r->state_members[i] &&
             pendres_model_distance(&r->pendulum, o->x - r->state[i].orbit.x,
-                                   o->v - r->state[i].orbit.v) < 1e-5;
+                                   o->v - r->state[i].orbit.v) < pendres_same_orbit;
     r->state[i].label = there.state[i].label;
   }
   return pendres_response_renew(ctx, r);
@@ -209,7 +210,6 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
 static double lag_error(const pendres_scan_point *at, const pendres_scan_point *near,
                         const pendres_orbit_coarser *coarser, double full)
 {
-  static const double chance = 0.1;
   const pendres_response *r = &at->response;
   const pendres_orbit *o = &r->state[0].orbit, *b = &near->response.state[0].orbit;
   if (r->states != 1 || r->unresolved + r->unlisted > 0 || !pendres_response_has_loop(r->state) ||
@@ -229,14 +229,13 @@ static double lag_error(const pendres_scan_point *at, const pendres_scan_point *
   const double off =
     (orbit_left_over * fabs(o->loop_area_slope) + coarser->slope_rounding) / curvature;
   return (pendres_orbit_error(across, 0.0, 1.0, &uncertainty) + fabs(turning * off)) / radius +
-         chance * full;
+         peak_chance * full;
 }
 
 pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_ensemble *ensemble,
                                              const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out)
 {
-  enum { MOST_STEPS = 60 };
   peak_search s = {.ctx = ctx, .a = a, .b = b, .latest = *a, .before = *b};
   if (!(a->slope >= 0.0 && b->slope <= 0.0))
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
@@ -250,11 +249,11 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a root");
 
   int gsl = gsl_root_fsolver_set(solver, &f, lower, upper);
-  for (int i = 0; i < MOST_STEPS && gsl == GSL_SUCCESS && s.status == PENDRES_OK; i++) {
+  for (int i = 0; i < PEAK_STEPS && gsl == GSL_SUCCESS && s.status == PENDRES_OK; i++) {
     gsl = gsl_root_fsolver_iterate(solver);
     if (gsl == GSL_SUCCESS && fabs(s.latest.slope) <= slope_error(&s.latest)) break;
     if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver),
-                               0.0, 4e-16) == GSL_SUCCESS)
+                               0.0, pendres_step_rounding) == GSL_SUCCESS)
       break;
   }
   const double root = gsl_root_fsolver_root(solver);
@@ -287,7 +286,7 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
                              .fold_frequency_error = NAN};
   pendres_resonance_take(out, &at);
   out->frequency_error =
-    (fabs(at.slope) + slope_error(&at)) / fabs(curvature) + 4e-16 * out->frequency;
+    (fabs(at.slope) + slope_error(&at)) / fabs(curvature) + pendres_step_rounding * out->frequency;
   pendres_resonance_add_error(out, &beside);
   const double full = out->response.phase_lag_error;
   out->response.phase_lag_error = fmin(full, lag_error(&at, &beside, coarser, full));

@@ -6,19 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/resonance/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
 #include "analysis/resonance/search.h"
 #include "analysis/resonance/response_parts.h"
-
-/*
- * What one search may cost. Several that go side by side may cost as much together: it is not known
- * which of them has spent how much of the common budget, but none can have spent more than it would
- * have alone. When it is spent, those that have not ended start again, each with a budget of its
- * own.
- */
-static const double most_work = 30.0;
 
 /* A resonance that is not known: its numbers are NaN. */
 static void clear(pendres_resonance *out)
@@ -108,13 +101,12 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
   PENDRES_DOOR_IN(&d, pendulum, 1, p);
   PENDRES_DOOR_IN(&d, ensemble, 1, ensemble);
   PENDRES_DOOR_OUT(&d, resonance, 1, out);
-  return PENDRES_DOOR_END(&d, pendres_resonance_find_within(ctx, p, range, ensemble, most_work,
+  return PENDRES_DOOR_END(&d,
+                          pendres_resonance_find_within(ctx, p, range, ensemble, search_most_work,
                                                             out));
 }
 
 /* ---- side by side ---- */
-
-enum { TOGETHER = 8 /* searches: more would not make blocks much fuller */ };
 
 /* Some searches that share a budget. */
 typedef struct party {
@@ -125,7 +117,7 @@ typedef struct party {
     enum { SEEKER_ALONE, SEEKER_TOGETHER, SEEKER_ENDED } state;
     pendres_search search;
     pendres_resonance_search *of;
-  } seeker[TOGETHER];
+  } seeker[SEARCH_TOGETHER];
 } party;
 
 /* Note how a search has ended. A failure that does not concern this search alone is returned. */
@@ -159,7 +151,7 @@ static pendres_status step(pendres_context *ctx, const party *p, struct seeker *
 static pendres_status go_together(pendres_context *ctx, party *p)
 {
   for (;;) {
-    pendres_search *requesting[TOGETHER];
+    pendres_search *requesting[SEARCH_TOGETHER];
     size_t count = 0;
     for (size_t i = 0; i < p->n; i++) {
       if (p->seeker[i].state != SEEKER_TOGETHER) continue;
@@ -220,10 +212,10 @@ pendres_status pendres_resonance_find_together(pendres_context *ctx, size_t n,
   party *p = malloc(sizeof *p);
   if (p == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu resonances", n);
-  for (size_t first = 0; first < n && status == PENDRES_OK; first += TOGETHER) {
+  for (size_t first = 0; first < n && status == PENDRES_OK; first += SEARCH_TOGETHER) {
     memset(p, 0, sizeof *p);
     p->ensemble = ensemble;
-    p->n = n - first < TOGETHER ? n - first : TOGETHER;
+    p->n = n - first < SEARCH_TOGETHER ? n - first : SEARCH_TOGETHER;
     for (size_t i = 0; i < p->n; i++) p->seeker[i].of = &searches[first + i];
     status = find_some(ctx, p, most_together);
   }
@@ -239,7 +231,7 @@ pendres_status pendres_resonance_find_many(pendres_context *ctx, size_t n,
   while (pendres_door_next(&d)) {
     const pendres_ensemble *e = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble);
     pendres_resonance_search *s = pendres_door_out_run(&d, &pendres_dim_search, searches);
-    PENDRES_DOOR_CALL(&d, pendres_resonance_find_together(ctx, d.count, s, e, most_work));
+    PENDRES_DOOR_CALL(&d, pendres_resonance_find_together(ctx, d.count, s, e, search_most_work));
   }
   return pendres_door_close(&d);
 }

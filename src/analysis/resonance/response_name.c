@@ -1,4 +1,5 @@
 /* response_name.c -- names of states that are alone; see response_parts.h. */
+#include "analysis/resonance/numbers.h"
 #include "analysis/resonance/response_parts.h"
 
 #include <math.h>
@@ -6,8 +7,6 @@
 
 #include "engine/context_internal.h"
 #include "model/model.h"
-
-enum { MOST_TRIES = 3 }; /* of orbits whose branch is followed to its fold */
 
 static int waits(const pendres_attractor *a)
 {
@@ -52,7 +51,7 @@ pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
 {
   *end = (pendres_small_end){.known = 0};
   double limit = INFINITY;
-  for (int k = 0; k < MOST_TRIES && !end->known; k++) {
+  for (int k = 0; k < EDGE_ORBITS && !end->known; k++) {
     const pendres_orbit *o = highest_below(n, line, parameter, &limit);
     pendres_fold fold;
     if (o == NULL) break;

@@ -3,13 +3,11 @@
 
 #include <math.h>
 
+#include "analysis/resonance/numbers.h"
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "noise/noise_common.h"
-
-/* The bias that steps are chosen for, of the loop area and of the first harmonic's amplitude. */
-static const double bias_wanted = 1e-4;
 
 static const pendres_response_mean none = {NAN, NAN, NAN, NAN};
 
@@ -39,7 +37,7 @@ static pendres_status measure_state(pendres_context *ctx, const pendres_langevin
   r.trajectories = PENDRES_NOISE_LANES; /* to choose steps by */
   r.record = PENDRES_NOISE_RECORD;
   const pendres_status status =
-    pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_RESPONSE, bias_wanted, bias);
+    pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_RESPONSE, response_bias, bias);
   if (status != PENDRES_OK) return status;
   r = *q;
   r.steps_per_period = bias->steps_per_period;

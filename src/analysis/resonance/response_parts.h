@@ -8,11 +8,9 @@
 
 #include <pendres/response.h>
 
+#include "analysis/resonance/numbers.h"
 #include "orbits/attractor_set.h"
 #include "orbits/label.h"
-
-/* Parameter sets that are computed side by side: enough to fill blocks with their members. */
-enum { PENDRES_RESPONSE_BATCH = 32 };
 
 /*
  * As pendres_response_find(). where[n * members], unless it is NULL, receives the state that

@@ -8,12 +8,10 @@
 
 #include <math.h>
 
+#include "analysis/resonance/numbers.h"
 #include "base/angles.h"
 #include "base/student.h"
 #include "analysis/resonance/response_parts.h"
-
-/* Standard errors that are claimed: as for the shares of basins. */
-static const double claimed = 2.0;
 
 /*
  * The error of a share if `on` of `members` independent starts are on a state. One more is counted
@@ -23,7 +21,7 @@ static const double claimed = 2.0;
 static double random_error(double on, double members)
 {
   const double share = (on + 1.0) / (members + 2.0);
-  return claimed * sqrt(share * (1.0 - share) / (members + 2.0));
+  return sampling_claimed * sqrt(share * (1.0 - share) / (members + 2.0));
 }
 
 /* Count the members of a row that are on the state, and the ends of stretches of them. */
@@ -57,10 +55,10 @@ static double rectangle_error(const pendres_ensemble *e, const signed char *wher
     least = fmin(least, share);
     most = fmax(most, share);
   }
-  const double floor = claimed * sqrt((ends + 1.0) / 12.0) / (double)e->members;
+  const double floor = sampling_claimed * sqrt((ends + 1.0) / 12.0) / (double)e->members;
   if (e->rows < 4) return floor + 0.5 * (most - least);
   const double student = pendres_student(PENDRES_ONE_SIGMA, (n - 2.0) * 18.0 / 35.0);
-  return fmax(floor, claimed * student * sqrt(square / (6.0 * n * (n - 2.0))));
+  return fmax(floor, sampling_claimed * student * sqrt(square / (6.0 * n * (n - 2.0))));
 }
 
 /* States that differ most, and the length of the mean first harmonic. */

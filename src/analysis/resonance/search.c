@@ -5,19 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis/resonance/numbers.h"
 #include "analysis/resonance/response_parts.h"
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
-
-/* The work of one evaluation of a pendulum's equation, and of one step of Newton's method: about
-   seconds of one processor, but the same number on every machine. Periods would not do as a
-   measure: pendulums whose labels are uncertain are integrated again with ten times as many
-   steps. */
-static const double work_of_slope = 2.5e-9, work_of_newton = 4e-4;
-/* The least work of a period, for estimates. */
-static const double work_of_period = 2e-7;
 
 pendres_search_budget pendres_search_budget_of(pendres_context *ctx, double most)
 {
@@ -152,7 +145,7 @@ static pendres_status add_batch(const wanted *w, size_t first, size_t n)
  */
 static double expected_work(const pendres_search *s, double omega)
 {
-  const double periods = 20.0 + 10.0 * omega / (pi * s->pendulum.damping);
+  const double periods = settle_least + settle_times * omega / (pi * s->pendulum.damping);
   return 20.0 * work_of_period * periods * (double)s->ensemble->members *
          fmax(1.0, s->rate / omega);
 }

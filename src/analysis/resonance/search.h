@@ -10,13 +10,11 @@
 #ifndef PENDRES_RESONANCE_SEARCH_H
 #define PENDRES_RESONANCE_SEARCH_H
 
+#include "analysis/resonance/numbers.h"
 #include "analysis/resonance/refine.h"
 
-enum {
-  PENDRES_SEARCH_POINTS = 1500,                        /* most frequencies of one search */
-  PENDRES_SEARCH_COARSE = 19,                          /* over the range at first */
-  PENDRES_SEARCH_CUTS = PENDRES_SEARCH_POINTS / 2 + 19 /* most of those that follow in the scan */
-};
+/* The most frequencies that follow the first ones in the scan. */
+enum { PENDRES_SEARCH_CUTS = PENDRES_SEARCH_POINTS / 2 + PENDRES_SEARCH_COARSE };
 
 /* What searches may cost, and have cost so far, in units of about a second of one processor. */
 typedef struct pendres_search_budget {

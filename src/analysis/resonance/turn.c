@@ -3,13 +3,9 @@
 
 #include <math.h>
 
+#include "analysis/resonance/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-
-/* The spacing of dampings; around a small damping it is a tenth, then a fortieth of that. */
-static const double first_spacing = 4e-3, last_spacing = 1e-3;
-
-enum { MOST_TRIALS = 8 };
 
 /* What is asked for. */
 typedef struct request {
@@ -124,14 +120,14 @@ static pendres_status find(pendres_context *ctx, const request *q, pendres_reson
   parabola p = {.at = NAN};
   for (int trial = 0; !(fabs(p.at - middle) <= spacing); trial++) {
     if (trial > 0) middle = p.at;
-    if (trial == MOST_TRIALS || !(middle > 0.0)) return no_turn(ctx, q->near->damping);
-    spacing = fmin(first_spacing, 0.1 * middle);
+    if (trial == TURN_TRIALS || !(middle > 0.0)) return no_turn(ctx, q->near->damping);
+    spacing = fmin(turn_first_spacing, 0.1 * middle);
     const pendres_status status = compute(ctx, q, middle, spacing, &coarse);
     if (status != PENDRES_OK) return status;
     if (!through(coarse.damping, coarse.frequency, &p)) return no_turn(ctx, middle);
   }
   const double at = p.at;
-  const pendres_status status = compute(ctx, q, at, fmin(last_spacing, 0.025 * at), &fine);
+  const pendres_status status = compute(ctx, q, at, fmin(turn_last_spacing, 0.025 * at), &fine);
   if (status != PENDRES_OK) return status;
   if (!through(fine.damping, fine.frequency, &p)) return no_turn(ctx, at);
   conclude(&coarse, &fine, &p, out);

@@ -1,19 +1,11 @@
 /* work.c -- gaps that are cut, and the best of what they hold; see search.h. */
+#include "analysis/resonance/numbers.h"
 #include "analysis/resonance/search.h"
 
 #include <math.h>
 
 #include "engine/context_internal.h"
 #include "analysis/resonance/response_parts.h"
-
-enum { SECTIONS = 4 /* a gap is cut into */ };
-
-/*
- * A gap with a jump is cut until it is this narrow, relative to the force's frequency; then its
- * fold is located, or the jump is found by halving. Where some members change to larger areas and
- * some to smaller ones, it is cut until they are apart, or down to the narrowest gap.
- */
-static const double narrow = 2e-5, narrowest = 1e-7;
 
 /* Examine all gaps that are not known from before: points are only added. */
 static void look_at_gaps(pendres_search *s)
@@ -56,8 +48,8 @@ static int open_gap(const pendres_search *s, size_t i, double threshold)
   const pendres_gap *g = &s->points[i].gap;
   const double width = g->width / s->rate;
   if (!(g->bound > threshold)) return 0;
-  if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? narrowest : narrow);
-  return g->loose || (g->kind == PENDRES_GAP_PLAIN && width > narrow);
+  if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? gap_narrowest : gap_narrow);
+  return g->loose || (g->kind == PENDRES_GAP_PLAIN && width > gap_narrow);
 }
 
 /* The largest bound of all gaps that are open; minus infinity if none is. */
@@ -100,7 +92,7 @@ static pendres_status find_border(pendres_search *s, pendres_scan_point *a,
       meet(a, out, b))
     return status;
   out->points = 0;
-  if (a->gap.width > narrow * s->rate) a->fold_sought = 0;
+  if (a->gap.width > gap_narrow * s->rate) a->fold_sought = 0;
   return status;
 }
 
@@ -167,8 +159,8 @@ static pendres_status resolve_gaps(pendres_search *s)
       /* Less promising gaps may be ruled out by what is found in the others. */
       if (!open_gap(s, i, threshold) || s->points[i].gap.bound < 0.5 * (threshold + largest))
         continue;
-      for (int k = 1; k < SECTIONS && s->requests < PENDRES_SEARCH_POINTS; k++)
-        s->request[s->requests++] = first + width * k / SECTIONS;
+      for (int k = 1; k < SEARCH_SECTIONS && s->requests < PENDRES_SEARCH_POINTS; k++)
+        s->request[s->requests++] = first + width * k / SEARCH_SECTIONS;
     }
     return PENDRES_OK;
   }
