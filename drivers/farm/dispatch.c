@@ -6,18 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "farm/numbers.h"
 #include "farm/ranks.h"
 
 /* Tags: to rank 0, requests apart since a thread waits for the answer; from rank 0 to all threads
    of a rank, and to thread number t of a rank. */
 enum { QUESTION, TO_ROOT, TO_ALL, TO_THREAD };
-
-/* Microseconds between two attempts to receive, at most: while the receiving threads work, and
-   while they wait. */
-enum { SELDOM = 10000, OFTEN = 1000 };
-
-/* Number of sleeps, some seconds together, in which memory for a message may become free. */
-enum { PATIENCE = 1000 };
 
 typedef enum kind {
   ASK,    /* for a task */
@@ -54,7 +48,7 @@ static int is_of(const pool *c, const note *n)
 static int send_note(int to, int tag, const note *n, const void *data)
 {
   const size_t size = data != NULL ? (size_t)n->size : 0;
-  for (int idle = 0; idle < (size > 0 ? 1 : PATIENCE); ranks_nap(&idle, SELDOM)) {
+  for (int idle = 0; idle < (size > 0 ? 1 : WAIT_PATIENCE); ranks_nap(&idle, WAIT_SELDOM)) {
     char *bytes = malloc(sizeof *n + size);
     if (bytes == NULL) continue;
     memcpy(bytes, n, sizeof *n);
@@ -130,7 +124,7 @@ static void *serve(void *arg)
       send_to_others(&n, NULL);
       halted = 1;
     }
-    ranks_nap(&idle, atomic_load(&c->idle) ? OFTEN : SELDOM);
+    ranks_nap(&idle, atomic_load(&c->idle) ? WAIT_OFTEN : WAIT_SELDOM);
   }
   return NULL;
 }
@@ -163,7 +157,7 @@ static void *listen(void *arg)
   for (int ended = 0; !ended;) {
     ranks_parcel p;
     if (!ranks_receive(TO_ALL, &p)) {
-      ranks_nap(&idle, atomic_load(&c->idle) ? OFTEN : SELDOM);
+      ranks_nap(&idle, atomic_load(&c->idle) ? WAIT_OFTEN : WAIT_SELDOM);
       continue;
     }
     if (atomic_load(&c->idle)) idle = 0; /* records that are shared wait well */
@@ -197,7 +191,7 @@ static int ask(pool *c, int thread, size_t *task)
   while (!atomic_load(&c->ended)) {
     ranks_parcel p;
     if (!ranks_receive(TO_THREAD + thread, &p)) {
-      ranks_nap(&idle, OFTEN);
+      ranks_nap(&idle, WAIT_OFTEN);
       continue;
     }
     memcpy(&n, p.data, sizeof n);
@@ -301,7 +295,7 @@ void farm_dismiss(farm *f, const char *words)
   while (!f->dismissed) {
     ranks_parcel p;
     if (!ranks_receive(TO_ALL, &p)) {
-      ranks_nap(&idle, SELDOM);
+      ranks_nap(&idle, WAIT_SELDOM);
       continue;
     }
     const note *n = p.data;

@@ -14,13 +14,9 @@
 
 #include <pendres/pendres.h>
 
+#include "farm/numbers.h"
 #include "farm/record.h"
 #include "terminal/progress.h"
-
-enum {
-  FARM_MOST_THREADS = 4096,
-  FARM_STACK = 8 << 20 /* bytes of each thread's stack, of which tasks need some hundred thousand */
-};
 
 typedef struct farm farm;
 

@@ -15,15 +15,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "farm/numbers.h"
 #include "system/clock.h"
 #include "system/grow.h"
 #include "system/own_file.h"
-
-/* At most the records of this number of seconds are lost when the machine fails. */
-static const double sync_after = 10.0;
-
-/* How often the journal may be removed or replaced between two checks. */
-enum { ATTEMPTS = 100 };
 
 /* The position of a record. */
 typedef struct slot {
@@ -188,7 +183,7 @@ static void drop_own(journal *j)
 /* Open the own file, locked; it may be empty. */
 static pendres_status open_own(journal *j, char *words)
 {
-  for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+  for (int attempt = 0; attempt < JOURNAL_ATTEMPTS; attempt++) {
     const int fd = open(j->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     struct stat status;
     if (fd < 0)
@@ -413,7 +408,7 @@ static pendres_status append(journal *j, uint64_t stage, size_t task, const farm
   j->end += (off_t)(sizeof e + e.stored);
   j->own++;
   j->dirty = 1;
-  if (clock_wall() - j->synced > sync_after) {
+  if (clock_wall() - j->synced > journal_sync_after) {
     (void)fdatasync(j->file[0].fd);
     j->synced = clock_wall();
   }

@@ -5,13 +5,10 @@
 #include <stdio.h>
 
 #include "farm/dispatch.h"
+#include "farm/numbers.h"
 #include "system/clock.h"
 
-/* A point is costly, and reported, when it has taken this multiple of the mean of those before, of
-   which there must be some, and longer than a fraction of the time between two lines on the run,
-   usually five seconds. */
-static const double many_times = 20.0, long_wait = 1.0 / 60.0;
-enum { POINTS_BEFORE = 8, LOOK_EVERY = 20 /* milliseconds */, WORDS = 400 };
+enum { WORDS = 400 };
 
 /* Seconds a point of the stage, on average; 0 while there are too few. */
 static double mean_of(pool *c)
@@ -26,9 +23,9 @@ static double mean_of(pool *c)
 static int is_costly(const farm_watch *w, double spent, double *mean)
 {
   const progress *p = w->pool->farm->options.progress;
-  if (p == NULL || spent < long_wait * p->every) return 0;
+  if (p == NULL || spent < costly_wait * p->every) return 0;
   *mean = (double)w->points * mean_of(w->pool);
-  return *mean > 0.0 && spent > many_times * *mean;
+  return *mean > 0.0 && spent > costly_times * *mean;
 }
 
 static void tell_costly(farm_watch *w, double spent, double mean)

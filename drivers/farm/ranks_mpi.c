@@ -6,6 +6,7 @@
  * where a launcher has started several processes.
  */
 #define _POSIX_C_SOURCE 200809L /* nanosleep */
+#include "farm/numbers.h"
 #include "farm/ranks.h"
 #include "farm/record.h"
 
@@ -28,8 +29,6 @@ typedef struct letter {
 } letter;
 static letter *oldest = NULL, *newest = NULL;
 static size_t unsent = 0;
-
-enum { LONGEST_WAIT = 1000 }; /* microseconds between two looks of a waiting thread */
 
 /* Sleeps grow by 50 us each, so that after a silence of t they are sqrt(100 us * t) long: the cost
    of polling and the delay are then balanced, whatever the time between messages. */
@@ -104,7 +103,7 @@ static int wait_for(MPI_Request *request)
     const int code = MPI_Test(request, &done, MPI_STATUS_IGNORE);
     pthread_mutex_unlock(&lock);
     if (code != MPI_SUCCESS || done) return code == MPI_SUCCESS;
-    ranks_nap(&idle, LONGEST_WAIT);
+    ranks_nap(&idle, WAIT_OFTEN);
   }
 }
 
@@ -155,7 +154,7 @@ int ranks_send(int to, int tag, void *data, size_t size)
     return 0;
   }
   *l = (letter){ .data = data, .size = size };
-  for (int idle = 0;; ranks_nap(&idle, LONGEST_WAIT)) {
+  for (int idle = 0;; ranks_nap(&idle, WAIT_OFTEN)) {
     pthread_mutex_lock(&lock);
     const int now = drop_sent() || unsent + size <= FARM_MOST_WAITING;
     const int sent = now && post(l, to, tag);
@@ -166,7 +165,7 @@ int ranks_send(int to, int tag, void *data, size_t size)
 
 void ranks_flush(void)
 {
-  for (int idle = 0;; ranks_nap(&idle, LONGEST_WAIT)) {
+  for (int idle = 0;; ranks_nap(&idle, WAIT_OFTEN)) {
     pthread_mutex_lock(&lock);
     const int all_left = drop_sent();
     pthread_mutex_unlock(&lock);

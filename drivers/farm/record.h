@@ -9,9 +9,7 @@
 
 #include <pendres/pendres.h>
 
-/* Bytes of records in memory that wait: for their turn, where the journal holds them as well, or to
-   be sent to another rank. */
-enum { FARM_MOST_WAITING = 64 << 20 };
+#include "farm/numbers.h"
 
 /* The result of a task. */
 typedef struct farm_record {

@@ -12,18 +12,8 @@
 #include <string.h>
 
 #include "scenes/basins.h"
+#include "scenes/numbers.h"
 #include "scenes/points.h"
-
-enum {
-  STATES_A_TASK = 65536, /* whole rows of about this number of states */
-  SLICE = 4096,           /* states of a task in a refinement: several blocks; no more than
-                             these are not worth a stage */
-  BAND_STATES = 1 << 24,  /* states that a plan holds at a time */
-  LEAST_SAMPLE = 10000,   /* filled states that are verified, or one of SAMPLED states if more */
-  SAMPLED = 256,
-  LOST_A_TASK = 64,       /* unresolved states that a task remembers */
-  MOST_EXTENSIONS = 4     /* passes again with attractors that unresolved states have shown */
-};
 
 /* ---- what is computed ---- */
 
@@ -164,7 +154,7 @@ static pendres_status collect_rows(const scene_points *p, size_t first, size_t n
   states *s = p->arg;
   const size_t nv = s->b->grid.nv;
   basins_write_rows(s->b, first / nv, n / nv, rows);
-  take_unresolved(s->b, first, n, rows, &s->lost, s->lost.n + LOST_A_TASK);
+  take_unresolved(s->b, first, n, rows, &s->lost, s->lost.n + TASK_LOST);
   const pendres_status status = pendres_basin_sums_add(s->b->sums, n / nv, rows);
   return scene_going(s->b->run) ? status : s->b->run->status;
 }
@@ -191,14 +181,14 @@ static size_t extend(basins *b, const lost *l)
 
 static size_t sweep_once(basins *b, int last)
 {
-  const size_t nv = b->grid.nv, rows = 1 + STATES_A_TASK / nv;
+  const size_t nv = b->grid.nv, rows = 1 + TASK_STATES / nv;
   states s = {.b = b,
               .points = {.n = b->grid.nx * nv, .chunk = rows * nv,
                          .size = sizeof(pendres_basin_state), .compute = find_rows,
                          .leave_out = leave_out, .check = check, .collect = collect_rows,
                          .name = name_point, .unmarked = 1, .arg = &s}};
   restart(b);
-  s.lost.index = scene_array(b->run, (b->grid.nx + rows - 1) / rows * LOST_A_TASK,
+  s.lost.index = scene_array(b->run, (b->grid.nx + rows - 1) / rows * TASK_LOST,
                              sizeof *s.lost.index);
   SCENE_COMPUTE(b->run, &s.points, "groups of rows", .element = sizeof(pendres_basin_state));
   return last ? 0 : extend(b, &s.lost);
@@ -210,12 +200,12 @@ static size_t sweep_once(basins *b, int last)
 static pendres_basin_state *integrate(basins *b, size_t n, const size_t *index)
 {
   states s = {.b = b, .index = index,
-              .points = {.n = n, .chunk = SLICE, .size = sizeof(pendres_basin_state),
+              .points = {.n = n, .chunk = TASK_REFINED, .size = sizeof(pendres_basin_state),
                          .compute = find_states, .leave_out = leave_out, .check = check,
                          .name = name_point, .unmarked = 1, .arg = &s}};
   pendres_basin_state *state = s.points.rows = calloc(n + 1, sizeof *state);
   if (state == NULL) scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
-  if (n > SLICE) {
+  if (n > TASK_REFINED) {
     SCENE_COMPUTE(b->run, &s.points, "slices", .last = 0);
     return state;
   }
@@ -265,8 +255,8 @@ static size_t verify_once(basins *b, pendres_basin_plan *p, size_t n, uint64_t s
    comes to an end. */
 static void verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
 {
-  const size_t all = b->grid.nx * b->grid.nv / SAMPLED;
-  const double sample = (double)(all > LEAST_SAMPLE ? all : LEAST_SAMPLE);
+  const size_t all = b->grid.nx * b->grid.nv / BASINS_SAMPLED;
+  const double sample = (double)(all > BASINS_LEAST_SAMPLE ? all : BASINS_LEAST_SAMPLE);
   const size_t n = (size_t)ceil(sample * (double)rows / (double)b->grid.nx);
   size_t drawn = 0, missed = 1;
   for (uint64_t seed = 1; missed > 0 && scene_going(b->run); seed++)
@@ -289,7 +279,7 @@ static void refine_band(basins *b, size_t first, size_t rows, lost *to)
   if (planned(b, state != NULL ? pendres_basin_plan_states(p, state) : PENDRES_OUT_OF_MEMORY)) {
     basins_write_rows(b, first, rows, state);
     planned(b, pendres_basin_sums_add(b->sums, rows, state));
-    take_unresolved(b, first * b->grid.nv, n, state, to, LOST_A_TASK);
+    take_unresolved(b, first * b->grid.nv, n, state, to, TASK_LOST);
   }
   pendres_basin_plan_free(p);
   free(state);
@@ -297,8 +287,8 @@ static void refine_band(basins *b, size_t first, size_t rows, lost *to)
 
 static size_t refine_once(basins *b, int last)
 {
-  const size_t band = 1 + (BAND_STATES - 1) / b->grid.nv, nx = b->grid.nx;
-  size_t index[LOST_A_TASK];
+  const size_t band = 1 + (BASINS_BAND - 1) / b->grid.nv, nx = b->grid.nx;
+  size_t index[TASK_LOST];
   lost some = {0, index};
   restart(b);
   b->integrated = b->verified = b->missed = b->filled = b->clean = 0;
@@ -362,8 +352,8 @@ static pendres_status run_scene(scene_run *run)
   find_attractors(&b);
   basins_define(&b);
   for (size_t pass = 0, grown = 1; grown > 0 && scene_going(run); pass++)
-    grown = d->basins.refine ? refine_once(&b, pass == MOST_EXTENSIONS)
-                             : sweep_once(&b, pass == MOST_EXTENSIONS);
+    grown = d->basins.refine ? refine_once(&b, pass == BASINS_EXTENSIONS)
+                             : sweep_once(&b, pass == BASINS_EXTENSIONS);
   compute_cut(&b);
   basins_write_results(&b);
   basins_write_clouds(run, b.set);

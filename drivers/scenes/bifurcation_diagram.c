@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "scenes/along.h"
+#include "scenes/numbers.h"
 #include "scenes/points.h"
 
 /* A strobe point. */
@@ -17,8 +18,7 @@ typedef struct strobe {
 } strobe;
 
 enum {
-  NOT_KNOWN = -1,
-  TOGETHER = 16 /* values whose attractors are found together, so that they fill blocks */
+  NOT_KNOWN = -1
 };
 
 typedef struct work {
@@ -82,7 +82,7 @@ static int check_cascade(const scene_points *p, const void *row)
 static pendres_status count_attractors(const scene_some *some)
 {
   const work *w = some->of->arg;
-  pendres_pendulum p[TOGETHER];
+  pendres_pendulum p[TASK_ATTRACTORS];
   int *count = some->rows;
   pendres_attractors *found = NULL;
   for (size_t i = 0; i < some->n; i++) p[i] = pendulum_at(w, some->first + i);
@@ -302,7 +302,7 @@ static pendres_status run_scene(scene_run *run)
   (void)deck_axes(d, axis);
   const deck_axis *a = &d->axis[axis[0]];
   work w = {.d = d, .way = {axis[0], a->count, a->value}, .strobes = strobes,
-            .counts = {.size = sizeof(int), .chunk = TOGETHER, .what = "attractors",
+            .counts = {.size = sizeof(int), .chunk = TASK_ATTRACTORS, .what = "attractors",
                        .compute = count_attractors, .leave_out = no_attractors,
                        .check = check_count, .arg = &w},
             .cascade = {.n = 1, .size = sizeof(pendres_cascade), .chunk = 1,

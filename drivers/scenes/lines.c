@@ -1,5 +1,6 @@
 /* lines.c -- lines of points and their branches; see lines.h. */
 #include "scenes/along.h"
+#include "scenes/numbers.h"
 #include "scenes/lines.h"
 
 #include <math.h>
@@ -8,9 +9,6 @@
 #include <string.h>
 
 #include <pendres/rotation.h>
-
-/* Following branches and curves through a point takes as long as settling its members again. */
-enum { RUNS_A_POINT = 5 };
 
 /* ---- axes ---------------------------------------------------------------------------------- */
 
@@ -214,7 +212,7 @@ static void leave_out(scene_lines *l)
   for (size_t i = 0; i < l->points.n; i++) {
     char words[120];
     const pendres_pendulum p = scene_lines_pendulum(l, i);
-    if (!scene_failure_too_long(&p, RUNS_A_POINT, words, sizeof words)) continue;
+    if (!scene_failure_too_long(&p, LINES_RUNS_A_POINT, words, sizeof words)) continue;
     (void)pendres_phase_diagram_leave_out(l->diagram, i);
     scene_failure_mark(l->run, &l->points.failed[i], SCENE_FAILURE_TOO_LONG, words);
   }

@@ -4,12 +4,11 @@
  */
 #include <math.h>
 
+#include "scenes/numbers.h"
 #include "scenes/points.h"
 
 enum {
-  AXES = 2,
-  /* Points of a task: enough for full blocks, also of the few that are followed for long. */
-  CHUNK = 8192
+  AXES = 2
 };
 
 /* What is written of a point: NaN where it does not exist. */
@@ -147,7 +146,7 @@ static pendres_status run_scene(scene_run *run)
   scene_points *p = &w.points;
   (void)deck_axes(run->deck, axis);
   scene_points_over(p, run->deck, AXES, axis);
-  p->chunk = CHUNK;
+  p->chunk = TASK_EXPONENTS;
   SCENE_COMPUTE(run, p, "parts of the map", .last = 1);
   for (int i = 0; i < AXES; i++) scene_dimension(run, NULL, axis[i]);
   scene_points_write(run, p);

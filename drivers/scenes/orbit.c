@@ -15,9 +15,8 @@
 #include <string.h>
 
 #include "scenes/along.h"
+#include "scenes/numbers.h"
 #include "scenes/orbit.h"
-
-enum { CHUNK = 65536 /* samples of a task, or one period */ };
 
 /* A part of the record, with its samples. */
 typedef struct part {
@@ -233,7 +232,7 @@ static pendres_status collect(const scene_points *p, size_t number, size_t n, co
 static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
-  const long whole = CHUNK / (long)d->orbit.samples, all = (long)d->orbit.periods;
+  const long whole = TASK_SAMPLES / (long)d->orbit.samples, all = (long)d->orbit.periods;
   orbit_work w = { .d = d, .run = run,
                    /* On a named attractor there is no transient. */
                    .transient = d->orbit.transient && d->orbit.start[0] == '\0',

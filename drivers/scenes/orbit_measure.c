@@ -5,13 +5,8 @@
 #include <math.h>
 
 #include "scenes/columns.h"
+#include "scenes/numbers.h"
 #include "scenes/orbit.h"
-
-enum {
-  POINTS = 32768, /* strobe points that a dimension is measured from, at most */
-  SEGMENTS = 16,  /* of a spectrum, without overlap, if the deck does not say */
-  RESOLUTION = 100 /* tolerances: distances below are not looked at */
-};
 
 /* Drive periods of a segment: what the deck says, as far as the record goes. */
 static long segment_of(const deck *d)
@@ -20,7 +15,7 @@ static long segment_of(const deck *d)
   const long longest = PENDRES_SPECTRUM_LONGEST / samples;
   long segment = (long)d->orbit.segment;
   if (segment == 0)
-    for (segment = 1; 2 * segment * SEGMENTS <= all; segment *= 2) continue;
+    for (segment = 1; 2 * segment * ORBIT_SEGMENTS <= all; segment *= 2) continue;
   segment = segment < deck_spectrum_least(d) ? (long)deck_spectrum_least(d) : segment;
   if (segment > all) segment = all;
   if (segment > longest) segment = longest;
@@ -42,8 +37,8 @@ void scene_orbit_measure_begin(orbit_work *w)
                  "number, and what memory has room for", length);
   }
   if (d->orbit.dimension && w->found.of.label == PENDRES_LABEL_CHAOTIC) {
-    m->room = d->orbit.periods < POINTS ? (size_t)d->orbit.periods : POINTS;
-    m->stride = ((long)d->orbit.periods + POINTS - 1) / POINTS;
+    m->room = d->orbit.periods < ORBIT_POINTS ? (size_t)d->orbit.periods : ORBIT_POINTS;
+    m->stride = ((long)d->orbit.periods + ORBIT_POINTS - 1) / ORBIT_POINTS;
     m->x = scene_array(w->run, 2 * m->room, sizeof *m->x);
     if (m->x != NULL) m->v = m->x + m->room;
   }
@@ -86,7 +81,7 @@ static void measure_correlation(orbit_work *w)
   const pendres_section section = { m->points, m->x, m->v,
                                     pendres_model_of(w->pendulum.force)->period };
   scene_asked(w->run, pendres_correlation_find(ctx, &section,
-                                               RESOLUTION * w->d->precision.tolerance, c));
+                                               ORBIT_RESOLUTION * w->d->precision.tolerance, c));
 }
 
 typedef struct dimensions {

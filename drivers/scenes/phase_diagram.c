@@ -5,6 +5,7 @@
  * task a line.
  */
 #include "scenes/lines.h"
+#include "scenes/numbers.h"
 
 static void describe(const deck *d, FILE *out)
 {
@@ -71,10 +72,8 @@ static void print_table(const scene_lines *l, FILE *out)
 
 static pendres_status run_scene(scene_run *run)
 {
-  /* The branches themselves are not written: their points may be sparse. */
-  static const double sparse = 0.1;
   scene_lines l;
-  scene_lines_compute(run, sparse, &l);
+  scene_lines_compute(run, lines_sparse, &l);
   if (scene_going(run)) write_results(&l);
   if (scene_prints(run)) print_table(&l, run->table);
   scene_lines_free(&l);

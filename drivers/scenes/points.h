@@ -11,11 +11,10 @@
 
 #include "scenes/columns.h"
 #include "scenes/failed.h"
+#include "scenes/numbers.h"
 
 enum {
-  SCENE_MESSAGE = sizeof((farm_record *)0)->message,
-  SCENE_PENDULUMS = 192 /* of a task whose pendulums are advanced side by side: full blocks, and
-                           tasks enough for many threads */
+  SCENE_MESSAGE = sizeof((farm_record *)0)->message
 };
 
 typedef struct scene_points scene_points;

@@ -7,6 +7,7 @@
  */
 #include <math.h>
 
+#include "scenes/numbers.h"
 #include "scenes/peak.h"
 #include "scenes/points.h"
 
@@ -40,9 +41,8 @@ static void describe(const deck *d, FILE *out)
  */
 static size_t group_of(size_t points)
 {
-  enum { MOST = 8, TASKS = 12 };
-  const size_t group = points / TASKS;
-  return group < 1 ? 1 : group < MOST ? group : MOST;
+  const size_t group = points / RESONANCE_TASKS;
+  return group < 1 ? 1 : group < TASK_RESONANCES ? group : TASK_RESONANCES;
 }
 
 /* What a search has found. A pendulum whose area has no peak in the range is a point without a

@@ -13,10 +13,9 @@
 #include <string.h>
 
 #include "scenes/columns.h"
+#include "scenes/numbers.h"
 #include "scenes/peak.h"
 #include "scenes/points.h"
-
-enum { CHUNK = 16 /* points a task */ };
 
 typedef struct grid {
   scene_run *run;
@@ -92,7 +91,7 @@ static void judge(const scene_some *some, size_t i)
 static pendres_status compute(const scene_some *some)
 {
   const grid *g = some->of->arg;
-  pendres_pendulum pendulums[CHUNK] = { 0 };
+  pendres_pendulum pendulums[TASK_ATTRACTORS] = { 0 };
   for (size_t i = 0; i < some->n; i++) pendulums[i] = pendulum_at(g, some->first + i);
   const pendres_status status =
     pendres_response_find(some->ctx, some->n, pendulums, &g->ensemble, some->rows);
@@ -365,8 +364,9 @@ static pendres_status run_scene(scene_run *run)
   grid g = {.run = run, .d = d,
             .sweep = scene_sweep(d),
             .ensemble = scene_ensemble(d),
-            .points = {.size = sizeof(pendres_response), .chunk = CHUNK, .compute = compute,
-                       .too_long = point_too_long, .leave_out = no_response, .check = check,
+            .points = {.size = sizeof(pendres_response), .chunk = TASK_ATTRACTORS,
+                       .compute = compute, .too_long = point_too_long,
+                       .leave_out = no_response, .check = check,
                        .what = "response", .arg = &g},
             .peaks = {.size = sizeof(scene_peak), .chunk = 1, .compute = find_peak,
                       .too_long = peak_too_long, .leave_out = no_peak, SCENE_COLUMNS(of_peaks),

@@ -1,0 +1,40 @@
+/*
+ * numbers.h -- how scenes are cut into tasks, and other numbers that were chosen for them, each
+ * with its reason. A task takes a second or so. Results do not depend on how a scene is cut.
+ */
+#ifndef SCENES_NUMBERS_H
+#define SCENES_NUMBERS_H
+
+enum {
+  /* Points of a task whose pendulums are advanced side by side: full blocks, and tasks enough for
+     many threads. Of those that search, follow, or have ensembles there are fewer. */
+  SCENE_PENDULUMS = 192,
+  TASK_ATTRACTORS = 16,   /* values whose attractors are found together, to fill blocks */
+  TASK_RESONANCES = 8,    /* at most, and so few that there are ... */
+  RESONANCE_TASKS = 12,   /* ... as many tasks as this */
+  TASK_EXPONENTS = 8192,  /* pendulums */
+  TASK_SAMPLES = 65536,   /* of a record, or one period */
+  TASK_STATES = 65536,    /* of a basin: whole rows of about this number */
+  TASK_REFINED = 4096,    /* states in a refinement: several blocks; fewer are not worth a stage */
+  TASK_LOST = 64,         /* unresolved states that a task remembers */
+  BASINS_BAND = 1 << 24   /* states that a plan holds at a time */
+};
+
+/* States that a refinement has filled are verified: so many of them, or one of so many if these are
+   more. */
+enum { BASINS_LEAST_SAMPLE = 10000, BASINS_SAMPLED = 256 };
+
+/* Passes again with attractors that unresolved states have shown. */
+enum { BASINS_EXTENSIONS = 4 };
+
+/* Following branches and curves through a point takes as long as settling its members again. */
+enum { LINES_RUNS_A_POINT = 5 };
+
+/* The spacing of branches that are not written: it may be sparse. */
+static const double lines_sparse = 0.1;
+
+/* Strobe points that a dimension is measured from, at most; segments of a spectrum, without
+   overlap, if the deck does not say; tolerances below which distances are not looked at. */
+enum { ORBIT_POINTS = 32768, ORBIT_SEGMENTS = 16, ORBIT_RESOLUTION = 100 };
+
+#endif
