@@ -40,22 +40,24 @@ static double values_of(const deck *d)
   return size_of(d)->values != NULL ? size_of(d)->values(d) : 0.0;
 }
 
+static scene_more more_of(const deck *d, const farm_trial *t)
+{
+  const scene_size *s = size_of(d);
+  return s->more != NULL ? s->more(d, t, points_of(d)) : (scene_more){0.0, 0.0};
+}
+
 /* Bytes of the output. t: what a trial has shown; NULL: none. */
 static double estimate_output(const deck *d, const farm_trial *t)
 {
   const scene_size *s = size_of(d);
-  const double points = points_of(d);
-  return s->head + s->point * points + s->value * values_of(d) +
-         (s->more_output != NULL ? s->more_output(d, t, points) : 0.0);
+  return s->head + s->point * points_of(d) + s->value * values_of(d) + more_of(d, t).output;
 }
 
 /* Bytes of memory with this number of threads. */
 static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 {
-  const scene_size *s = size_of(d);
-  const double points = points_of(d);
-  return program_memory + thread_memory * threads + s->memory * points + 16.0 * values_of(d) +
-         (s->more_memory != NULL ? s->more_memory(d, t, points) : 0.0);
+  return program_memory + thread_memory * threads + size_of(d)->memory * points_of(d) +
+         16.0 * values_of(d) + more_of(d, t).memory;
 }
 
 static double estimate_journal(const deck *d, const farm_trial *t)

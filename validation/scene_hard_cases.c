@@ -145,8 +145,7 @@ static const scene_cell cells[] = {
 
 static void report(scene_run *run, work *w)
 {
-  const scene_table table = {.dimensions = {"case"}, .n = w->rows, .stride = sizeof *w->row,
-                             .rows = w->row};
+  const scene_table table = {.dimensions = {"case"}, SCENE_ROWS(w->row, w->rows)};
   scene_numbering(run, "case", w->rows, "case, by number");
   for (size_t k = 0; k < w->rows; k++) run->failed_points += !w->row[k].holds;
   SCENE_WRITE(run, &table, columns);

@@ -169,8 +169,7 @@ static void write_left_out(scene_run *run, const work *w)
     .long_name = "members left out of the largest errors: what was off at the start is 1000-fold "
                  "there"};
   double left_out[WORK_UNIT_MARKS];
-  const scene_table table = {.dimensions = {"mark"}, .n = WORK_UNIT_MARKS,
-                             .stride = sizeof *left_out, .rows = left_out};
+  const scene_table table = {.dimensions = {"mark"}, SCENE_ROWS(left_out, WORK_UNIT_MARKS)};
   for (int m = 0; m < WORK_UNIT_MARKS; m++) left_out[m] = (double)left_out_of(w, m);
   const pendres_store_spec marks = {.name = "mark", .type = PENDRES_STORE_INT64,
                                     .long_name = "drive periods after which errors are measured"};
@@ -186,8 +185,7 @@ static void write_settling(scene_run *run, const settling *settled)
     SCENE_COLUMN(settling, seconds, "time for each of them", "s"),
     SCENE_COLUMN(settling, resolved, "share of them that got an answer", "1"),
   };
-  const scene_table table = {.prefix = "settling", .n = 1, .stride = sizeof *settled,
-                             .rows = settled};
+  const scene_table table = {.prefix = "settling", SCENE_ROWS(settled, 1)};
   SCENE_WRITE(run, &table, about);
 }
 
@@ -199,7 +197,7 @@ static void write_speeds(scene_run *run, const char *group, size_t methods,
                                .long_name = "pendulum-periods a second at an error",
                                .comment = comment};
   const scene_table table = {.group = group, .dimensions = {"method", "error"},
-                             .n = methods * ERRORS, .stride = sizeof *speed, .rows = speed};
+                             SCENE_ROWS(speed, methods * ERRORS)};
   const pendres_store_spec method = {.group = group, .name = "method", .long_name = "method",
                                      .type = PENDRES_STORE_STRING};
   const pendres_store_spec error = {.group = group, .name = "error",
@@ -241,8 +239,8 @@ static void write_results(scene_run *run, const work *w, const scene_table *benc
   const pendres_store_spec unit = {.name = "unit", .long_name = "pendulums that were run",
                                    .type = PENDRES_STORE_STRING};
   const char *words = w->d->unit;
-  const scene_table methods = {.dimensions = {"method"}, .n = w->methods,
-                               .stride = sizeof *w->d->methods.name, .rows = w->d->methods.name};
+  const scene_table methods = {.dimensions = {"method"},
+                               SCENE_ROWS(w->d->methods.name, w->methods)};
   scene_numbering(run, "method", w->methods, "method, by number");
   scene_columns_write(run, &methods, 1, &name);
   scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
@@ -297,8 +295,7 @@ static void tell(scene_run *run, const work *w)
 {
   const size_t n = w->methods * w->tolerances;
   row *rows = scene_array(run, n, sizeof *rows);
-  const scene_table benchmarks = {.dimensions = {"method", "tolerance"}, .n = n,
-                                   .stride = sizeof *rows, .rows = rows};
+  const scene_table benchmarks = {.dimensions = {"method", "tolerance"}, SCENE_ROWS(rows, n)};
   if (rows == NULL) return;
   for (size_t i = 0; i < n; i++) {
     rows[i] = row_of(w, i);

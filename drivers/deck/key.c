@@ -1,4 +1,5 @@
 /* key.c -- the values of one key: type, range, choice, default; see table.h. */
+#include "deck/namelist_lex.h"
 #include "deck/table.h"
 
 #include <math.h>
@@ -55,7 +56,7 @@ static int same_choice(const char *a, const char *b)
 {
   size_t i = 0;
   for (; a[i] != '\0' && b[i] != '\0'; i++)
-    if ((a[i] >= 'A' && a[i] <= 'Z' ? a[i] + 32 : a[i]) != b[i]) return 0;
+    if (lex_lower(a[i]) != b[i]) return 0;
   return a[i] == b[i];
 }
 

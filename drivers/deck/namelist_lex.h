@@ -1,6 +1,6 @@
 /*
  * namelist_lex.h -- the characters of a namelist: position, character classes, looking ahead.
- * Internal to the reader (namelist_parse.c, namelist_text.c).
+ * Internal to the reader of decks.
  */
 #ifndef NAMELIST_LEX_H
 #define NAMELIST_LEX_H

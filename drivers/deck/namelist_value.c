@@ -5,7 +5,7 @@
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L /* uselocale */
 #endif
-#include "deck/namelist.h"
+#include "deck/namelist_lex.h"
 #include "system/grow.h"
 
 #include <errno.h>
@@ -45,20 +45,10 @@ static int refuse(const namelist *nl, const namelist_value *v, const char *key, 
   return 0;
 }
 
-static int lower(char c)
-{
-  return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c;
-}
-
-static int is_digit(char c)
-{
-  return c >= '0' && c <= '9';
-}
-
 static size_t count_digits(const char *t, size_t n)
 {
   size_t i = 0;
-  while (i < n && is_digit(t[i])) i++;
+  while (i < n && lex_is_digit(t[i])) i++;
   return i;
 }
 
@@ -68,7 +58,7 @@ static size_t match_word(const char *t, size_t n, const char *word)
   const size_t length = strlen(word);
   if (n < length) return 0;
   for (size_t i = 0; i < length; i++)
-    if (lower(t[i]) != word[i]) return 0;
+    if (lex_lower(t[i]) != word[i]) return 0;
   return length;
 }
 
@@ -116,7 +106,7 @@ static int rewrite_real(const char *t, size_t n, char *out)
   memcpy(out, t, i);
   used = i;
   if (i < n) {
-    const int letter = lower(t[i]);
+    const int letter = lex_lower(t[i]);
     const int signed_exponent = t[i] == '+' || t[i] == '-';
     if (letter != 'e' && letter != 'd' && !signed_exponent) return 0;
     out[used++] = 'e';
@@ -208,9 +198,9 @@ int namelist_value_logical(const namelist *nl, const namelist_value *value, cons
     n--;
   }
   /* Fortran looks no further than the first letter. */
-  if (n == 0 || (lower(*t) != 't' && lower(*t) != 'f'))
+  if (n == 0 || (lex_lower(*t) != 't' && lex_lower(*t) != 'f'))
     return refuse(nl, value, key, ".true. or .false.", errors);
-  *out = lower(*t) == 't';
+  *out = lex_lower(*t) == 't';
   return 1;
 }
 

@@ -3,14 +3,10 @@
  * (insertions, deletions, replacements and swaps of neighbours), and the symbols of the
  * literature for what decks spell out.
  */
+#include "deck/namelist_lex.h"
 #include "deck/table.h"
 
 #include <string.h>
-
-static int lower(char c)
-{
-  return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c;
-}
 
 static size_t smaller(size_t a, size_t b)
 {
@@ -27,10 +23,10 @@ static size_t distance(const char *a, size_t m, const char *b, size_t n)
     const size_t *last = row[(i + 2) % 3], *before = row[(i + 1) % 3];
     now[0] = i;
     for (size_t j = 1; j <= n; j++) {
-      const int same = lower(a[i - 1]) == lower(b[j - 1]);
+      const int same = lex_lower(a[i - 1]) == lex_lower(b[j - 1]);
       now[j] = smaller(smaller(last[j], now[j - 1]) + 1, last[j - 1] + !same);
-      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
-          lower(a[i - 2]) == lower(b[j - 1]))
+      if (i > 1 && j > 1 && lex_lower(a[i - 1]) == lex_lower(b[j - 2]) &&
+          lex_lower(a[i - 2]) == lex_lower(b[j - 1]))
         now[j] = smaller(now[j], before[j - 2] + 1);
     }
   }

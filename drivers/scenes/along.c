@@ -280,8 +280,7 @@ void scene_along_write_jumps(scene_run *run, const scene_along_path *path, const
   char words[60];
   scene_along_jump *rows = scene_array(run, path->jumps, sizeof *rows);
   for (size_t i = 0; rows != NULL && i < path->jumps; i++) rows[i] = jump_row(&path->jump[i]);
-  const scene_table table = {.dimensions = {what}, .prefix = what, .n = path->jumps,
-                             .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {.dimensions = {what}, .prefix = what, SCENE_ROWS(rows, path->jumps)};
   snprintf(words, sizeof words, "number of the %s", what);
   scene_numbering(run, what, table.n, words);
   scene_columns_write(run, &table, count, columns);

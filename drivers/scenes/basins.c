@@ -372,23 +372,19 @@ static double strobes_of(const deck *d)
   return 4.0 * (double)d->axis[DECK_AXIS_TEMPERATURE].count * (double)d->basins.strobes;
 }
 
+enum { STATE_MEMORY = 30 };
+
 /* Bytes of states that differ from their neighbours in the compressed file, or, where that is not
    known or rows are not computed whole, by the resolution alone, which makes runs of equal states
-   longer; and of a boundary, mostly. */
-static double more_output(const deck *d, const farm_trial *trial, double states)
+   longer; and of a boundary, mostly. Rows are written as they come; records that wait for their
+   turn have 64 MB (farm/pool.c). */
+static scene_more more(const deck *d, const farm_trial *trial, double states)
 {
   const double boundary = d->basins.boundary ? 200e3 : 0.0;
   const int known = trial != NULL && trial->changes > 0.0 && !d->basins.refine;
-  return boundary + (known ? 1.3 * trial->changes : 150.0 * sqrt(states));
-}
-
-enum { STATE_MEMORY = 30 };
-
-/* Rows are written as they come; records that wait for their turn have 64 MB (farm/pool.c). */
-static double more_memory(const deck *d, const farm_trial *trial, double states)
-{
-  (void)trial;
-  return d->basins.refine ? 0.0 : fmin(64e6 - STATE_MEMORY * states, 0.0);
+  return (scene_more){
+    .output = boundary + (known ? 1.3 * trial->changes : 150.0 * sqrt(states)),
+    .memory = d->basins.refine ? 0.0 : fmin(64e6 - STATE_MEMORY * states, 0.0)};
 }
 
 const scene_kind scene_basins = {
@@ -403,8 +399,7 @@ const scene_kind scene_basins = {
     "chapter VIII.6.",
   .budget = 1,
   .size = {.head = 75e3, .point = 0.12, .memory = STATE_MEMORY, .stages = 1.0, .after = 1.2,
-           .seconds = 4e-6, .values = strobes_of, .value = 7.0, .more_output = more_output,
-           .more_memory = more_memory},
+           .seconds = 4e-6, .values = strobes_of, .value = 7.0, .more = more},
   .counts_escapes = 1,
   .describe = describe,
   .run = run_scene};

@@ -46,8 +46,9 @@ void basins_write_rows(basins *b, size_t first, size_t rows, const pendres_basin
 /* Everything that is not a state of the grid. */
 void basins_write_results(basins *b);
 
-/* Write how many of the states go to each of the attractors, and to each of their wells. */
-void basins_write_wells(basins *b, size_t attractors);
+/* Write how many of the states go to each of the wells; how many wells an attractor has. */
+void basins_write_wells(basins *b);
+size_t basins_wells_of(const basins *b, int attractor);
 
 /* Print a line where attractors have more than one well. */
 void basins_print_wells(const basins *b, FILE *out);

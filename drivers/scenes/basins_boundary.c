@@ -24,10 +24,9 @@ static void put_boundary(scene_run *run, const pendres_boundary *curve)
   /* The error of v is that of x divided by the unit of time. */
   const double time = deck_pendulum_units(run->deck).time;
   row *rows = scene_array(run, n, sizeof *rows);
-  const scene_table points = {.dimensions = {"boundary_point"}, .prefix = "boundary", .n = n,
-                              .stride = sizeof *rows, .rows = rows};
-  const scene_table all = {.prefix = "boundary", .n = 1, .stride = sizeof complete,
-                           .rows = &complete};
+  const scene_table points = {.dimensions = {"boundary_point"}, .prefix = "boundary",
+                              SCENE_ROWS(rows, n)};
+  const scene_table all = {.prefix = "boundary", SCENE_ROWS(&complete, 1)};
   for (size_t i = 0; rows != NULL && i < n; i++) {
     const double error = curve->error[i];
     rows[i] = (row){curve->x[i], error, curve->v[i], error / time,

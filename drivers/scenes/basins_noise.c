@@ -259,8 +259,7 @@ static void write_clouds(scene_run *run, const cloud_work *w)
 {
   const size_t n = w->temperatures * w->attractors;
   row *rows = scene_array(run, n, sizeof *rows);
-  const scene_table table = {.dimensions = {"temperature", "attractor"}, .n = n,
-                             .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {.dimensions = {"temperature", "attractor"}, SCENE_ROWS(rows, n)};
   const double time = deck_pendulum_units(run->deck).time;
   for (size_t i = 0; rows != NULL && i < n; i++) {
     const double error = w->clouds[i].linear_error;
@@ -276,8 +275,8 @@ static void write_clouds(scene_run *run, const cloud_work *w)
 static void write_failed(scene_run *run, const cloud_work *w)
 {
   const scene_failed *failed = w->prepared.failed;
-  const scene_table table = {.dimensions = {"temperature", "attractor"}, .n = w->prepared.n,
-                             .stride = sizeof *failed, .rows = failed};
+  const scene_table table = {.dimensions = {"temperature", "attractor"},
+                             SCENE_ROWS(failed, w->prepared.n)};
   scene_columns_write_failed(run, &table, "noise_failed",
                              "why there is no whole result for the noisy cloud");
   for (size_t i = 0; scene_going(run) && i < w->prepared.n; i++) {

@@ -3,29 +3,6 @@
 
 #include <string.h>
 
-/* Of each attractor: its states, and its wells. */
-typedef struct count {
-  size_t states, wells;
-} count;
-
-static const scene_column of_attractors[] = {
-  {SCENE_TYPED(SCENE_COUNT, "basin_states", count, states, "states of the grid that go there")},
-  {SCENE_TYPED(SCENE_COUNT, "basin_wells", count, wells, "wells that these states settle in")},
-};
-
-static void write_counts(basins *b, size_t attractors, size_t n, const pendres_basin_well *wells)
-{
-  size_t *states = scene_array(b->run, attractors, sizeof *states);
-  count *rows = scene_array(b->run, attractors, sizeof *rows);
-  if (rows == NULL) return;
-  scene_asked(b->run, pendres_basin_sums_counts(b->sums, states));
-  for (size_t i = 0; i < attractors; i++) rows[i].states = states[i];
-  for (size_t i = 0; i < n; i++) rows[wells[i].attractor].wells++;
-  const scene_table table = {.dimensions = {"attractor"}, .n = attractors, .stride = sizeof *rows,
-                             .rows = rows};
-  SCENE_WRITE(b->run, &table, of_attractors);
-}
-
 /* Of each attractor and well: the states that settle there, and their share of the window. */
 typedef struct well {
   int attractor, number;
@@ -51,8 +28,8 @@ static const scene_column of_wells[] = {
 static void write_each(basins *b, size_t n, const pendres_basin_well *wells)
 {
   well *rows = scene_array(b->run, n, sizeof *rows);
-  const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
-                             .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well",
+                             SCENE_ROWS(rows, n)};
   if (rows == NULL) return;
   for (size_t i = 0; i < n; i++)
     rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states, wells[i].fraction,
@@ -61,14 +38,22 @@ static void write_each(basins *b, size_t n, const pendres_basin_well *wells)
   SCENE_WRITE(b->run, &table, of_wells);
 }
 
-void basins_write_wells(basins *b, size_t attractors)
+void basins_write_wells(basins *b)
 {
   const pendres_basin_well *wells = NULL;
   size_t n = 0;
   if (!scene_going(b->run)) return;
   scene_asked(b->run, pendres_basin_sums_wells(b->sums, &n, &wells));
-  write_counts(b, attractors, n, wells);
   write_each(b, n, wells);
+}
+
+size_t basins_wells_of(const basins *b, int attractor)
+{
+  const pendres_basin_well *wells = NULL;
+  size_t n = 0, count = 0;
+  if (pendres_basin_sums_wells(b->sums, &n, &wells) != PENDRES_OK) return 0;
+  for (size_t i = 0; i < n; i++) count += wells[i].attractor == attractor;
+  return count;
 }
 
 void basins_print_wells(const basins *b, FILE *out)

@@ -112,6 +112,7 @@ typedef struct row {
   size_t number;
   pendres_attractor of;
   double basin_fraction, basin_fraction_error;
+  size_t basin_states, basin_wells;
   double period, winding; /* of the orbit; NaN for chaos, which has none */
 } row;
 
@@ -136,13 +137,22 @@ static const scene_column of_attractors[] = {
               "counts are basin_states"},
 };
 
-static void make_rows(const basins *b, const double *fraction, const double *error, row *rows)
+static const scene_column of_wells[] = {
+  SCENE_COLUMN_OF(SCENE_COUNT, row, basin_states, "states of the grid that go there"),
+  SCENE_COLUMN_OF(SCENE_COUNT, row, basin_wells, "wells that these states settle in"),
+};
+
+static void make_rows(basins *b, const double *fraction, const double *error, row *rows)
 {
+  size_t *states = scene_array(b->run, pendres_attractors_count(b->set), sizeof *states);
+  if (states == NULL) return;
+  scene_asked(b->run, pendres_basin_sums_counts(b->sums, states));
   for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
     const pendres_attractor *a = pendres_attractors_get(b->set, i);
     const int closed = a->orbit.period > 0;
     rows[i] = (row){.number = i, .of = *a,
                     .basin_fraction = fraction[i], .basin_fraction_error = error[i],
+                    .basin_states = states[i], .basin_wells = basins_wells_of(b, (int)i),
                     .period = closed ? a->orbit.period : NAN,
                     .winding = closed ? a->orbit.winding : NAN};
   }
@@ -150,14 +160,14 @@ static void make_rows(const basins *b, const double *fraction, const double *err
 
 static void write_attractors(basins *b, size_t n, const row *rows)
 {
-  const scene_table table = {.dimensions = {"attractor"}, .n = n, .stride = sizeof *rows,
-                             .rows = rows};
-  const scene_table orbits = {.dimensions = {"attractor"}, .prefix = "attractor", .n = n,
-                              .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {.dimensions = {"attractor"}, SCENE_ROWS(rows, n)};
+  const scene_table orbits = {.dimensions = {"attractor"}, .prefix = "attractor",
+                              SCENE_ROWS(rows, n)};
   scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
   SCENE_WRITE(b->run, &table, of_attractors);
   scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
-  basins_write_wells(b, n);
+  SCENE_WRITE(b->run, &table, of_wells);
+  basins_write_wells(b);
 }
 
 /* ---- statistics ---------------------------------------------------------------------------- */
@@ -190,8 +200,8 @@ static void write_statistics(basins *b, const pendres_basin_statistics *s)
   static const scene_column random = {
     .name = "uncertainty_random_states", .type = SCENE_COUNT,
     .long_name = "random states that the exponent is from; 0: the states of the grid"};
-  const scene_table whole = {.n = 1, .stride = sizeof *s, .rows = s};
-  const scene_table states = {.n = 1, .stride = sizeof b->random_states, .rows = &b->random_states};
+  const scene_table whole = {SCENE_ROWS(s, 1)};
+  const scene_table states = {SCENE_ROWS(&b->random_states, 1)};
   const scene_table distances = {.dimensions = {"distance"}, .n = (size_t)s->scales,
                                  .stride = sizeof s->uncertain[0], .rows = s};
   const pendres_store_spec distance = {.name = "distance",
@@ -236,7 +246,7 @@ static const scene_column of_escapes[] = {
 
 static void write_escapes(basins *b, const pendres_basin_statistics *s)
 {
-  const scene_table table = {.n = 1, .stride = sizeof *s, .rows = s};
+  const scene_table table = {SCENE_ROWS(s, 1)};
   if (b->d->pendulum.force == PENDRES_FORCE_POLYNOMIAL) SCENE_WRITE(b->run, &table, of_escapes);
 }
 
@@ -245,7 +255,7 @@ static void write_counts(basins *b)
   const counts of = {
     b->unresolved, b->uncertain, b->integrated, b->grid.nx * b->grid.nv - b->integrated,
     b->verified, b->missed, (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean))};
-  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  const scene_table table = {SCENE_ROWS(&of, 1)};
   SCENE_WRITE(b->run, &table, of_counts);
   if (b->d->basins.refine) SCENE_WRITE(b->run, &table, of_refinement);
 }
@@ -329,7 +339,7 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, size
                         const row *rows)
 {
   FILE *out = b->run->table;
-  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {SCENE_ROWS(rows, n)};
   SCENE_PRINT(out, &table, n, cells, NULL);
   if (s->escaped > 0)
     fprintf(out, "%-13s%72s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,

@@ -140,14 +140,6 @@ static void no_strobes(const scene_points *p, size_t point, void *row)
   for (size_t k = 0; k < 2 * w->strobes; k++) x[k] = NAN;
 }
 
-/* Any numbers may be states. */
-static int check_strobes(const scene_points *p, const void *row)
-{
-  (void)p;
-  (void)row;
-  return 1;
-}
-
 /* The well number 0. */
 static double within_a_turn(const deck *d, double x)
 {
@@ -236,9 +228,8 @@ static void write_values(scene_run *run, const work *w)
   const size_t n = w->values.n;
   scene_along_row *rows = scene_along_rows(run, &w->path);
   const scene_table strobes = {.dimensions = {axis, "strobe"}, .prefix = "strobe",
-                               .n = n * w->strobes, .stride = sizeof *w->strobe,
-                               .rows = w->strobe};
-  const scene_table points = {.dimensions = {axis}, .n = n, .stride = sizeof *rows, .rows = rows};
+                               SCENE_ROWS(w->strobe, n * w->strobes)};
+  const scene_table points = {.dimensions = {axis}, SCENE_ROWS(rows, n)};
   const scene_table counts = {.dimensions = {axis}, .n = w->counts.n, .stride = w->counts.size,
                               .rows = w->counts.rows};
   mark_more(run, w, &w->counts, "attractors", rows);
@@ -257,7 +248,7 @@ static void write_cascade(scene_run *run, const pendres_cascade *c)
   const scene_table doublings = {.dimensions = {"cascade"}, .prefix = "cascade",
                                  .n = (size_t)c->doublings, .stride = sizeof c->value[0],
                                  .rows = c};
-  const scene_table whole = {.prefix = "cascade", .n = 1, .stride = sizeof *c, .rows = c};
+  const scene_table whole = {.prefix = "cascade", SCENE_ROWS(c, 1)};
   scene_numbering(run, "cascade", doublings.n, "number of the doubling");
   scene_columns_write(run, &doublings, 1, &of_doublings);
   SCENE_WRITE(run, &whole, of_cascade);
@@ -309,7 +300,7 @@ static pendres_status run_scene(scene_run *run)
                         .compute = find_cascade, .leave_out = no_cascade, .check = check_cascade,
                         .what = "the cascade of doublings", .arg = &w},
             .values = {.size = 2 * strobes * sizeof(double), .chunk = 1, .compute = find_strobes,
-                       .leave_out = no_strobes, .check = check_strobes,
+                       .leave_out = no_strobes,
                        .collect = collect_strobes, .arg = &w}};
   scene_points_over(&w.counts, d, 1, axis);
   scene_points_over(&w.values, d, 1, axis);

@@ -113,7 +113,7 @@ static void write_branches(const scene_lines *l)
   if (rows == NULL) return;
   (void)take_points(l, rows);
   const scene_table table = {.dimensions = {"point"}, .prefix = "branch", .inner = "multiplier",
-                             .n = n, .stride = sizeof *rows, .rows = rows};
+                             SCENE_ROWS(rows, n)};
   scene_numbering(l->run, "point", n, "number of the point, in order along each branch");
   scene_numbering(l->run, "multiplier", 2, "Floquet multiplier, the larger modulus first");
   scene_lines_write_places(l, &table, NULL, sizeof of_points / sizeof *of_points, of_points);
@@ -170,7 +170,7 @@ static void write_backbone(const scene_lines *l)
   double error[BACKBONE], damping[BACKBONE];
   backbone_row rows[BACKBONE];
   const scene_table table = {.dimensions = {"backbone_damping"}, .prefix = "backbone",
-                             .n = BACKBONE, .stride = sizeof *rows, .rows = rows};
+                             SCENE_ROWS(rows, BACKBONE)};
   const pendres_store_spec along = {.name = "backbone_damping",
                                     .long_name = "friction coefficient"};
   pendres_context *ctx = scene_context(l->run);
@@ -261,7 +261,7 @@ static void write_rotations(const scene_lines *l)
   }
   const scene_table table = {
     .dimensions = {deck_axis_name(l->points.axis[0]), deck_axis_name(l->points.axis[1])},
-    .prefix = "rotation", .n = l->points.n, .stride = sizeof *rows, .rows = rows};
+    .prefix = "rotation", SCENE_ROWS(rows, l->points.n)};
   SCENE_WRITE(l->run, &table, of_rotations);
 }
 
@@ -335,7 +335,7 @@ static void print_table(FILE *out, const scene_lines *l)
   };
   const size_t n = take_parts(l, NULL);
   part *rows = scene_array(l->run, n, sizeof *rows);
-  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {SCENE_ROWS(rows, n)};
   if (rows == NULL) return;
   (void)take_parts(l, rows);
   char across[DECK_NAME], along[DECK_NAME];

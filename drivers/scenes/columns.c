@@ -390,8 +390,7 @@ static const scene_column of_paper[] = {
 void scene_write_paper(scene_run *run, size_t n, scene_printed *values)
 {
   const char **name = scene_array(run, n, sizeof *name);
-  const scene_table table = {.group = "paper", .dimensions = {"quantity"}, .n = n,
-                             .stride = sizeof *values, .rows = values};
+  const scene_table table = {.group = "paper", .dimensions = {"quantity"}, SCENE_ROWS(values, n)};
   const pendres_store_spec quantity = {.group = "paper", .name = "quantity",
                                        .type = PENDRES_STORE_STRING, .long_name = "quantity"};
   if (n == 0 || name == NULL) return;

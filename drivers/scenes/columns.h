@@ -81,6 +81,9 @@ typedef struct scene_table {
   int deflate;               /* level of compression; 0: as the file has it */
 } scene_table;
 
+/* The rows of a table: n of an array, or a single struct. */
+#define SCENE_ROWS(array, count) .n = count, .stride = sizeof *(array), .rows = array
+
 /* Write all columns; their dimensions exist. SCENE_WRITE writes those of an array. */
 void scene_columns_write(scene_run *run, const scene_table *table, size_t count,
                          const scene_column *columns);

@@ -62,8 +62,7 @@ static row row_of(const scene_lines *l, const pendres_orbit *o, const double err
 static void write_table(const scene_lines *l, const char *dimension, size_t n,
                         const row *rows)
 {
-  const scene_table table = {.dimensions = {dimension}, .prefix = dimension, .n = n,
-                             .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {.dimensions = {dimension}, .prefix = dimension, SCENE_ROWS(rows, n)};
   const scene_column *rest = dimension[0] == 'b' ? of_bifurcations
                              : dimension[1] == 'o' ? of_folds
                                                    : of_flips;
@@ -148,7 +147,7 @@ static void write_cusp(const scene_lines *l)
 static void write_failed(const scene_lines *l)
 {
   const scene_failed of = {scene_failure_of(pendres_phase_diagram_get(l->diagram).outcome), NULL};
-  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  const scene_table table = {SCENE_ROWS(&of, 1)};
   scene_columns_write_failed(l->run, &table, "curves_failed",
                              "why the curves of bifurcations are not whole");
 }

@@ -58,7 +58,7 @@ static void write(scene_run *run, deck_axis_id axis, const scene_along_path *pat
 {
   const scene_along_row *rows = scene_along_rows(run, path);
   const scene_table table = {.dimensions = {"direction", deck_axis_name(axis)},
-                             .n = path->points, .stride = sizeof *rows, .rows = rows};
+                             SCENE_ROWS(rows, path->points)};
   const pendres_store_spec ways = {.name = "direction", .type = PENDRES_STORE_STRING,
                                    .long_name = "way in which the parameter goes"};
   scene_put_dimension(run, &ways, directions, SCENE_DIRECTIONS);
@@ -117,13 +117,13 @@ static void describe(const deck *d, FILE *out)
 }
 
 /* Bytes of a ramp, and of what noise does to it. */
-static double ramp_output(const deck *d, const farm_trial *trial, double points)
+static scene_more more(const deck *d, const farm_trial *trial, double points)
 {
   (void)trial;
   (void)points;
-  if (!deck_has_ramp(d)) return 0.0;
+  if (!deck_has_ramp(d)) return (scene_more){0.0, 0.0};
   const double trajectories = deck_has_noise(d) ? (double)d->noise.trajectories : 0.0;
-  return 45.0 * 2.0 * (double)d->ramp.points + 14.0 * trajectories;
+  return (scene_more){.output = 45.0 * 2.0 * (double)d->ramp.points + 14.0 * trajectories};
 }
 
 const scene_kind scene_hysteresis = {
@@ -133,7 +133,7 @@ const scene_kind scene_hysteresis = {
   .budget = 1,
   .size = {.head = 40e3, .point = 240.0, .memory = 60e3, .stages = 1.0, .after = 1.0,
            .seconds = 0.03, .slowest = SCENE_SLOWEST_BRANCH,
-           .journal = SCENE_DIRECTIONS * SCENE_PATH_JOURNAL, .more_output = ramp_output},
+           .journal = SCENE_DIRECTIONS * SCENE_PATH_JOURNAL, .more = more},
   .one_temperature = 1,
   .describe = describe,
   .run = run_scene,

@@ -19,10 +19,10 @@
 #include "scenes/orbit.h"
 
 /* A part of the record, with its samples. */
-typedef struct part {
+typedef struct chunk {
   orbit_way way;
   double samples[];
-} part;
+} chunk;
 
 static long periods_of(const orbit_work *w, size_t number)
 {
@@ -189,7 +189,7 @@ static pendres_status sample(const scene_some *some)
 {
   const orbit_work *w = some->of->arg;
   const orbit_found *f = &w->found;
-  part *r = some->rows;
+  chunk *r = some->rows;
   const pendres_record out = samples_in(w, r->samples);
   const long periods = periods_of(w, some->first);
   const pendres_orbit_stretch stretch = { f->well, (long)some->first * w->chunk, periods,
@@ -205,10 +205,10 @@ static pendres_status sample(const scene_some *some)
 }
 
 /* The recording has to be that of the deck, or unused. */
-static int check_part(const scene_points *p, const void *row)
+static int check_chunk(const scene_points *p, const void *row)
 {
   const orbit_work *w = p->arg;
-  const orbit_way *way = &((const part *)row)->way;
+  const orbit_way *way = &((const chunk *)row)->way;
   const pendres_recording *r = &way->recording;
   const int unused = r->samples == 0 && r->periods == 0 && r->stretch == 0;
   return scene_check_code(way->gone, 2) &&
@@ -218,7 +218,7 @@ static int check_part(const scene_points *p, const void *row)
 static pendres_status collect(const scene_points *p, size_t number, size_t n, const void *rows)
 {
   orbit_work *w = p->arg;
-  const part *r = rows;
+  const chunk *r = rows;
   const long first = (long)number * w->chunk, periods = periods_of(w, number);
   (void)n;
   memcpy(&w->way, &r->way, sizeof w->way);
@@ -240,12 +240,12 @@ static pendres_status run_scene(scene_run *run)
                    .search = {.n = 1, .chunk = 1, .size = sizeof(orbit_found), .compute = find,
                               .too_long = too_long, .leave_out = leave_out, .check = check_found,
                               .what = "what the pendulum settles on", .rows = &w.found, .arg = &w},
-                   .parts = {.chunk = 1, .compute = sample, .check = check_part,
+                   .parts = {.chunk = 1, .compute = sample, .check = check_chunk,
                              .collect = collect, .unmarked = 1, .arg = &w} };
   w.chunk = whole < 1 ? 1 : whole < all ? whole : all;
   w.parts.n = (size_t)((all + w.chunk - 1) / w.chunk);
   w.room = (size_t)w.chunk * (size_t)d->orbit.samples + 1;
-  w.parts.size = sizeof(part) + 4 * w.room * sizeof(double);
+  w.parts.size = sizeof(chunk) + 4 * w.room * sizeof(double);
   SCENE_COMPUTE(run, &w.search, "orbits", .cheap = 1);
   scene_orbit_put_found(&w);
   scene_orbit_measure_begin(&w);
@@ -274,11 +274,11 @@ static double samples_of(const deck *d)
 }
 
 /* Samples beyond the first ones are stored with little gain, in some bytes less. */
-static double more_output(const deck *d, const farm_trial *trial, double samples)
+static scene_more more(const deck *d, const farm_trial *trial, double samples)
 {
   (void)d;
   (void)trial;
-  return -21.0 * fmax(samples - 2000.0, 0.0);
+  return (scene_more){.output = -21.0 * fmax(samples - 2000.0, 0.0)};
 }
 
 const scene_kind scene_orbit = {
@@ -287,7 +287,7 @@ const scene_kind scene_orbit = {
                 "pendulum, Figs. 5 and 6",
   .budget = 1,
   .size = {.head = 45e3, .point = 36.0, .memory = 60.0, .stages = 1.0, .after = 1.0,
-           .seconds = 1e-5, .points = samples_of, .more_output = more_output},
+           .seconds = 1e-5, .points = samples_of, .more = more},
   .describe = describe,
   .run = run_scene,
 };

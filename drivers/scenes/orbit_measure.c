@@ -127,12 +127,11 @@ static void put_dimensions(orbit_work *w)
     &w->pendulum, w->found.of.lyapunov, w->found.of.lyapunov_error, &d.lyapunov_dimension_error);
   d.correlation_dimension = c->dimension;
   d.correlation_dimension_error = c->dimension_error;
-  const scene_table table = {.n = 1, .stride = sizeof d, .rows = &d};
+  const scene_table table = {SCENE_ROWS(&d, 1)};
   SCENE_WRITE(w->run, &table, of_dimensions);
   if (c->scales == 0) return;
   for (int k = 0; k < c->scales; k++) rows[k] = (row){c->sum[k], c->sum_error[k]};
-  const scene_table scales = {.dimensions = {"distance"}, .n = (size_t)c->scales,
-                              .stride = sizeof *rows, .rows = rows};
+  const scene_table scales = {.dimensions = {"distance"}, SCENE_ROWS(rows, (size_t)c->scales)};
   put_over(w->run, &scales, "distance of strobe points", c->distance, of_distances);
 }
 
@@ -142,8 +141,7 @@ static void put_spectrum(orbit_work *w)
   const size_t n = pendres_spectrum_count(s);
   double *frequency = scene_array(w->run, 3 * n, sizeof *frequency);
   row *rows = scene_array(w->run, n, sizeof *rows);
-  const scene_table table = {.dimensions = {"frequency"}, .n = n, .stride = sizeof *rows,
-                             .rows = rows};
+  const scene_table table = {.dimensions = {"frequency"}, SCENE_ROWS(rows, n)};
   if (rows == NULL) return;
   const pendres_status status =
     pendres_spectrum_get(s, frequency, frequency + n, frequency + 2 * n);

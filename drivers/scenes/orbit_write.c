@@ -115,7 +115,7 @@ static void put_label(scene_run *run, const orbit_work *w)
                      : unresolved                          ? SCENE_FAILURE_UNRESOLVED
                                                            : SCENE_FAILURE_NONE;
   const verdict of = {(int)w->found.of.label, w->found.uncertain, failed};
-  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  const scene_table table = {SCENE_ROWS(&of, 1)};
   const scene_column label = {SCENE_TYPED(SCENE_FLAG, "label", verdict, label,
                                           "kind of attractor"),
     .names = pendres_pendulum_leaves(&w->pendulum) ? scene_fate_names : scene_label_names};
@@ -142,8 +142,7 @@ static void put_multipliers(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
   multiplier rows[MULTIPLIERS];
-  const scene_table table = {.dimensions = {"multiplier"}, .n = MULTIPLIERS,
-                             .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {.dimensions = {"multiplier"}, SCENE_ROWS(rows, MULTIPLIERS)};
   for (int i = 0; i < MULTIPLIERS; i++)
     rows[i] = f->closed ? (multiplier){f->of.orbit.multiplier_re[i], f->of.orbit.multiplier_im[i],
                                        f->of.orbit.multiplier_error}
@@ -182,8 +181,7 @@ void scene_orbit_put_samples(orbit_work *w, long first, long periods, const doub
   const size_t at = (size_t)first * count;
   const scene_variables of = {ORBIT_VARIABLES, of_samples, w->variable};
   sample *rows = calloc(n + 1, sizeof *rows);
-  const scene_table table = {.dimensions = {"sample"}, .n = n, .stride = sizeof *rows,
-                             .rows = rows};
+  const scene_table table = {.dimensions = {"sample"}, SCENE_ROWS(rows, n)};
   if (rows == NULL) scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
   for (size_t k = 0; rows != NULL && k < n; k++) rows[k] = sample_of(w, at + k, samples + k);
   scene_columns_write_rows(w->run, &table, at, n, &of);

@@ -7,6 +7,8 @@
 #include "scenes/lines.h"
 #include "scenes/numbers.h"
 
+#include <math.h>
+
 static void describe(const deck *d, FILE *out)
 {
   fprintf(out, "regimes of ");
@@ -82,18 +84,13 @@ static pendres_status run_scene(scene_run *run)
 
 /* A diagram keeps the records of its lines, and its curves are longer the more orbits are in
    these: bytes of output a byte of a line's, and of memory a byte. */
-static double more_output(const deck *d, const farm_trial *trial, double points)
+static scene_more more(const deck *d, const farm_trial *trial, double points)
 {
   (void)d;
   (void)points;
-  return trial != NULL && trial->tasks > 0 ? 0.57 * trial->journal / (double)trial->tasks : 0.0;
-}
-
-static double more_memory(const deck *d, const farm_trial *trial, double points)
-{
-  (void)d;
-  (void)points;
-  return trial != NULL ? 1.5 * trial->journal : 0.0;
+  if (trial == NULL) return (scene_more){0.0, 0.0};
+  const double tasks = fmax((double)trial->tasks, 1.0);
+  return (scene_more){.output = 0.57 * trial->journal / tasks, .memory = 1.5 * trial->journal};
 }
 
 const scene_kind scene_phase_diagram = {
@@ -103,6 +100,6 @@ const scene_kind scene_phase_diagram = {
                 "Bifurcation Theory, chapters 9 and 10",
   .budget = 1,
   .size = {.head = 60e3, .point = 17.0, .memory = 300.0, .stages = 3.0, .after = 1.2,
-           .seconds = 1e-3, .more_output = more_output, .more_memory = more_memory},
+           .seconds = 1e-3, .more = more},
   .describe = describe,
   .run = run_scene};

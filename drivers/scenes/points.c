@@ -28,24 +28,24 @@ typedef struct stage_points {
 } stage_points;
 
 /* Points of a task: of which kind, number of the first, and how many. */
-typedef struct part {
+typedef struct chunk {
   scene_points *of;
   size_t first, n;
-} part;
+} chunk;
 
 static size_t tasks_of(const scene_points *p)
 {
   return (p->n + p->chunk - 1) / p->chunk;
 }
 
-static part part_of(const stage_points *s, size_t task)
+static chunk chunk_of(const stage_points *s, size_t task)
 {
   size_t k = 0;
   task -= s->own->tasks;
   for (; task >= tasks_of(s->points[k]); k++) task -= tasks_of(s->points[k]);
   scene_points *p = s->points[k];
   const size_t first = task * p->chunk, left = p->n - first;
-  return (part){p, first, left < p->chunk ? left : p->chunk};
+  return (chunk){p, first, left < p->chunk ? left : p->chunk};
 }
 
 /* ---- computing ----------------------------------------------------------------------------- */
@@ -172,7 +172,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
 {
   const stage_points *s = arg;
   if (task < s->own->tasks) return s->own->task(s->own->arg, task, ctx, out);
-  const part t = part_of(s, task);
+  const chunk t = chunk_of(s, task);
   const size_t bytes = t.n * t.of->size;
   work w = {.run = s->run, .p = t.of, .ctx = ctx, .out = out};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
@@ -188,7 +188,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
 /* ---- records ------------------------------------------------------------------------------- */
 
 /* Number k of the marks behind the records of a task; 0: there are no more. */
-static int mark_at(const part *t, const farm_record *in, size_t k, mark *out)
+static int mark_at(const chunk *t, const farm_record *in, size_t k, mark *out)
 {
   const size_t at = t->n * t->of->size + k * sizeof *out;
   if (at >= in->size) return 0;
@@ -200,7 +200,7 @@ static int check(const void *arg, size_t task, const farm_record *in)
 {
   const farm_stage *own = ((const stage_points *)arg)->own;
   if (task < own->tasks) return own->check(own->arg, task, in);
-  const part t = part_of(arg, task);
+  const chunk t = chunk_of(arg, task);
   const scene_points *p = t.of;
   const size_t bytes = t.n * p->size;
   mark m;
@@ -222,7 +222,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   const stage_points *s = arg;
   if (task < s->own->tasks) return s->own->collect(s->own->arg, task, in);
-  const part t = part_of(s, task);
+  const chunk t = chunk_of(s, task);
   scene_points *p = t.of;
   mark m;
   for (size_t k = 0; mark_at(&t, in, k, &m); k++)

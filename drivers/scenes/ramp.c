@@ -192,8 +192,7 @@ static void put_way(scene_run *run, const work *w)
                state_names),
   };
   const scene_table table = {.dimensions = {"direction", "point"}, .prefix = "ramp",
-                             .n = SCENE_DIRECTIONS * w->points, .stride = sizeof *w->rows,
-                             .rows = w->rows};
+                             SCENE_ROWS(w->rows, SCENE_DIRECTIONS * w->points)};
   scene_numbering(run, "point", w->points, "number of the point of a way");
   SCENE_WRITE(run, &table, columns);
   if (!scene_going(run) || w->way.failed[0].reason == SCENE_FAILURE_NONE) return;
@@ -213,8 +212,7 @@ static void put_delays(scene_run *run, const work *w)
      .value = offsetof(pendres_ramp_jump, time),
      .long_name = "drive periods since the ramp's start until then"},
   };
-  const scene_table table = {.dimensions = {"jump"}, .n = w->ramp.jumps,
-                             .stride = sizeof *w->jump, .rows = w->jump};
+  const scene_table table = {.dimensions = {"jump"}, SCENE_ROWS(w->jump, w->ramp.jumps)};
   SCENE_WRITE(run, &table, columns);
 }
 
@@ -228,8 +226,7 @@ static void put_scatter(scene_run *run, const work *w)
     {SCENE_TYPED(SCENE_COUNT, "jump_count", pendres_ramp_summary, count,
                  "trajectories that leave the state")},
   };
-  const scene_table table = {.dimensions = {"jump"}, .n = w->ramp.jumps,
-                             .stride = sizeof *w->summary, .rows = w->summary};
+  const scene_table table = {.dimensions = {"jump"}, SCENE_ROWS(w->summary, w->ramp.jumps)};
   const pendres_store_spec spec = {
     .name = "jump_noisy_parameter", .dimensions = {"jump", "trajectory"}, .units = "1",
     .long_name = "value at which each noisy trajectory leaves the state; NaN: it does not"};

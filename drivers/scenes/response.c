@@ -382,11 +382,11 @@ static pendres_status run_scene(scene_run *run)
 }
 
 /* The records of all points are in memory as long as these are few (scene_large()). */
-static double more_memory(const deck *d, const farm_trial *trial, double points)
+static scene_more more(const deck *d, const farm_trial *trial, double points)
 {
   (void)d;
   (void)trial;
-  return fmin(7e3 * points, (double)SCENE_MEMORY);
+  return (scene_more){.memory = fmin(7e3 * points, (double)SCENE_MEMORY)};
 }
 
 const scene_kind scene_response = {
@@ -396,6 +396,6 @@ const scene_kind scene_response = {
                 "344; H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .budget = 1,
   .size = {.head = 50e3, .point = 128.0, .memory = 300.0, .stages = 2.0, .after = 1.0,
-           .seconds = 4e-4, .more_memory = more_memory},
+           .seconds = 4e-4, .more = more},
   .describe = describe,
   .run = run_scene};

@@ -38,6 +38,10 @@ typedef struct scene_run {
   scene_room room;         /* see scene_array() */
 } scene_run;
 
+typedef struct scene_more {
+  double output, memory;
+} scene_more;
+
 /*
  * What runs of a kind take, for --dry-run. head: bytes that a file has beside its points (headers
  * and provenance); point and memory: bytes of the file and of memory for each point; stages: the
@@ -53,10 +57,9 @@ typedef struct scene_size {
   /* Values that are no points, such as strobe points: how many there are, and bytes of each. */
   double (*values)(const deck *d);
   double value;
-  /* Bytes that output and memory have beside those, at this many points. trial: what a trial has
-     shown; NULL: none. */
-  double (*more_output)(const deck *d, const farm_trial *trial, double points);
-  double (*more_memory)(const deck *d, const farm_trial *trial, double points);
+  /* Bytes that output and memory have beside those, at this many points; may be NULL. trial: what
+     a trial has shown; NULL: none. */
+  scene_more (*more)(const deck *d, const farm_trial *trial, double points);
 } scene_size;
 
 /* Where branches are followed, points hardly take longer at weak damping (measured down to 1e-5);

@@ -314,7 +314,7 @@ static void write_circumstances(scene_run *run, const work *w)
   static const scene_column steps = {SCENE_TYPED(SCENE_NUMBER, "steps_per_period", whole, steps,
                                                  "steps a drive period of the noisy integrator")};
   const whole of = {level, more_steps(w)};
-  const scene_table scalars = {.n = 1, .stride = sizeof of, .rows = &of};
+  const scene_table scalars = {SCENE_ROWS(&of, 1)};
   scene_columns_write(run, &scalars, 1, &confidence);
   const int states = w->way[0] == PENDRES_SWITCHING_FORTH ? STATES : 1;
   for (int s = 0; s < states; s++) {
@@ -394,7 +394,7 @@ static void print_table(scene_run *run, const work *w)
   };
   const size_t n = (size_t)w->told * w->temperatures;
   line *rows = scene_array(run, n, sizeof *rows);
-  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  const scene_table table = {SCENE_ROWS(rows, n)};
   if (rows == NULL) return;
   for (size_t i = 0; i < n; i++)
     rows[i] = line_of(w, w->way[i / w->temperatures], i % w->temperatures);
