@@ -42,7 +42,7 @@ static const char *positions(const namelist_errors *errors, char *text, size_t s
   text[0] = '\0';
   for (size_t i = 0; i < errors->count; i++)
     snprintf(text + strlen(text), size - strlen(text), "%s%d:%d", i > 0 ? " " : "",
-             errors->item[i].line, errors->item[i].column);
+             errors->item[i].at.line, errors->item[i].at.column);
   return text;
 }
 
@@ -167,7 +167,7 @@ static void message_form(void **state)
     const char *caret = strchr(source, '\n') + 1;
     assert_true(caret - source < 120);
     /* What the caret points at is what stands at that column. */
-    assert_int_equal(source[strchr(caret, '^') - caret], line[errors.item[i].column - 1]);
+    assert_int_equal(source[strchr(caret, '^') - caret], line[errors.item[i].at.column - 1]);
   }
   assert_true(errors.count > 20);
   namelist_free(&nl);

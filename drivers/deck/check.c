@@ -9,9 +9,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static namelist_place place_of(const deck_given *at, const char *name)
+/* Where a key was given, or another one in its place, whose name is underlined. */
+static namelist_place place_of(const deck_given *given, const char *name)
 {
-  return (namelist_place){ at->line, at->column, (int)strlen(name) };
+  return (namelist_place){ given->at.line, given->at.column, (int)strlen(name) };
+}
+
+/* Of the whole deck: where its kind is given. */
+static namelist_place place_of_kind(const deck_builder *b)
+{
+  return (namelist_place){ b->kind_at.line, b->kind_at.column, 1 };
 }
 
 void deck_complain(deck_builder *b, const deck_given *at, const char *name, const char *format, ...)
@@ -27,11 +34,9 @@ void deck_complain(deck_builder *b, const deck_given *at, const char *name, cons
 void deck_complain_of_group(deck_builder *b, const namelist_group *g, const char *message)
 {
   if (g != NULL)
-    namelist_error_at(b->nl, (namelist_place){ g->line, g->column, (int)strlen(g->name) + 1 },
-                      b->errors, "%s", message);
+    namelist_error_at(b->nl, g->at, b->errors, "%s", message);
   else
-    namelist_error_at(b->kind_nl, (namelist_place){ b->kind_line, b->kind_column, 1 }, b->errors,
-                      "%s", message);
+    namelist_error_at(b->kind_nl, place_of_kind(b), b->errors, "%s", message);
 }
 
 const deck_given *deck_given_of(const deck_builder *b, const char *group, const char *name)
@@ -44,7 +49,7 @@ const deck_given *deck_given_of(const deck_builder *b, const char *group, const 
 
 int deck_is_there(const deck_given *g)
 {
-  return g->line > 0 && (g->given || g->broken);
+  return g->at.line > 0 && (g->given || g->broken);
 }
 
 int deck_in_scene(const deck_builder *b, const char *group, const char *name)
@@ -121,10 +126,9 @@ static void check_drive(deck_builder *b, const char *group)
   const int have_frequency = frequency->given || frequency->broken;
   const int have_period = period->given || period->broken;
   if (deck_is_there(frequency) && deck_is_there(period)) {
-    const deck_given *later = frequency->line > period->line ||
-                              (frequency->line == period->line &&
-                               frequency->column > period->column)
-                                  ? frequency : period;
+    const namelist_place f = frequency->at, p = period->at;
+    const int last = f.line > p.line || (f.line == p.line && f.column > p.column);
+    const deck_given *later = last ? frequency : period;
     deck_complain(b, later, later == period ? "drive_period" : "drive_frequency",
                   "give either 'drive_frequency' or 'drive_period', not both");
   } else if (!have_frequency && !have_period && (place == NULL || !place->broken)) {
@@ -160,7 +164,7 @@ static void check_axis_sources(deck_builder *b)
     if (!deck_is_there(&b->given[i]) || !deck_is_there(sweep)) continue;
     namelist_error_at(b->given[i].nl, place_of(&b->given[i], key->name),
                       b->errors, "'%s' is given in &sweep too (line %d): leave out one of the two",
-                      key->name, sweep->line);
+                      key->name, sweep->at.line);
   }
 }
 
@@ -209,7 +213,7 @@ static void check_size(deck_builder *b)
   for (int i = 0; i < DECK_AXIS_COUNT; i++)
     if (d->axis[i].count > 0) points *= (double)d->axis[i].count;
   if (points > 0x1p32 && !d->basins.refine)
-    namelist_error_at(b->kind_nl, (namelist_place){ b->kind_line, b->kind_column, 1 }, b->errors,
+    namelist_error_at(b->kind_nl, place_of_kind(b), b->errors,
                       "the axes%s multiply to %.4g pendulums; at most 2^32 are possible%s",
                       with_members ? " and members" : "", points,
                       deck_in_scene(b, "basins", "refine") ? " without refine = .true." : "");

@@ -16,9 +16,7 @@ static void *field(deck *d, const deck_key *key)
 
 static void complain(deck_builder *b, const namelist_value *v, const char *key, const char *message)
 {
-  const int width = v->length > 40 ? 40 : (int)v->length;
-  namelist_error_at(b->nl, (namelist_place){ v->line, v->column, width }, b->errors, "'%s' %s", key,
-                    message);
+  namelist_error_at(b->nl, v->at, b->errors, "'%s' %s", key, message);
 }
 
 /* What a number must be, in the simplest words for its range. */
@@ -85,10 +83,8 @@ static int read_choice(deck_builder *b, const deck_key *key, const namelist_valu
       snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'",
                list[0] == '\0' ? "" : ", ", key->choices[i]);
   }
-  namelist_error_at(b->nl,
-                    (namelist_place){ v->line, v->column, v->length > 40 ? 40 : (int)v->length },
-                    b->errors, "'%s' knows no '%.40s'%s; it takes %s", key->name, text,
-                    deck_suggestion_text(&s, hint, sizeof hint), list);
+  namelist_error_at(b->nl, v->at, b->errors, "'%s' knows no '%.40s'%s; it takes %s", key->name,
+                    text, deck_suggestion_text(&s, hint, sizeof hint), list);
   for (int i = 0; s.best != NULL && key->choices[i] != NULL; i++)
     if (key->choices[i] == s.best) return i;
   return -1;
@@ -105,8 +101,7 @@ static int apply_choice(deck_builder *b, const deck_key *key, const namelist_val
     b->scene = i < 0 ? 0 : 1u << i;
     if (i >= 0) b->d->kind = (deck_kind)i;
     b->kind_nl = b->nl;
-    b->kind_line = v->line;
-    b->kind_column = v->column;
+    b->kind_at = v->at;
   } else if (i >= 0) {
     strcpy(field(b->d, key), key->choices[i]);
   }
@@ -302,17 +297,16 @@ static int check_shape(deck_builder *b, const deck_key *key, const namelist_arra
     const namelist_value *v = array->item[i];
     size_t row = 0;
     if (v == NULL && (is_list(key) || range)) {
-      namelist_error_at(b->nl,
-                        (namelist_place){ array->line, array->column, (int)strlen(key->name) },
-                        b->errors,
-                        "'%s': value %zu is missing (a blank after 'r*', or two commas?)",
-                        key->name, i + 1);
+      namelist_place at = array->at;
+      at.width = (int)strlen(key->name);
+      namelist_error_at(b->nl, at, b->errors, "'%s': value %zu is missing (a blank after 'r*', or "
+                        "two commas?)", key->name, i + 1);
       return 0;
     }
     if (v == NULL) continue;
     if (is_key_name(b, key, v, &row)) {
-      namelist_error_at(b->nl, (namelist_place){ v->line, v->column, (int)v->length }, b->errors,
-                        "expected '=' after '%s'", deck_table[row].name);
+      namelist_error_at(b->nl, v->at, b->errors, "expected '=' after '%s'",
+                        deck_table[row].name);
       b->given[row].broken = 1;
       return 0;
     }
@@ -337,8 +331,7 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
   if (good && array->count == 0) return; /* nothing but null values */
   if (!given->given) {
     given->nl = b->nl;
-    given->line = array->line;
-    given->column = array->column;
+    given->at = array->at;
   }
   if (good) good = check_shape(b, key, array, range);
   if (good && key->type == DECK_SWEEP && range) good = apply_range(b, key, array, name);

@@ -34,13 +34,20 @@ enum {
   NAMELIST_MAX_GROUPS = 100,
   NAMELIST_MAX_NUMBER = 500, /* characters of a number */
   NAMELIST_MAX_ERRORS = 100, /* kept; more are only counted */
+  NAMELIST_CLIP = 40,        /* bytes of a value that messages show */
   NAMELIST_NAME = 64         /* bytes of a name with its end: 63 characters as in Fortran */
 };
+
+/** Where something stands in the text, from 1 on, columns in characters; `width` of these are
+    underlined. */
+typedef struct namelist_place {
+  int line, column, width;
+} namelist_place;
 
 /** One error: `text` is the whole message with position, source line and caret. */
 typedef struct namelist_error {
   int order; /* of the text that it is in */
-  int line, column;
+  namelist_place at;
   char *text;
 } namelist_error;
 
@@ -62,13 +69,13 @@ typedef enum namelist_form {
 typedef struct namelist_value {
   namelist_form form;
   int repeat;           /* 1 or more */
-  int line, column;     /* from 1; columns count characters */
+  namelist_place at;
   size_t begin, length; /* raw text in namelist.text, without repeat count, with quotes */
 } namelist_value;
 
 typedef struct namelist_assignment {
   char name[NAMELIST_NAME]; /* in lower case */
-  int line, column;
+  namelist_place at;
   int subscripted;     /* nonzero: a subscript was written, as first:last:step (last 0: open) */
   long first, last, step;
   int broken;          /* nonzero: its values had a syntax error */
@@ -77,7 +84,7 @@ typedef struct namelist_assignment {
 
 typedef struct namelist_group {
   char name[NAMELIST_NAME]; /* in lower case */
-  int line, column;
+  namelist_place at;
   int broken;          /* nonzero: a syntax error inside may have hidden some names */
   int repeated;        /* nonzero: a group of this name came before (an error, reported) */
   size_t begin, count; /* its assignments in namelist.assignment */
@@ -104,7 +111,7 @@ typedef struct namelist_array {
   size_t count;                /* up to the last element that was given */
   int given;                   /* nonzero: the name occurs */
   int broken;                  /* nonzero: errors were reported already */
-  int line, column;            /* of the name where it first occurs */
+  namelist_place at;           /* of the name where it first occurs */
 } namelist_array;
 
 /**
@@ -154,11 +161,6 @@ int namelist_value_logical(const namelist *nl, const namelist_value *value, cons
                            int *out, namelist_errors *errors);
 int namelist_value_string(const namelist *nl, const namelist_value *value, const char *key,
                           char *text, size_t size, namelist_errors *errors);
-
-/** Where something stands in the text, from 1 on, of which `width` characters are underlined. */
-typedef struct namelist_place {
-  int line, column, width;
-} namelist_place;
 
 /** The place of what concerns a text as a whole. */
 extern const namelist_place namelist_whole;

@@ -101,15 +101,15 @@ void namelist_error_at(const namelist *nl, namelist_place at, namelist_errors *e
     errors->out_of_memory = 1;
     return;
   }
-  errors->item[errors->count++] = (namelist_error){ nl->order, at.line, at.column, text };
+  errors->item[errors->count++] = (namelist_error){ nl->order, at, text };
 }
 
 /* Does a stand behind b? */
 static int is_later(const namelist_error *a, const namelist_error *b)
 {
   if (a->order != b->order) return a->order > b->order;
-  if (a->line != b->line) return a->line > b->line;
-  return a->column > b->column;
+  if (a->at.line != b->at.line) return a->at.line > b->at.line;
+  return a->at.column > b->at.column;
 }
 
 void namelist_errors_sort(namelist_errors *errors)

@@ -144,14 +144,14 @@ int lex_check_bytes(reader *r)
     (void)safe_text_character(text, r->nl->length - r->at, &safe);
     readable = (c >= 0x20 || lex_is_blank(c)) && c != 0x7f;
     if (!readable)
-      namelist_error_at(r->nl, (namelist_place){ r->line, r->column, 1 }, r->errors,
+      namelist_error_at(r->nl, lex_place(r, 1), r->errors,
                         "control byte 0x%02X: is this a deck?", c);
     else if (size > 1 && !safe)
-      namelist_error_at(r->nl, (namelist_place){ r->line, r->column, 1 }, r->errors,
+      namelist_error_at(r->nl, lex_place(r, 1), r->errors,
                         "a control character of %zu bytes, 0x%02X 0x%02X ...: terminals may take "
                         "it for a command", size, c, (unsigned char)text[1]);
     else if (size == 0)
-      namelist_error_at(r->nl, (namelist_place){ r->line, r->column, 1 }, r->errors,
+      namelist_error_at(r->nl, lex_place(r, 1), r->errors,
                         "byte 0x%02X is not UTF-8; save the deck as UTF-8", c);
     if (!readable || size == 0) break;
     lex_advance_to(r, r->at + size);

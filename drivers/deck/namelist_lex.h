@@ -58,6 +58,12 @@ static inline int lex_is_quote(int c)
   return c == '\'' || c == '"';
 }
 
+/* Where the reader is, for a message. */
+static inline namelist_place lex_place(const reader *r, int width)
+{
+  return (namelist_place){ r->line, r->column, width };
+}
+
 static inline int lex_at(const reader *r, size_t at)
 {
   return at < r->nl->length ? (unsigned char)r->nl->text[at] : LEX_END;

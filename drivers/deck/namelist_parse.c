@@ -13,16 +13,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void complain(reader *r, int line, int column, int width, const char *message)
+static void complain(reader *r, namelist_place at, const char *message)
 {
-  namelist_error_at(r->nl, (namelist_place){ line, column, width }, r->errors, "%s", message);
+  namelist_error_at(r->nl, at, r->errors, "%s", message);
   if (r->group != NULL) r->group->broken = 1;
 }
 
 /* Exceeding a bound ends the reading. */
 static void overflow(reader *r, const char *message)
 {
-  complain(r, r->line, r->column, 1, message);
+  complain(r, lex_place(r, 1), message);
   r->overfull = 1;
 }
 
@@ -49,6 +49,7 @@ static void add_value(reader *r, namelist_assignment *a, namelist_value v)
     return;
   }
   if (!grow(r, &nl->value, nl->values, &r->value_capacity, sizeof *nl->value)) return;
+  v.at.width = v.length > NAMELIST_CLIP ? NAMELIST_CLIP : (int)v.length;
   nl->value[nl->values++] = v;
   a->count++;
 }
@@ -86,10 +87,10 @@ static int add_group(reader *r, const namelist_group *g)
 /* Read a name in lower case into name[NAMELIST_NAME]; the caller knows that one starts here. */
 static void read_name(reader *r, char *name)
 {
-  const int line = r->line, column = r->column;
+  const namelist_place at = lex_place(r, 10);
   const size_t end = lex_name_end(r, r->at);
   const size_t length = end - r->at;
-  if (length >= NAMELIST_NAME) complain(r, line, column, 10, "a name has at most 63 characters");
+  if (length >= NAMELIST_NAME) complain(r, at, "a name has at most 63 characters");
   for (size_t i = 0; i < length && i < NAMELIST_NAME - 1; i++)
     name[i] = (char)lex_lower(lex_at(r, r->at + i));
   name[length < NAMELIST_NAME ? length : NAMELIST_NAME - 1] = '\0';
@@ -117,7 +118,7 @@ static int read_bound(reader *r, long *out)
 /* `(i)`, `(i:j)`, `(i:j:k)`, each part of a triplet optional. */
 static int read_subscript(reader *r, namelist_assignment *a)
 {
-  const int line = r->line, column = r->column;
+  const namelist_place at = lex_place(r, 1);
   int parts = 1;
   size_t begin = 0;
   a->subscripted = 1;
@@ -140,7 +141,7 @@ static int read_subscript(reader *r, namelist_assignment *a)
   lex_advance(r);
   return 1;
 bad:
-  complain(r, line, column, 1,
+  complain(r, at,
            "bad subscript: (i), (i:j) or (i:j:k) with whole numbers from 1 to 1000000 is wanted");
   while (lex_peek(r) != ')' && lex_peek(r) != '=' && lex_peek(r) != '\n' && lex_peek(r) != LEX_END)
     lex_advance(r);
@@ -167,7 +168,7 @@ static void read_string(reader *r, namelist_assignment *a, namelist_value v)
 {
   const size_t close = lex_string_close(r, r->at);
   if (close == 0) {
-    complain(r, r->line, r->column, 1, "this string is not closed (missing quote)");
+    complain(r, lex_place(r, 1), "this string is not closed (missing quote)");
     a->broken = 1;
     skip_bad_line(r);
     return;
@@ -177,7 +178,7 @@ static void read_string(reader *r, namelist_assignment *a, namelist_value v)
   v.length = close + 1 - r->at;
   lex_advance_to(r, close + 1);
   if (!lex_is_value_end(lex_peek(r))) {
-    complain(r, r->line, r->column, 1,
+    complain(r, lex_place(r, 1),
              "a separator is missing after the string (a quote inside a string is written twice)");
     a->broken = 1;
     skip_bad_line(r);
@@ -197,7 +198,7 @@ static int read_repeat(reader *r, namelist_assignment *a, namelist_value *v)
   }
   if (at == r->at || lex_at(r, at) != '*') return 1;
   if (n < 1 || n > NAMELIST_MAX_VALUES) {
-    complain(r, r->line, r->column, (int)(at - r->at),
+    complain(r, lex_place(r, (int)(at - r->at)),
              "a repeat count must lie between 1 and 1000000");
     a->broken = 1;
     lex_advance_to(r, lex_bare_end(r, r->at));
@@ -219,7 +220,7 @@ static void read_bare(reader *r, namelist_assignment *a, namelist_value v)
   else if (first >= 0x80)
     problem = "unexpected character (typographic quotes, dashes and blanks do not work)";
   if (problem != NULL) {
-    complain(r, r->line, r->column, 1, problem);
+    complain(r, lex_place(r, 1), problem);
     a->broken = 1;
     if (first == '#') lex_skip_line(r);
     else skip_bad_line(r);
@@ -234,7 +235,7 @@ static void read_bare(reader *r, namelist_assignment *a, namelist_value v)
 
 static void read_value(reader *r, namelist_assignment *a)
 {
-  namelist_value v = { NAMELIST_NULL, 1, r->line, r->column, r->at, 0 };
+  namelist_value v = { NAMELIST_NULL, 1, lex_place(r, 0), r->at, 0 };
   if (!read_repeat(r, a, &v)) return;
   if (v.repeat > 1 || r->at > v.begin) {
     v.begin = r->at;
@@ -256,12 +257,12 @@ static void read_values(reader *r, namelist_assignment *a)
     const int c = lex_peek(r);
     if (c == LEX_END || c == '/' || c == '&' || c == '$' || lex_assignment_starts(r, r->at)) return;
     if (c == ',') {
-      const namelist_value null = { NAMELIST_NULL, 1, r->line, r->column, r->at, 0 };
+      const namelist_value null = { NAMELIST_NULL, 1, lex_place(r, 0), r->at, 0 };
       if (after_comma) add_value(r, a, null);
       after_comma = 1;
       lex_advance(r);
     } else if (c == ';' || c == '=') {
-      complain(r, r->line, r->column, 1,
+      complain(r, lex_place(r, 1),
                c == ';' ? "';' separates nothing here; use a comma or a blank"
                         : "unexpected '='");
       a->broken = 1;
@@ -287,8 +288,8 @@ static void check_repeated(reader *r, namelist_assignment *a)
   for (size_t i = 0; !a->subscripted && i < r->group->count; i++) {
     const namelist_assignment *other = &r->nl->assignment[r->group->begin + i];
     if (other->subscripted || strcmp(other->name, a->name) != 0) continue;
-    namelist_error_at(r->nl, (namelist_place){ a->line, a->column, (int)strlen(a->name) },
-                      r->errors, "'%s' is given twice (first on line %d)", a->name, other->line);
+    namelist_error_at(r->nl, a->at, r->errors, "'%s' is given twice (first on line %d)", a->name,
+                      other->at.line);
     a->broken = 1;
     return;
   }
@@ -297,16 +298,17 @@ static void check_repeated(reader *r, namelist_assignment *a)
 /* `name`, optional subscript, `=`; lex_assignment_starts() has said yes. NULL: out of room. */
 static namelist_assignment *read_target(reader *r)
 {
-  namelist_assignment a = { .line = r->line, .column = r->column, .first = 1, .step = 1 };
+  namelist_assignment a = { .at = lex_place(r, 0), .first = 1, .step = 1 };
   read_name(r, a.name);
+  a.at.width = (int)strlen(a.name);
   if (lex_peek(r) == '%') {
-    complain(r, r->line, r->column, 1, "components of derived types do not occur in decks");
+    complain(r, lex_place(r, 1), "components of derived types do not occur in decks");
     a.broken = 1;
     skip_part(r);
   }
   if (lex_is_blank(lex_peek(r)) && lex_at(r, lex_blanks_end(r, r->at)) == '(') {
     lex_skip_blanks(r);
-    complain(r, r->line, r->column, 1, "no blank may stand between a name and its subscript");
+    complain(r, lex_place(r, 1), "no blank may stand between a name and its subscript");
     a.broken = 1;
   }
   if (lex_peek(r) == '(' && !read_subscript(r, &a)) a.broken = 1;
@@ -328,12 +330,12 @@ static void skip_non_assignment(reader *r)
 {
   const size_t end = lex_name_end(r, r->at);
   if (end > r->at) {
-    namelist_error_at(r->nl, (namelist_place){ r->line, r->column, (int)(end - r->at) }, r->errors,
+    namelist_error_at(r->nl, lex_place(r, (int)(end - r->at)), r->errors,
                       "expected '=' after '%.*s'", end - r->at > 40 ? 40 : (int)(end - r->at),
                       r->nl->text + r->at);
     r->group->broken = 1;
   } else {
-    complain(r, r->line, r->column, 1,
+    complain(r, lex_place(r, 1),
              lex_peek(r) == '#' ? "'#' starts no comment in a namelist; '!' does"
                                 : "expected a name");
   }
@@ -356,8 +358,7 @@ static void skip_non_assignment(reader *r)
 static void report_open_group(reader *r)
 {
   const namelist_group *g = r->group;
-  namelist_error_at(r->nl, (namelist_place){ g->line, g->column, (int)strlen(g->name) + 1 },
-                    r->errors, "&%s is not closed: its '/' is missing", g->name);
+  namelist_error_at(r->nl, g->at, r->errors, "&%s is not closed: its '/' is missing", g->name);
   r->group->broken = 1;
 }
 
@@ -384,7 +385,7 @@ static void read_group_body(reader *r)
         report_open_group(r);
         return;
       }
-      complain(r, r->line, r->column, 1, "unexpected character");
+      complain(r, lex_place(r, 1), "unexpected character");
       lex_advance(r);
     } else if (lex_assignment_starts(r, r->at)) {
       read_assignment(r);
@@ -396,21 +397,21 @@ static void read_group_body(reader *r)
 
 static void read_group(reader *r)
 {
-  namelist_group g = { .line = r->line, .column = r->column, .begin = r->nl->assignments };
+  namelist_group g = { .at = lex_place(r, 0), .begin = r->nl->assignments };
   lex_advance(r);
   read_name(r, g.name);
+  g.at.width = (int)strlen(g.name) + 1;
   for (size_t i = 0; i < r->nl->groups; i++) {
     if (strcmp(r->nl->group[i].name, g.name) != 0) continue;
-    namelist_error_at(r->nl, (namelist_place){ g.line, g.column, (int)strlen(g.name) + 1 },
-                      r->errors, "&%s is given twice (first on line %d)", g.name,
-                      r->nl->group[i].line);
+    namelist_error_at(r->nl, g.at, r->errors, "&%s is given twice (first on line %d)", g.name,
+                      r->nl->group[i].at.line);
     g.repeated = 1;
     break;
   }
   if (!add_group(r, &g)) return;
   const int c = lex_peek(r);
   if (!lex_is_blank(c) && c != '/' && c != '!' && c != LEX_END)
-    complain(r, r->line, r->column, 1, "a blank must follow the name of a group");
+    complain(r, lex_place(r, 1), "a blank must follow the name of a group");
   if (!lex_is_blank(c) && c != '/' && c != '!' && c != LEX_END) lex_advance(r);
   read_group_body(r);
   r->group = NULL;
@@ -419,8 +420,7 @@ static void read_group(reader *r)
 /* Anything but comments between groups is a mistake; one message up to the next group. */
 static void skip_outside_text(reader *r, const char *message)
 {
-  const int line = r->line;
-  complain(r, line, r->column, 1, message);
+  complain(r, lex_place(r, 1), message);
   /* Most likely a slash inside a value ended the group too early. */
   if (r->nl->groups > 0 && r->at > 0) r->nl->group[r->nl->groups - 1].broken = 1;
   lex_advance(r);
@@ -458,18 +458,17 @@ void namelist_read_groups(reader *r)
 /* The rest of the text as it is: a string whose quotes a shell has taken away. */
 static void read_rest(reader *r, namelist_assignment *a)
 {
-  const namelist_value v = { .form = NAMELIST_BARE, .repeat = 1, .line = r->line,
-                             .column = r->column, .begin = r->at,
-                             .length = r->nl->length - r->at };
+  const namelist_value v = { NAMELIST_BARE, 1, lex_place(r, 0), r->at, r->nl->length - r->at };
   lex_advance_to(r, r->nl->length);
   add_value(r, a, v);
 }
 
 void namelist_read_setting(reader *r, int whole)
 {
-  namelist_group g = { .line = r->line, .column = r->column };
+  namelist_group g = { .at = lex_place(r, 0) };
   namelist_assignment *a = NULL;
   read_name(r, g.name);
+  g.at.width = (int)strlen(g.name) + 1;
   lex_advance(r); /* the point */
   if (add_group(r, &g)) a = read_target(r);
   if (a == NULL) return;
@@ -477,5 +476,5 @@ void namelist_read_setting(reader *r, int whole)
   if (whole && !lex_is_quote(lex_peek(r)) && lex_peek(r) != LEX_END) read_rest(r, a);
   else read_values(r, a);
   if (lex_peek(r) != LEX_END)
-    complain(r, r->line, r->column, 1, "an argument sets one key; what stands here is too much");
+    complain(r, lex_place(r, 1), "an argument sets one key; what stands here is too much");
 }

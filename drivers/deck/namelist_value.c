@@ -14,15 +14,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Raw text for messages: at most this many bytes of it. */
-enum { CLIP = 40 };
-
 static const char *clip(const namelist *nl, const namelist_value *v, char *buffer)
 {
   const char *raw = nl->text + v->begin;
   size_t n = v->length;
-  if (n > CLIP) {
-    n = CLIP;
+  if (n > NAMELIST_CLIP) {
+    n = NAMELIST_CLIP;
     while (n > 0 && ((unsigned char)raw[n] & 0xC0) == 0x80) n--;
   }
   for (size_t i = 0; i < n; i++) buffer[i] = raw[i] == '\n' || raw[i] == '\r' ? ' ' : raw[i];
@@ -30,17 +27,12 @@ static const char *clip(const namelist *nl, const namelist_value *v, char *buffe
   return buffer;
 }
 
-static namelist_place place_of(const namelist_value *v)
-{
-  return (namelist_place){ v->line, v->column, v->length > CLIP ? CLIP : (int)v->length };
-}
-
 /* Report `'key' wants WHAT, not RAW`; the value of this function is that of a failed conversion. */
 static int refuse(const namelist *nl, const namelist_value *v, const char *key, const char *wants,
                   namelist_errors *errors)
 {
-  char raw[CLIP + 4];
-  namelist_error_at(nl, place_of(v), errors, "'%s' wants %s, not %s", key, wants,
+  char raw[NAMELIST_CLIP + 4];
+  namelist_error_at(nl, v->at, errors, "'%s' wants %s, not %s", key, wants,
                     v->form == NAMELIST_NULL ? "nothing" : clip(nl, v, raw));
   return 0;
 }
@@ -133,7 +125,7 @@ int namelist_value_real(const namelist *nl, const namelist_value *value, const c
 {
   const char *t = nl->text + value->begin;
   size_t n = value->length;
-  char number[NAMELIST_MAX_NUMBER + 3], raw[CLIP + 4];
+  char number[NAMELIST_MAX_NUMBER + 3], raw[NAMELIST_CLIP + 4];
   double sign = 1.0, x = 0.0;
   const char *problem = NULL;
 
@@ -153,7 +145,7 @@ int namelist_value_real(const namelist *nl, const namelist_value *value, const c
   if (isinf(x)) problem = "is too large for a double";
   else if (x == 0.0 && !mantissa_is_zero(number)) problem = "is too small for a double";
   if (problem != NULL) {
-    namelist_error_at(nl, place_of(value), errors, "'%s': %s %s", key, clip(nl, value, raw),
+    namelist_error_at(nl, value->at, errors, "'%s': %s %s", key, clip(nl, value, raw),
                       problem);
     return 0;
   }
@@ -167,7 +159,7 @@ int namelist_value_integer(const namelist *nl, const namelist_value *value, cons
   const char *t = nl->text + value->begin;
   const size_t n = value->length;
   const size_t sign = n > 0 && (*t == '+' || *t == '-');
-  char number[NAMELIST_MAX_NUMBER + 1], raw[CLIP + 4];
+  char number[NAMELIST_MAX_NUMBER + 1], raw[NAMELIST_CLIP + 4];
   long long x = 0;
 
   if (value->form != NAMELIST_BARE || n == sign || n > NAMELIST_MAX_NUMBER)
@@ -179,7 +171,7 @@ int namelist_value_integer(const namelist *nl, const namelist_value *value, cons
   errno = 0;
   x = strtoll(number, NULL, 10);
   if (errno == ERANGE || x > INT64_MAX || x < INT64_MIN) {
-    namelist_error_at(nl, place_of(value), errors, "'%s': %s does not fit into 64 bits", key,
+    namelist_error_at(nl, value->at, errors, "'%s': %s does not fit into 64 bits", key,
                       clip(nl, value, raw));
     return 0;
   }
@@ -219,7 +211,7 @@ int namelist_value_string(const namelist *nl, const namelist_value *value, const
   for (size_t i = first; i < end; i++) {
     if (t[i] == '\n' || (t[i] == '\r' && t[i + 1] == '\n')) continue; /* record ends vanish */
     if (used + 1 >= size) {
-      namelist_error_at(nl, place_of(value), errors,
+      namelist_error_at(nl, value->at, errors,
                         "'%s': this string is too long (at most %zu bytes)", key, size - 1);
       return 0;
     }
@@ -263,7 +255,7 @@ static int place(const namelist *nl, const namelist_assignment *a, const namelis
              out->item[f->next - 1] != NULL)
       problem = "an element is given twice";
     if (problem != NULL) {
-      namelist_error_at(nl, place_of(v), errors, "'%s': %s", a->name, problem);
+      namelist_error_at(nl, v->at, errors, "'%s': %s", a->name, problem);
       out->broken = 1;
       return 1;
     }
@@ -283,10 +275,7 @@ pendres_status namelist_array_get(const namelist *nl, const namelist_group *grou
     const namelist_assignment *a = &nl->assignment[group->begin + i];
     if (strcmp(a->name, name) != 0) continue;
     f.next = a->subscripted ? a->first : 1;
-    if (!out->given) {
-      out->line = a->line;
-      out->column = a->column;
-    }
+    if (!out->given) out->at = a->at;
     out->given = 1;
     if (a->broken) out->broken = 1;
     for (size_t k = 0; k < a->count && !out->broken; k++) {

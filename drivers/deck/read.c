@@ -86,8 +86,7 @@ static void check_kind(deck_builder *b, int found)
     namelist_error_at(nl, (namelist_place){ 1, 1, 1 }, b->errors,
                       "the deck has no group &scene with a 'kind'");
   else if (found && !kind->group->broken)
-    namelist_error_at(nl, (namelist_place){ b->kind_line, b->kind_column, 6 }, b->errors,
-                      "&scene needs a 'kind'");
+    namelist_error_at(nl, b->kind_at, b->errors, "&scene needs a 'kind'");
 }
 
 /* &scene first, wherever it stands: all else depends on the kind. */
@@ -102,8 +101,7 @@ static void read_groups(deck_builder *b)
     for (size_t i = 0; i < nl->groups; i++) {
       if (name[i] == NULL || is_scene(name[i]) != scene) continue;
       if (scene) {
-        b->kind_line = nl->group[i].line;
-        b->kind_column = nl->group[i].column;
+        b->kind_at = nl->group[i].at;
         found = 1;
       }
       read_group(b, &nl->group[i], name[i]);
@@ -153,7 +151,7 @@ static pendres_status build(const namelist *nl, const namelist *settings, size_t
 {
   deck d = { 0 };
   deck_builder b = { .nl = nl, .settings = settings, .setting_count = count, .errors = errors,
-                     .d = &d, .kind_nl = nl, .kind_line = 1, .kind_column = 1 };
+                     .d = &d, .kind_nl = nl, .kind_at = { 1, 1, 1 } };
 
   deck_key_defaults(&b);
   default_output(&d, nl->name);

@@ -112,8 +112,7 @@ int deck_is_set_before(deck_builder *b, size_t index)
         strcmp(other->group[0].name, nl->group[0].name) != 0 ||
         strcmp(other->assignment[0].name, a->name) != 0)
       continue;
-    namelist_error_at(nl, (namelist_place){ a->line, a->column, (int)strlen(a->name) }, b->errors,
-                      "'%s.%s' is set twice", nl->group[0].name, a->name);
+    namelist_error_at(nl, a->at, b->errors, "'%s.%s' is set twice", nl->group[0].name, a->name);
     return 1;
   }
   return 0;

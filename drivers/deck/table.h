@@ -99,7 +99,7 @@ typedef struct deck_given {
   int given;  /* nonzero: with a value */
   int broken; /* nonzero: with errors, which were reported */
   const namelist *nl; /* the text that gives it: the deck or a setting */
-  int line, column;
+  namelist_place at;
   const namelist_group *group; /* the group of the key, if the deck has it */
 } deck_given;
 
@@ -112,7 +112,7 @@ typedef struct deck_builder {
   deck *d;
   unsigned scene;            /* the bit of its kind; 0 if that is unknown */
   const namelist *kind_nl;   /* for what concerns the whole deck: where its kind is given */
-  int kind_line, kind_column;
+  namelist_place kind_at;
   deck_given given[DECK_MAX_KEYS];
   int out_of_memory;
 } deck_builder;

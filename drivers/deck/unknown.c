@@ -32,8 +32,7 @@ const char *deck_resolve_group(deck_builder *b, const namelist_group *g)
   for (size_t i = 0; i < deck_table_size; i++)
     if (namelist_group_find(b->nl, deck_table[i].group) == NULL)
       deck_suggest(&s, deck_table[i].group);
-  namelist_error_at(b->nl, (namelist_place){ g->line, g->column, (int)strlen(g->name) + 1 },
-                    b->errors, "&%s is not a group of decks%s", g->name,
+  namelist_error_at(b->nl, g->at, b->errors, "&%s is not a group of decks%s", g->name,
                     deck_suggestion_text(&s, hint, sizeof hint));
   return s.best;
 }
@@ -128,24 +127,21 @@ void deck_report_unknown_key(deck_builder *b, const namelist_assignment *a, cons
   if (row == deck_table_size) row = find_elsewhere(b, a->name, hint, sizeof hint);
   if (row < deck_table_size) b->given[row].broken = 1; /* do not call it missing too */
   else list_keys(b, group, hint, sizeof hint);
-  namelist_error_at(b->nl, (namelist_place){ a->line, a->column, (int)strlen(a->name) }, b->errors,
-                    "'%s' is not a key of &%s%s", a->name, group, hint);
+  namelist_error_at(b->nl, a->at, b->errors, "'%s' is not a key of &%s%s", a->name, group, hint);
 }
 
 void deck_report_idle_key(deck_builder *b, const namelist_assignment *a, const char *group)
 {
   char list[300];
   list_scenes(scenes_of(group, a->name), list, sizeof list);
-  namelist_error_at(b->nl, (namelist_place){ a->line, a->column, (int)strlen(a->name) }, b->errors,
-                    "'%s' in &%s is not used by scene '%s' (only by: %s)", a->name, group,
-                    deck_kind_name(b->d->kind), list);
+  namelist_error_at(b->nl, a->at, b->errors, "'%s' in &%s is not used by scene '%s' (only by: %s)",
+                    a->name, group, deck_kind_name(b->d->kind), list);
 }
 
 void deck_report_idle_group(deck_builder *b, const namelist_group *g, const char *group)
 {
   char list[300];
   list_scenes(scenes_of(group, NULL), list, sizeof list);
-  namelist_error_at(b->nl, (namelist_place){ g->line, g->column, (int)strlen(g->name) + 1 },
-                    b->errors, "&%s is not used by scene '%s' (only by: %s)", group,
+  namelist_error_at(b->nl, g->at, b->errors, "&%s is not used by scene '%s' (only by: %s)", group,
                     deck_kind_name(b->d->kind), list);
 }

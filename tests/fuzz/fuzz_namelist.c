@@ -16,7 +16,7 @@ static void ask_value(const namelist *nl, const namelist_value *v, namelist_erro
   int l;
   char s[20];
   REQUIRE(v->begin <= nl->length && v->length <= nl->length - v->begin && v->repeat >= 1);
-  REQUIRE(v->line >= 1 && v->line <= nl->lines && v->column >= 1);
+  REQUIRE(v->at.line >= 1 && v->at.line <= nl->lines && v->at.column >= 1);
   (void)namelist_value_real(nl, v, "x", &x, errors);
   (void)namelist_value_integer(nl, v, "i", &i, errors);
   (void)namelist_value_logical(nl, v, "l", &l, errors);

@@ -38,7 +38,7 @@ static void print_name(const namelist *nl, const namelist_group *g, const char *
   namelist_array array = { 0 };
   char label[200];
   if (namelist_array_get(nl, g, name, &array, errors) == PENDRES_OK && array.count > limit)
-    namelist_error_at(nl, (namelist_place){ array.line, array.column, 1 }, errors,
+    namelist_error_at(nl, (namelist_place){ array.at.line, array.at.column, 1 }, errors,
                       "more than %zu values", limit);
   for (size_t i = 0; i < array.count && i < limit; i++) {
     snprintf(label, sizeof label, "%s%s(%zu)", prefix, name, i + 1);
