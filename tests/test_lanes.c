@@ -9,6 +9,7 @@
 #include "engine/compat.h"
 #include "base/sine.h"
 #include "engine/lanes.h"
+#include "engine/lanes_tape.h"
 
 enum { MOST = 208, ROWS = PENDRES_ROWS_STATE };
 
