@@ -128,7 +128,7 @@ static double run_deck(const job *j, pendres_cost *cost)
   need_ok(pendres_store_close(run.store), out, pendres_store_message(run.store));
   const double took = seconds_now() - start;
   farm_cost(run.farm, cost);
-  scene_end(&run);
+  scene_room_end(&run.room);
   pendres_store_free(run.store);
   farm_free(run.farm);
   deck_free(&d);
