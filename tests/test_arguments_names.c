@@ -57,6 +57,7 @@ static const struct {
    {"sa", "la", "coexistence", "single", "other"}},
   {"special", PENDRES_NAMES_SPECIAL, PENDRES_SPECIAL_COUNT,
    {"regular", "fold", "period_doubling", "symmetry_breaking", "branch_point"}},
+  {"step_end", PENDRES_NAMES_STEP_END, PENDRES_STEP_END_COUNT, {"left", "seen", "range"}},
   {"store_type", PENDRES_NAMES_STORE_TYPE, PENDRES_STORE_TYPE_COUNT,
    {"double", "int8", "int32", "int64", "string"}},
   {"table", PENDRES_NAMES_TABLE, PENDRES_TABLE_COUNT,

@@ -45,6 +45,8 @@ static void nothing(void **state)
   assert_null(pendres_hysteresis_get(NULL, 0));
   assert_int_equal(pendres_hysteresis_jump_count(NULL), 0);
   assert_null(pendres_hysteresis_jump_get(NULL, 0));
+  assert_int_equal(pendres_hysteresis_step_count(NULL), 0);
+  assert_null(pendres_hysteresis_step_get(NULL, 0));
   const pendres_ramp no_ramp = {.corners = 0};
   pendres_ramp_summary summary;
   assert_true(isnan(pendres_ramp_value(NULL, 0.0)) && isnan(pendres_ramp_value(&no_ramp, 0.0)));

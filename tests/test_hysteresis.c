@@ -327,11 +327,35 @@ static void interior_crises(void **state)
   }
 }
 
+/* Duffing's oscillator with a stiffening spring: below both folds there is one state, to which the
+   way up comes from the start and the way back by a jump; it is called the same both times. */
+static void named_alike_both_ways(void **state)
+{
+  enum { N = 13 };
+  static const pendres_pendulum p = {.force = PENDRES_FORCE_POLYNOMIAL,
+                                     .force_coefficients = {1, 0, 1},
+                                     .damping = 0.1, .drive_amplitude = 0.3};
+  pendres_hysteresis *h = sweep(*state, p, PENDRES_DRIVE_FREQUENCY, 0.9, 2.1, N, 0.0);
+  assert_int_equal(pendres_hysteresis_jump_count(h), 2);
+  const pendres_jump *up = pendres_hysteresis_jump_get(h, 0),
+                     *down = pendres_hysteresis_jump_get(h, 1);
+  assert_true(up->from == PENDRES_LABEL_LA && up->to == PENDRES_LABEL_SA);
+  assert_true(down->from == PENDRES_LABEL_SA && down->to == PENDRES_LABEL_LA);
+  for (size_t i = 0; i < 2 * N; i++) {
+    const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+    const double end = i < N ? up->value : down->value;
+    assert_int_equal(point->attractor.label,
+                     point->value < end ? PENDRES_LABEL_LA : PENDRES_LABEL_SA);
+  }
+  pendres_hysteresis_free(h);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(loop_of_the_drive_frequency, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(forks, setup_exact, teardown),
+    cmocka_unit_test_setup_teardown(named_alike_both_ways, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(running, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(stopped, setup_exact, teardown),
     cmocka_unit_test(out_of_chaos),

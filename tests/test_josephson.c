@@ -15,7 +15,8 @@
 #include "rotation_fixture.h"
 
 /* Up and down; the caller frees. */
-static pendres_hysteresis *sweep(pendres_context *ctx, double low, double high, size_t n)
+static pendres_hysteresis *sweep_from(pendres_context *ctx, double v, double low, double high,
+                                      size_t n)
 {
   enum { MOST = 32 };
   pendres_hysteresis *h = NULL;
@@ -23,9 +24,14 @@ static pendres_hysteresis *sweep(pendres_context *ctx, double low, double high, 
   assert_true(n <= MOST);
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] = low + (high - low) * (double)i / (double)(n - 1);
-  check_ok(pendres_hysteresis_find(ctx, &junction, &(pendres_state){1.6, 0.0},
+  check_ok(pendres_hysteresis_find(ctx, &junction, &(pendres_state){1.6, v},
                                    &(pendres_hysteresis_path){PENDRES_TORQUE, 2 * n, value}, &h));
   return h;
+}
+
+static pendres_hysteresis *sweep(pendres_context *ctx, double low, double high, size_t n)
+{
+  return sweep_from(ctx, 0.0, low, high, n);
 }
 
 /* Over the end of the second step, both ways: up there is a jump, from a fold to a rotation that is
@@ -91,6 +97,61 @@ static void short_lock(void **state)
   pendres_hysteresis_free(h);
 }
 
+/* The end of a step that is next to an orbit on it. */
+static void check_end(pendres_context *ctx, const pendres_hysteresis *h, size_t i, double value,
+                      double error)
+{
+  const pendres_orbit *o = &pendres_hysteresis_get(h, i)->attractor.orbit;
+  pendres_fold fold;
+  check_ok(pendres_fold_find(ctx, o, PENDRES_TORQUE, &fold));
+  check_near(value, fold.value, error + fold.value_error);
+}
+
+/* One of the steps that the path has met; NULL: none. */
+static const pendres_step *step_of(const pendres_hysteresis *h, int winding, int period)
+{
+  for (size_t i = 0; i < pendres_hysteresis_step_count(h); i++) {
+    const pendres_step *s = pendres_hysteresis_step_get(h, i);
+    if (s->winding == winding && s->period == period) return s;
+  }
+  return NULL;
+}
+
+/* Over a step of 3/2 both ways: both of its ends are folds, sought from the orbits next to them;
+   steps below and above it go beyond the range, or are come to and not left. */
+static void steps_and_their_ends(void **state)
+{
+  enum { N = 16 };
+  pendres_hysteresis *h = sweep_from(*state, 3.0, 1.24, 1.39, N);
+  size_t first = 2 * N, last = 0; /* on the step, on the way down and on the way up */
+  for (size_t i = 0; i < N; i++) {
+    const pendres_orbit *up = &pendres_hysteresis_get(h, i)->attractor.orbit;
+    const pendres_orbit *down = &pendres_hysteresis_get(h, 2 * N - 1 - i)->attractor.orbit;
+    if (up->period == 2 && up->winding == 3) last = i;
+    if (down->period == 2 && down->winding == 3 && first == 2 * N) first = 2 * N - 1 - i;
+  }
+  const pendres_step *s = step_of(h, 3, 2), *below = step_of(h, 1, 1);
+  assert_true(first < 2 * N && last > 0 && s != NULL && below != NULL);
+  assert_int_equal(s->lower_end, PENDRES_STEP_END_LEFT);
+  assert_int_equal(s->upper_end, PENDRES_STEP_END_LEFT);
+  check_end(*state, h, first, s->lower, s->lower_error);
+  check_end(*state, h, last, s->upper, s->upper_error);
+  check_near(s->width, s->upper - s->lower, 0.0);
+  check_near(s->width_error, s->upper_error + s->lower_error, 0.0);
+  assert_true(s->width > 0.04 && s->width_error < 1e-8);
+  /* The first step is left on the way up only. */
+  assert_int_equal(below->lower_end, PENDRES_STEP_END_RANGE);
+  assert_int_equal(below->upper_end, PENDRES_STEP_END_LEFT);
+  assert_true(below->lower == 1.24 && below->lower_error == 0.0 && isnan(below->width));
+  /* Jumps tell what they lead to: its mean velocity is that of the step. */
+  for (size_t i = 0; i < pendres_hysteresis_jump_count(h); i++) {
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, i);
+    if (j->to_period > 0) assert_true(j->to_winding > 0);
+    else assert_int_equal(j->to_winding, 0);
+  }
+  pendres_hysteresis_free(h);
+}
+
 /* Up to a lock and back: it is born and ends in one fold, which is sought from its orbit. */
 static void lock_is_born(void **state)
 {
@@ -102,6 +163,10 @@ static void lock_is_born(void **state)
                                    &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
   const pendres_orbit *lock = &pendres_hysteresis_get(h, 5)->attractor.orbit;
   assert_int_equal(lock->period, 3);
+  /* The path turns on it: where it ends above is not seen. */
+  const pendres_step *s = step_of(h, lock->winding, 3);
+  assert_true(s != NULL && s->lower_end == PENDRES_STEP_END_LEFT && isnan(s->width));
+  assert_true(s->upper == 1.502 && s->upper_end == PENDRES_STEP_END_RANGE);
   check_ok(pendres_fold_find(*state, lock, PENDRES_TORQUE, &fold));
   assert_int_equal(pendres_hysteresis_jump_count(h), 2);
   for (size_t i = 0; i < 2; i++) {
@@ -309,6 +374,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(step_and_rotation, setup, teardown),
     cmocka_unit_test_setup_teardown(just_beyond_a_step, setup, teardown),
     cmocka_unit_test_setup_teardown(short_lock, setup, teardown),
+    cmocka_unit_test_setup_teardown(steps_and_their_ends, setup, teardown),
     cmocka_unit_test_setup_teardown(lock_is_born, setup, teardown),
     cmocka_unit_test_setup_teardown(mean_velocity, setup, teardown),
     cmocka_unit_test_setup_teardown(slow_sweep, setup, teardown),

@@ -194,6 +194,35 @@ static void torque_sweep(void **state)
   free(area), free(lost), free(torque), free(drive), free(winding), free(period);
 }
 
+/* Up over the end of a junction's second step: what the file says of it is what its jump says. */
+static void junction_steps(void **state)
+{
+  (void)state;
+  size_t n = 0, jumps = 0;
+  scene_run_deck("&scene kind = 'hysteresis' /\n&pendulum drive_amplitude = 9, damping = 0.3,\n"
+                 "drive_frequency = 3 /\n&sweep torque_range = 1.88, 1.94, 4 /\n"
+                 "&hysteresis x = 1.6 /\n", 1, "steps");
+  pendres_store *store = scene_open("steps");
+  double *end = scene_values(store, "jump_parameter", &jumps);
+  double *error = scene_values(store, "jump_parameter_error", &jumps);
+  double *upper = scene_values(store, "step_upper", &n);
+  double *upper_error = scene_values(store, "step_upper_error", &n);
+  double *velocity = scene_values(store, "step_mean_velocity", &n);
+  double *width = scene_values(store, "step_width", &n);
+  double *winding = scene_values(store, "jump_winding", &jumps);
+  double *after = scene_values(store, "jump_mean_velocity", &jumps);
+  assert_true(n >= 1 && jumps >= 2);
+  /* A mean velocity of two turns a period; the lower end is that of the range. */
+  check_near(velocity[0], 6.0, 1e-14);
+  assert_true(upper[0] == end[0] && upper_error[0] == error[0] && isnan(width[0]));
+  assert_true(isnan(winding[0]) && isnan(after[0])); /* it goes to a rotation without a lock */
+  for (size_t i = 1; i < jumps; i++)
+    if (winding[i] == 2.0) check_near(after[i], 6.0, 1e-14);
+  pendres_store_free(store);
+  free(end), free(error), free(upper), free(upper_error), free(velocity), free(width);
+  free(winding), free(after);
+}
+
 /* Up to the fourth doubling: points come back after the period, and the ends are the cascade's. */
 static void bifurcation_diagram(void **state)
 {
@@ -344,6 +373,7 @@ int main(void)
     cmocka_unit_test(uncertain_starts),
     cmocka_unit_test(other_forces),
     cmocka_unit_test(torque_sweep),
+    cmocka_unit_test(junction_steps),
     cmocka_unit_test(bifurcation_diagram),
     cmocka_unit_test(only_what_is_asked),
     cmocka_unit_test(volume),

@@ -191,6 +191,17 @@ static void ask_path(const problem *q, pendres_parameter parameter, int l, int t
     NOTE(j->value, l, t);
     NOTE(j->value_error, l, t);
     NOTE(j->certain, 0, 0);
+    NOTE(j->to_winding, 0, 0);
+  }
+  NOTE(pendres_hysteresis_step_count(h), 0, 0);
+  for (size_t i = 0; i < pendres_hysteresis_step_count(h); i++) {
+    const pendres_step *s = pendres_hysteresis_step_get(h, i);
+    NOTE(s->lower, l, t);
+    NOTE(s->lower_error, l, t);
+    NOTE(s->upper, l, t);
+    NOTE(s->upper_error, l, t);
+    NOTE(s->width, l, t);
+    NOTE(s->width_error, l, t);
   }
   pendres_hysteresis_free(h);
 }

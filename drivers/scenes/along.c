@@ -1,6 +1,7 @@
 /* along.c -- what scenes share in which parameters move; see along.h. */
 #include "scenes/along.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,9 +71,9 @@ pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p
 
 /* ---- paths --------------------------------------------------------------------------------- */
 
-/* A record: this, the points, the jumps. */
+/* A record: this, the points, the jumps, the steps. */
 typedef struct head {
-  uint64_t points, jumps;
+  uint64_t points, jumps, steps;
 } head;
 
 typedef struct sweep {
@@ -87,11 +88,17 @@ static int not_reached(const pendres_hysteresis_point *p)
   return p->outcome == PENDRES_INTERRUPTED;
 }
 
+static size_t size_of(const head *n)
+{
+  return sizeof *n + n->points * sizeof(pendres_hysteresis_point) +
+         n->jumps * sizeof(pendres_jump) + n->steps * sizeof(pendres_step);
+}
+
 static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
 {
-  const head n = { pendres_hysteresis_count(h), pendres_hysteresis_jump_count(h) };
-  const size_t points = n.points * sizeof(pendres_hysteresis_point);
-  unsigned char *to = farm_record_resize(out, sizeof n + points + n.jumps * sizeof(pendres_jump));
+  const head n = { pendres_hysteresis_count(h), pendres_hysteresis_jump_count(h),
+                   pendres_hysteresis_step_count(h) };
+  unsigned char *to = farm_record_resize(out, size_of(&n));
   if (to == NULL) return PENDRES_OUT_OF_MEMORY;
   memcpy(to, &n, sizeof n);
   to += sizeof n;
@@ -99,6 +106,8 @@ static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
     memcpy(to, pendres_hysteresis_get(h, i), sizeof(pendres_hysteresis_point));
   for (size_t i = 0; i < n.jumps; i++, to += sizeof(pendres_jump))
     memcpy(to, pendres_hysteresis_jump_get(h, i), sizeof(pendres_jump));
+  for (size_t i = 0; i < n.steps; i++, to += sizeof(pendres_step))
+    memcpy(to, pendres_hysteresis_step_get(h, i), sizeof(pendres_step));
   return PENDRES_OK;
 }
 
@@ -183,22 +192,29 @@ static int jump_fits(const pendres_jump *j, size_t points)
          scene_check_code(j->gradual, 2) && scene_check_code(j->certain, 2);
 }
 
+static int step_fits(const pendres_step *s)
+{
+  return s->period > 0 && scene_check_code((int)s->lower_end, PENDRES_STEP_END_COUNT) &&
+         scene_check_code((int)s->upper_end, PENDRES_STEP_END_COUNT);
+}
+
 static int check(const void *arg, size_t task, const farm_record *in)
 {
   const size_t points = ((const sweep *)arg)->way->n;
-  const pendres_hysteresis_point *point;
-  const pendres_jump *jump;
   head n;
   (void)task;
   if (in->size < sizeof n) return 0;
   memcpy(&n, in->data, sizeof n);
-  if (n.points != points || n.points > (in->size - sizeof n) / sizeof *point) return 0;
-  const size_t rest = in->size - sizeof n - points * sizeof *point;
-  point = (const void *)((const char *)in->data + sizeof n);
-  jump = (const void *)(point + points);
-  int good = n.jumps == rest / sizeof *jump && rest % sizeof *jump == 0;
+  /* None of the numbers is so large that their sizes' sum overflows. */
+  if (n.points != points || n.jumps > in->size || n.steps > in->size || size_of(&n) != in->size)
+    return 0;
+  const pendres_hysteresis_point *point = (const void *)((const char *)in->data + sizeof n);
+  const pendres_jump *jump = (const void *)(point + n.points);
+  const pendres_step *step = (const void *)(jump + n.jumps);
+  int good = 1;
   for (size_t i = 0; good && i < n.points; i++) good = point_fits(&point[i]);
   for (size_t i = 0; good && i < n.jumps; i++) good = jump_fits(&jump[i], points);
+  for (size_t i = 0; good && i < n.steps; i++) good = step_fits(&step[i]);
   return good;
 }
 
@@ -209,14 +225,18 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   head n;
   (void)task;
   memcpy(&n, in->data, sizeof n);
-  path->points = n.points;
-  path->jumps = n.jumps;
+  *path = (scene_along_path){.axis = s->way->axis, .points = n.points, .jumps = n.jumps,
+                             .steps = n.steps};
   path->point = scene_array(s->run, n.points, sizeof *path->point);
   path->jump = scene_array(s->run, n.jumps, sizeof *path->jump);
+  path->step = scene_array(s->run, n.steps, sizeof *path->step);
   if (!scene_going(s->run)) return s->run->status;
-  const size_t bytes = n.points * sizeof *path->point;
-  memcpy(path->point, (const char *)in->data + sizeof n, bytes);
-  memcpy(path->jump, (const char *)in->data + sizeof n + bytes, n.jumps * sizeof *path->jump);
+  const char *from = (const char *)in->data + sizeof n;
+  memcpy(path->point, from, n.points * sizeof *path->point);
+  from += n.points * sizeof *path->point;
+  memcpy(path->jump, from, n.jumps * sizeof *path->jump);
+  from += n.jumps * sizeof *path->jump;
+  memcpy(path->step, from, n.steps * sizeof *path->step);
   return PENDRES_OK;
 }
 
@@ -264,13 +284,36 @@ scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
   return rows;
 }
 
-static scene_along_jump jump_row(const pendres_jump *j)
+int scene_along_turns(const deck *d)
+{
+  return pendres_model_of(d->pendulum.force)->period > 0.0;
+}
+
+double scene_along_velocity(const deck *d, deck_axis_id axis, double value, int winding,
+                            int period)
+{
+  pendres_pendulum p = deck_pendulum(d);
+  pendres_parameter_set(deck_axis_parameter(axis), value, &p);
+  const double turn = pendres_model_of(p.force)->period;
+  return period > 0 ? p.drive_frequency * turn / (2.0 * PENDRES_PI) * winding / period : NAN;
+}
+
+double scene_along_velocity_error(deck_axis_id axis, double velocity, double value, double error)
+{
+  const double relative = deck_is_clock(axis) ? error / fabs(value) : 0.0;
+  return fabs(velocity) * (relative + 2.0 * DBL_EPSILON);
+}
+
+static scene_along_jump jump_row(const deck *d, deck_axis_id axis, const pendres_jump *j)
 {
   const double closed = j->to_period > 0 ? 0.0 : NAN;
+  const double v = scene_along_velocity(d, axis, j->value, j->to_winding, j->to_period);
   return (scene_along_jump){
     .parameter = j->value, .parameter_error = j->value_error, .period = j->to_period + closed,
     .period_error = closed, .share = j->share, .share_error = j->share_error,
     .direction = j->direction < 0, .kind = (int)j->kind, .from = (int)j->from,
+    .winding = j->to_winding + closed, .winding_error = closed, .mean_velocity = v,
+    .mean_velocity_error = scene_along_velocity_error(axis, v, j->value, j->value_error),
     .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
 }
 
@@ -279,7 +322,8 @@ void scene_along_write_jumps(scene_run *run, const scene_along_path *path, const
 {
   char words[60];
   scene_along_jump *rows = scene_array(run, path->jumps, sizeof *rows);
-  for (size_t i = 0; rows != NULL && i < path->jumps; i++) rows[i] = jump_row(&path->jump[i]);
+  for (size_t i = 0; rows != NULL && i < path->jumps; i++)
+    rows[i] = jump_row(run->deck, path->axis, &path->jump[i]);
   const scene_table table = {.dimensions = {what}, .prefix = what, SCENE_ROWS(rows, path->jumps)};
   snprintf(words, sizeof words, "number of the %s", what);
   scene_numbering(run, what, table.n, words);

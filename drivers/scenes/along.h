@@ -21,9 +21,11 @@ pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p
 
 /* A path and what was met on it, in arrays of the run. */
 typedef struct scene_along_path {
-  size_t points, jumps;
+  deck_axis_id axis; /* of what moves */
+  size_t points, jumps, steps;
   pendres_hysteresis_point *point; /* [points] in the order of the path */
   pendres_jump *jump;              /* [jumps] */
+  pendres_step *step;              /* [steps] */
 } scene_along_path;
 
 /* Values of an axis in the order in which they are followed. */
@@ -58,6 +60,7 @@ typedef struct scene_along_row {
 typedef struct scene_along_jump {
   double parameter, parameter_error, period, period_error; /* period: of the orbit jumped to; NaN */
   double share, share_error;                               /* of trials: the binomial error */
+  double winding, winding_error, mean_velocity, mean_velocity_error; /* of that orbit, too */
   int direction, kind, from, to, gradual, certain, to_period;
 } scene_along_jump;
 
@@ -68,6 +71,15 @@ scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path);
    all names, too. SCENE_ALONG_WRITE_JUMPS writes the columns of an array. */
 void scene_along_write_jumps(scene_run *run, const scene_along_path *path, const char *what,
                              size_t count, const scene_column *columns);
+
+/* The mean velocity of an orbit that closes after some turns in some drive periods, at a value of
+   what moves; and how well that is known. */
+double scene_along_velocity(const deck *d, deck_axis_id axis, double value, int winding,
+                            int period);
+double scene_along_velocity_error(deck_axis_id axis, double velocity, double value, double error);
+
+/* Whether the deck's coordinate has a period, so that pendulums turn over. */
+int scene_along_turns(const deck *d);
 #define SCENE_ALONG_WRITE_JUMPS(run, path, what, columns) \
   scene_along_write_jumps(run, path, what, sizeof columns / sizeof *columns, columns)
 

@@ -4,6 +4,8 @@
  */
 #include "scenes/along.h"
 
+#include <math.h>
+
 /* Up and down again; points of the way back are put in the order of the axis, too. */
 static void compute(scene_run *run, deck_axis_id axis, scene_along_path *path)
 {
@@ -43,6 +45,10 @@ SCENE_NAMES(certain_names, "uncertain", "certain")
 static const scene_column of_jumps[] = {
   SCENE_COLUMN(scene_along_jump, parameter, "value at which the state ends", "1"),
   SCENE_COLUMN(scene_along_jump, period, "drive periods of the orbit jumped to", "1"),
+  {SCENE_AS("winding", scene_along_jump, winding, "whole turns of the orbit jumped to", "1"),
+   .when = scene_along_turns},
+  {SCENE_AS("mean_velocity", scene_along_jump, mean_velocity,
+            "mean velocity of x on the orbit jumped to", "1"), .when = scene_along_turns},
   SCENE_COLUMN(scene_along_jump, share, "share of the trials that went to that state", "1"),
   SCENE_CODE(scene_along_jump, direction, "way in which the parameter goes", direction_names),
   SCENE_CODE(scene_along_jump, kind, "bifurcation that ends the state", scene_jump_names),
@@ -53,6 +59,53 @@ static const scene_column of_jumps[] = {
   SCENE_CODE(scene_along_jump, certain, "whether all trials went to the same state",
              certain_names),
 };
+
+/* A step as a row of results. */
+typedef struct step_row {
+  pendres_step of;
+  double mean_velocity, mean_velocity_error;
+} step_row;
+
+static const char *step_end_names(int value)
+{
+  return pendres_name_get(PENDRES_NAMES_STEP_END, value);
+}
+
+static const scene_column of_steps[] = {
+  {SCENE_TYPED(SCENE_NUMBER, "winding", step_row, of.winding, "whole turns ...")},
+  {SCENE_TYPED(SCENE_NUMBER, "period", step_row, of.period,
+               "... in so many drive periods, without a common factor")},
+  {SCENE_AS("mean_velocity", step_row, mean_velocity, "mean velocity of x on the step", "1")},
+  {SCENE_AS("lower", step_row, of.lower, "least value at which the step was met", "1")},
+  {SCENE_AS("upper", step_row, of.upper, "largest value at which the step was met", "1")},
+  {SCENE_AS("width", step_row, of.width, "width of the step", "1"),
+   .comment = "NaN: one of the ends is none of the step (see step_lower_end, step_upper_end)"},
+  {SCENE_TYPED(SCENE_FLAG, "lower_end", step_row, of.lower_end,
+               "what is known of the step's lower end"), .names = step_end_names},
+  {SCENE_TYPED(SCENE_FLAG, "upper_end", step_row, of.upper_end,
+               "what is known of the step's upper end"), .names = step_end_names},
+};
+
+/* Steps are asked for where a torque drives a coordinate around. */
+static int has_steps(const deck *d, const scene_along_path *path)
+{
+  return path->axis == DECK_AXIS_TORQUE && scene_along_turns(d);
+}
+
+static void write_steps(scene_run *run, const scene_along_path *path)
+{
+  step_row *rows = scene_array(run, path->steps, sizeof *rows);
+  for (size_t i = 0; rows != NULL && i < path->steps; i++) {
+    const pendres_step *s = &path->step[i];
+    const double v =
+      scene_along_velocity(run->deck, path->axis, s->lower, s->winding, s->period);
+    rows[i] = (step_row){*s, v, scene_along_velocity_error(path->axis, v, s->lower, 0.0)};
+  }
+  const scene_table table = {.dimensions = {"step"}, .prefix = "step",
+                             SCENE_ROWS(rows, path->steps)};
+  scene_numbering(run, "step", table.n, "number of the step, by mean velocity");
+  SCENE_WRITE(run, &table, of_steps);
+}
 
 static void write(scene_run *run, deck_axis_id axis, const scene_along_path *path)
 {
@@ -68,9 +121,41 @@ static void write(scene_run *run, deck_axis_id axis, const scene_along_path *pat
   scene_along_write_verdicts(run, path, &table);
   scene_along_tell(run, axis, path, SCENE_DIRECTIONS);
   SCENE_ALONG_WRITE_JUMPS(run, path, "jump", of_jumps);
+  if (has_steps(run->deck, path)) write_steps(run, path);
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
+
+/* An end of a step in a cell: the value with its error, or why it is none of the step. */
+static void print_end(FILE *out, pendres_step_end end, double value, double error)
+{
+  char cell[60];
+  if (end == PENDRES_STEP_END_LEFT) snprintf(cell, sizeof cell, "%.12g +- %.0e", value, error);
+  else snprintf(cell, sizeof cell, "%.6g (%s)", value, step_end_names((int)end));
+  fprintf(out, "  %-24s", cell);
+}
+
+/* Only where there is one but the pendulum's rest. */
+static void tabulate_steps(FILE *out, const scene_along_path *path)
+{
+  size_t turning = 0;
+  for (size_t i = 0; i < path->steps; i++) turning += path->step[i].winding != 0;
+  if (turning == 0) return;
+  fprintf(out, "\n%-9s %-25s %-25s %s\n", "step", "from torque", "to", "width");
+  for (size_t i = 0; i < path->steps && i < SCENE_TABLE_LINES; i++) {
+    const pendres_step *s = &path->step[i];
+    char name[30];
+    if (s->period == 1) snprintf(name, sizeof name, "%d", s->winding);
+    else snprintf(name, sizeof name, "%d/%d", s->winding, s->period);
+    fprintf(out, "%-8s", name);
+    print_end(out, s->lower_end, s->lower, s->lower_error);
+    print_end(out, s->upper_end, s->upper, s->upper_error);
+    if (isnan(s->width)) fputs("\n", out);
+    else fprintf(out, "  %.12g +- %.0e\n", s->width, s->width_error);
+  }
+  if (path->steps > SCENE_TABLE_LINES)
+    fprintf(out, "and %zu more\n", path->steps - SCENE_TABLE_LINES);
+}
 
 static void tabulate(FILE *out, deck_axis_id axis, const scene_along_path *path)
 {
@@ -98,7 +183,10 @@ static pendres_status run_scene(scene_run *run)
   (void)deck_axes(run->deck, axis);
   compute(run, axis[0], &path);
   write(run, axis[0], &path);
-  if (scene_prints(run)) tabulate(run->table, axis[0], &path);
+  if (scene_prints(run)) {
+    tabulate(run->table, axis[0], &path);
+    if (has_steps(run->deck, &path)) tabulate_steps(run->table, &path);
+  }
   scene_ramp_run(run, axis[0], &path);
   return run->status;
 }

@@ -110,7 +110,48 @@ typedef struct pendres_jump {
   double share;              /**< of the trials that went there; 1 if gradual; NaN if not tried */
   double share_error;        /**< its standard error */
   int certain;               /**< 1: all of them did, mirror images not being told apart */
+  int to_winding;            /**< whole turns of the orbit that it goes to in to_period drive
+                                  periods; 0 if none closes */
 } pendres_jump;
+
+/** The codes and their names in one list: X(code, name). Codes must not change: files have them. */
+#define PENDRES_STEP_END_LIST(X) \
+  X(LEFT, "left")                \
+  X(SEEN, "seen")                \
+  X(RANGE, "range")
+
+/**
+ * What is known of an end of a step. PENDRES_STEP_END_LEFT: the lock ends there, the pendulum
+ * leaves it in a jump; PENDRES_STEP_END_SEEN: it was met no further, since the path came to it
+ * there from elsewhere, or lost sight of it; the lock may go on; PENDRES_STEP_END_RANGE: the
+ * path's values go no further. PENDRES_STEP_END_COUNT: how many there are.
+ */
+typedef enum pendres_step_end {
+#define PENDRES_STEP_END_CODE(code, name) PENDRES_STEP_END_##code,
+  PENDRES_STEP_END_LIST(PENDRES_STEP_END_CODE)
+#undef PENDRES_STEP_END_CODE
+  PENDRES_STEP_END_COUNT /**< how many there are; not an end */
+} pendres_step_end;
+
+/**
+ * A step: an interval of the parameter throughout which a path has met rotations that are locked to
+ * the drive with the same mean velocity, omega winding / period. Under a torque, the current of a
+ * Josephson junction, these are Shapiro steps. Doublings of the period are not ends, nor is it one
+ * that another orbit of the same mean velocity takes over.
+ */
+typedef struct pendres_step {
+  int winding;                /**< whole turns ... */
+  int period;                 /**< ... in so many drive periods, without a common factor */
+  pendres_step_end lower_end; /**< what is known of the lower end, ... */
+  pendres_step_end upper_end; /**< ... and of the upper one */
+  double lower;               /**< the least value of the parameter at which it was met */
+  double lower_error;         /**< its error, that of a jump; 0 of a value of the path */
+  double upper;               /**< the largest */
+  double upper_error;         /**< its error */
+  double width;               /**< upper - lower, if both ends are LEFT; else NaN, the step being
+                                   wider than that or as wide */
+  double width_error;         /**< its error, the sum of both; NaN if there is no width */
+} pendres_step;
 
 /** Values of a parameter in the order in which they are reached: each is approached from the one
     before, slowly and monotonically. A sweep up and down is a list that ascends and then
@@ -156,6 +197,10 @@ const pendres_hysteresis_point *pendres_hysteresis_get(const pendres_hysteresis 
 size_t pendres_hysteresis_jump_count(const pendres_hysteresis *h);
 /** Jump number i in the order of the path, owned by h; NULL out of range. */
 const pendres_jump *pendres_hysteresis_jump_get(const pendres_hysteresis *h, size_t i);
+/** How many steps were met; none where the coordinate has no period (see pendres_model). */
+size_t pendres_hysteresis_step_count(const pendres_hysteresis *h);
+/** Step number i by mean velocity, then by value, owned by h; NULL out of range. */
+const pendres_step *pendres_hysteresis_step_get(const pendres_hysteresis *h, size_t i);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -157,8 +157,9 @@ class Boundary(Handle):
 
 
 class Hysteresis(Handle):
-    """What was met on a path of a parameter: points (value, attractor, mean_velocity, ...) and
-    jumps (value, value_error, direction, kind, from, to, ...), see hysteresis.h."""
+    """What was met on a path of a parameter: points (value, attractor, mean_velocity, ...), jumps
+    (value, value_error, direction, kind, from, to, ...) and steps (winding, period, lower, upper,
+    width, ...), see hysteresis.h."""
 
     ctype = "pendres_hysteresis"
 
@@ -168,6 +169,8 @@ class Hysteresis(Handle):
             c.hysteresis_get(self, i) for i in range(c.hysteresis_count(self))])
         self.jumps = stacked("pendres_jump", [
             c.hysteresis_jump_get(self, i) for i in range(c.hysteresis_jump_count(self))])
+        self.steps = stacked("pendres_step", [
+            c.hysteresis_step_get(self, i) for i in range(c.hysteresis_step_count(self))])
 
 
 def hysteresis(p, values, x=np.pi / 2, v=0.0, *, parameter="drive_frequency", context=None):

@@ -46,6 +46,7 @@ static const struct {
     {.name = {"straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier",
               "unbalanced"}},
   [PENDRES_NAMES_STORE_TYPE] = {.name = {"double", "int8", "int32", "int64", "string"}},
+  [PENDRES_NAMES_STEP_END] = {.name = {PENDRES_STEP_END_LIST(SECOND)}},
 };
 
 static int value_of(pendres_names list, int place)

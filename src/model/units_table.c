@@ -185,6 +185,10 @@ static const pendres_dimension jump[] = {FIRST(pendres_jump, value),
                                          FIRST(pendres_jump, value_error)};
 TABLE(jump, pendres_jump, jump);
 
+#define STEP(field) FIRST(pendres_step, field), FIRST(pendres_step, field##_error)
+static const pendres_dimension step[] = {STEP(lower), STEP(upper), STEP(width)};
+TABLE(step, pendres_step, step);
+
 static const pendres_dimension ramp_jump[] = {
   FIRST(pendres_ramp_jump, value), FIRST(pendres_ramp_jump, value_error),
   FIRST(pendres_ramp_jump, delay), FIRST(pendres_ramp_jump, delay_error)};

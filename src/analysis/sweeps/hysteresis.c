@@ -12,6 +12,7 @@
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_orbit.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
+#include "analysis/sweeps/hysteresis_steps.h"
 #include "analysis/sweeps/hysteresis_unlocked.h"
 #include "analysis/chaos/lyapunov_move.h"
 #include "analysis/sweeps/numbers.h"
@@ -23,6 +24,7 @@ void pendres_hysteresis_free(pendres_hysteresis *h)
   if (h == NULL) return;
   free(h->point);
   free(h->jump);
+  free(h->step);
   free(h->part);
   free(h->jump_from);
   free(h->jump_to);
@@ -47,6 +49,16 @@ size_t pendres_hysteresis_jump_count(const pendres_hysteresis *h)
 const pendres_jump *pendres_hysteresis_jump_get(const pendres_hysteresis *h, size_t i)
 {
   return h != NULL && i < h->jumps ? &h->jump[i] : NULL;
+}
+
+size_t pendres_hysteresis_step_count(const pendres_hysteresis *h)
+{
+  return h != NULL ? h->steps : 0;
+}
+
+const pendres_step *pendres_hysteresis_step_get(const pendres_hysteresis *h, size_t i)
+{
+  return h != NULL && i < h->steps ? &h->step[i] : NULL;
 }
 
 /* ---- along the path ---- */
@@ -262,7 +274,9 @@ pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hys
   const int interrupted = status == PENDRES_INTERRUPTED;
   if (status == PENDRES_OK || interrupted) {
     pendres_path_number(w, &left);
-    const pendres_status named = pendres_hysteresis_name(w->ctx, w->h);
+    pendres_status named = pendres_hysteresis_name(w->ctx, w->h);
+    if (named == PENDRES_OK && pendres_model_of(w->pendulum.force)->period > 0.0)
+      named = pendres_hysteresis_find_steps(w->ctx, w->h);
     if (named != PENDRES_OK) status = named;
   }
   if (status == PENDRES_OK || status == PENDRES_INTERRUPTED) *out = w->h;
@@ -301,6 +315,7 @@ pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendu
   if ((d.status == PENDRES_OK || d.status == PENDRES_INTERRUPTED) && *out != NULL) {
     pendres_units_out(&d.scales, &pendres_dim_hysteresis_point, (*out)->count, (*out)->point);
     pendres_units_out(&d.scales, &pendres_dim_jump, (*out)->jumps, (*out)->jump);
+    pendres_units_out(&d.scales, &pendres_dim_step, (*out)->steps, (*out)->step);
   }
   return pendres_door_close(&d);
 }

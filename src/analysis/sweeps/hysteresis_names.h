@@ -7,9 +7,10 @@
 #include <pendres/hysteresis.h>
 
 struct pendres_hysteresis {
-  size_t count, jumps, jump_room;
+  size_t count, jumps, jump_room, steps, step_room;
   pendres_hysteresis_point *point;
   pendres_jump *jump;
+  pendres_step *step;
   /* For names: the number of the part (stable_part.h) that a point belongs to, and of those that a
      jump comes from and leads to. */
   size_t parts;

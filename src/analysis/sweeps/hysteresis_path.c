@@ -65,6 +65,7 @@ pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j)
     h->jump_room = room;
   }
   h->jump[h->jumps] = *j;
+  h->jump[h->jumps].to_winding = j->to_period > 0 ? w->state.attractor.orbit.winding : 0;
   h->jump[h->jumps].share_error = sqrt(j->share * (1.0 - j->share) / PENDRES_HYSTERESIS_TRIALS);
   h->jump_from[h->jumps] = h->parts;
   h->jump_to[h->jumps++] = h->parts + 1;
