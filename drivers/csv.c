@@ -28,6 +28,7 @@ typedef struct column {
   char *dimension[2];
   double *value; /* or, of a text, */
   char **text;
+  double si_factor; /* that the values were multiplied by; 0: they are as the file has them */
 } column;
 
 typedef struct tables {
@@ -79,7 +80,12 @@ static pendres_status load(pendres_store *store, column *c)
   if (c->type != PENDRES_STORE_STRING) {
     c->value = calloc(n + 1, sizeof *c->value);
     if (c->value == NULL) return PENDRES_OUT_OF_MEMORY;
-    return pendres_store_read(store, "", c->name, PENDRES_STORE_DOUBLE, c->value, n);
+    status = pendres_store_read(store, "", c->name, PENDRES_STORE_DOUBLE, c->value, n);
+    if (pendres_store_read_attribute_double(store, "", c->name, "si_factor", &c->si_factor) !=
+        PENDRES_OK)
+      c->si_factor = 0.0;
+    for (size_t i = 0; i < n && c->si_factor > 0.0; i++) c->value[i] *= c->si_factor;
+    return status;
   }
   c->text = calloc(n + 1, sizeof *c->text);
   if (c->text == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -131,8 +137,8 @@ static int alike(const column *a, const column *b)
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-/* As few digits as give the same double again. */
-static void put_number(double x, FILE *out)
+/* As few digits as give the same double again, but no more than `most`. */
+static void put_number(double x, int most, FILE *out)
 {
   char text[40];
   if (isnan(x)) {
@@ -143,7 +149,7 @@ static void put_number(double x, FILE *out)
     fputs(x > 0 ? "Inf" : "-Inf", out);
     return;
   }
-  for (int digits = fabs(x) < DBL_MIN ? 1 : DBL_DIG; digits <= DBL_DECIMAL_DIG; digits++) {
+  for (int digits = fabs(x) < DBL_MIN ? 1 : DBL_DIG; digits <= most; digits++) {
     snprintf(text, sizeof text, "%.*g", digits, x);
     if (strtod(text, NULL) == x) break;
   }
@@ -165,7 +171,7 @@ static void put_text(const char *text, int cell, FILE *out)
 static void put_cell(const column *c, size_t i, FILE *out)
 {
   if (c->text != NULL) put_text(c->text[i], 1, out);
-  else put_number(c->value[i], out);
+  else put_number(c->value[i], c->si_factor > 0.0 ? DBL_DIG : DBL_DECIMAL_DIG, out);
 }
 
 /* A text of the file, and what it was asked with: NULL if it has none. */
@@ -218,14 +224,17 @@ static void put_head(tables *t, FILE *out)
     if (c->rank > 0) continue;
     fprintf(out, "# %s = ", c->name);
     put_cell(c, 0, out);
-    putc('\n', out);
+    char *units = c->si_factor > 0.0 ? attribute(t, c->name, "si_units") : NULL;
+    fprintf(out, "%s%s\n", units != NULL ? " " : "", units != NULL ? units : "");
+    free(units);
   }
 }
 
 /* What a column is, and what its codes stand for. */
 static void put_meaning(tables *t, const column *c, FILE *out)
 {
-  char *what = attribute(t, c->name, "long_name"), *units = attribute(t, c->name, "units");
+  char *what = attribute(t, c->name, "long_name");
+  char *units = attribute(t, c->name, c->si_factor > 0.0 ? "si_units" : "units");
   char *codes = attribute(t, c->name, "flag_meanings");
   double unused = 0.0;
   /* An array, which cannot be read as a number, but is there: codes are sums of 0, 1, 2, 4, ... */

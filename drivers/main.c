@@ -203,7 +203,7 @@ static int start_farm(job *j)
 /* The output is found unwritable before anything is computed. */
 static int open_output(job *j)
 {
-  char title[DECK_TITLE + 32], history[4 * DECK_PATH], source[64];
+  char title[DECK_TITLE + 32], history[4 * DECK_PATH], source[64], references[SCENE_REFERENCES];
   const deck *d = &j->deck;
   const char *slash = strrchr(d->name, '/');
   snprintf(title, sizeof title, "%s", d->title[0] != '\0' ? d->title : deck_kind_name(d->kind));
@@ -211,7 +211,7 @@ static int open_output(job *j)
            slash != NULL ? slash + 1 : d->name, d->settings[0] != '\0' ? " " : "", d->settings);
   snprintf(source, sizeof source, "resonance, libpendres %s", pendres_version());
   const pendres_store_options options = { .title = title, .history = history, .source = source,
-                                          .references = j->scene->references,
+                                          .references = scene_references(d, references),
                                           .alone = journal_alone(j->journal) };
   j->run = (scene_run){ .deck = d, .farm = j->farm };
   if (watch(j) != DONE) return FAILED;
@@ -283,7 +283,7 @@ static int compute(job *j)
                : j->run.message[0] != '\0' ? j->run.message
                : pendres_status_message(status));
   scene_write_identity(&j->run);
-  scene_write_units(&j->run);
+  scene_tell_units(&j->run);
   status = j->run.status;
   if (status == PENDRES_OK || farm_left(j->farm)) return DONE;
   if (status == PENDRES_INTERRUPTED) {

@@ -89,6 +89,45 @@ static inline void assert_deck_equal(const deck *a, const deck *b)
   assert_names_equal(&a->methods, &b->methods);
   assert_string_equal(a->unit, b->unit);
   assert_names_equal(&a->cases, &b->cases);
+  assert_memory_equal(&a->units, &b->units, sizeof a->units);
+}
+
+/* A deck with mistakes, and every error in order: its position, and words of the message after a
+   blank. */
+typedef struct bad_deck {
+  const char *text;
+  const char *error[8];
+} bad_deck;
+
+/* Is a deck refused with these errors, and nothing applied? */
+static inline int is_refused(const bad_deck *bad)
+{
+  deck d;
+  namelist_errors errors = { 0 };
+  size_t wanted = 0;
+  memset(&d, 0x55, sizeof d);
+  const pendres_status status = deck_read_memory("input/t.nml", bad->text, strlen(bad->text), &d,
+                                                 &errors);
+  const deck zero = { 0 };
+  while (wanted < 8 && bad->error[wanted] != NULL) wanted++;
+  int good_errors = errors.count == wanted;
+  for (size_t k = 0; k < wanted && k < errors.count; k++) {
+    char position[60];
+    const char *words = strchr(bad->error[k], ' ');
+    snprintf(position, sizeof position, "input/t.nml:%.*s: error: ", (int)(words - bad->error[k]),
+             bad->error[k]);
+    if (strncmp(errors.item[k].text, position, strlen(position)) != 0) good_errors = 0;
+    if (strstr(errors.item[k].text, words + 1) == NULL) good_errors = 0;
+    if (strchr(errors.item[k].text, '^') == NULL) good_errors = 0;
+  }
+  if (!good_errors) {
+    print_error("case:\n%s\n", bad->text);
+    namelist_errors_print(&errors, stderr);
+  }
+  namelist_errors_free(&errors);
+  assert_int_equal(status, PENDRES_INVALID_ARGUMENT);
+  assert_memory_equal(&d, &zero, sizeof d);
+  return good_errors;
 }
 
 #define ONE "&pendulum drive_amplitude=0.2 damping=0.12 drive_period=8 /\n"

@@ -64,6 +64,7 @@ static void no_store(void **state)
   REFUSED(pendres_store_put(NULL, &spec, &number, NULL, 1));
   REFUSED(pendres_store_put(NULL, &spec, &number, &number, 1));
   REFUSED(pendres_store_attribute(NULL, "", NULL, "a", "a"));
+  REFUSED(pendres_store_attribute_number(NULL, "", NULL, "a", 1.0));
   REFUSED(pendres_store_provenance(NULL, &entry, 1));
   assert_false(pendres_store_has(NULL, "", "a"));
   REFUSED(pendres_store_shape(NULL, "", "a", &rank, sizes));
@@ -126,6 +127,8 @@ static void written(pendres_store *s, int *count)
   REFUSED(pendres_store_write_rows(s, id, 0, 1, NULL, 1));
   REFUSED(pendres_store_attribute(s, "", NULL, NULL, "a"));
   REFUSED(pendres_store_attribute(s, "", NULL, "a", NULL));
+  REFUSED(pendres_store_attribute_number(s, "", NULL, NULL, 1.0));
+  REFUSED(pendres_store_attribute_number(s, "", "no_such", "a", 1.0));
   REFUSED(pendres_store_provenance(s, NULL, 1));
   REFUSED(pendres_store_provenance(s, &entries[0], 1));
   REFUSED(pendres_store_provenance(s, &entries[1], 1));

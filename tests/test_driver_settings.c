@@ -289,35 +289,6 @@ static void test_measures_are_defined(void **state)
   pendres_store_free(store);
 }
 
-/* Copies in a laboratory's units, and ours untouched. One rounding: two units in the last place. */
-static void test_units(void **state)
-{
-  pendres_store *store = NULL;
-  double frequency = 0, hertz = 0, period = 0, seconds = 0;
-  (void)state;
-  check_code(RUN("-q", "orbit.nml"), DONE);
-  assert_null(strstr(out, "Hz"));
-  assert_int_equal(pendres_store_open("orbit.h5", &store), PENDRES_OK);
-  assert_false(pendres_store_has(store, "", "drive_frequency_hz"));
-  assert_int_equal(pendres_store_read(store, "", "drive_frequency", PENDRES_STORE_DOUBLE,
-                                      &frequency, 1), PENDRES_OK);
-  assert_int_equal(pendres_store_read(store, "", "drive_period", PENDRES_STORE_DOUBLE, &period, 1),
-                   PENDRES_OK);
-  pendres_store_free(store);
-  check_code(RUN("-q", "orbit.nml", "units.natural_frequency=0.83"), DONE);
-  check_says(out, "natural frequency of 0.83 Hz");
-  check_says(out, "drive_frequency_hz\n");
-  assert_int_equal(pendres_store_open("orbit.h5", &store), PENDRES_OK);
-  assert_int_equal(pendres_store_read(store, "", "drive_frequency_hz", PENDRES_STORE_DOUBLE,
-                                      &hertz, 1), PENDRES_OK);
-  assert_int_equal(pendres_store_read(store, "", "drive_period_s", PENDRES_STORE_DOUBLE, &seconds,
-                                      1), PENDRES_OK);
-  pendres_store_free(store);
-  check_near(hertz, 0.83 * frequency, 2 * 2.3e-16 * hertz);
-  check_near(seconds, period / (2 * PENDRES_PI * 0.83), 4 * 2.3e-16 * seconds);
-  check_code(RUN("-q", "orbit.nml", "units.natural_frequency=-1"), 2);
-}
-
 /* Replaced are results of the same deck, which can be had again; all else keeps a name. */
 static void test_results_are_kept(void **state)
 {
@@ -421,7 +392,7 @@ int main(void)
     TEST(test_standard_input), TEST(test_results_are_kept), TEST(test_csv_is_no_hdf5),
     TEST(test_text_beside_others),
     TEST(test_text), TEST(test_text_of_failures),
-    TEST(test_measures_are_defined), TEST(test_units), TEST(test_verify),
+    TEST(test_measures_are_defined), TEST(test_verify),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

@@ -285,9 +285,7 @@ void deck_check(deck_builder *b)
 {
   deck *d = b->d;
   if (b->scene == 0) return;
-  for (int f = 0; f < PENDRES_FORCE_COUNT; f++)
-    if (strcmp(d->force, pendres_model_of((pendres_force)f)->name) == 0)
-      d->pendulum.force = (pendres_force)f;
+  deck_scales_damping(b);
   check_missing(b);
   check_axis_sources(b);
   resolve_drive(b);

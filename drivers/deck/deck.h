@@ -232,8 +232,11 @@ typedef struct deck {
     int64_t periods;
   } noise;
 
-  struct {
-    double natural_frequency; /* of small oscillations, in Hz; NaN: it was not told */
+  struct {                  /* in SI; NaN: it was not told, and does not follow (scales.c) */
+    double natural_frequency; /* the unit of time is 1/(2 pi natural_frequency) */
+    double mass, length, gravity;
+    double volts_per_length;  /* positions are then in volts */
+    double critical_current, resistance, capacitance;
   } units;
 
   deck_names methods;       /* work_precision */
@@ -291,6 +294,22 @@ int deck_has_ramp(const deck *d);
  *  are, which is at most DECK_AXES in a deck that was checked. */
 enum { DECK_AXES = 3 };
 int deck_axes(const deck *d, deck_axis_id axis[DECK_AXES]);
+
+/** Does it tell a laboratory's scales, in &units? */
+int deck_has_units(const deck *d);
+
+/** What makes SI of the numbers of a key or a result, by its name: they times `factor` are in
+    `units`, which UDUNITS reads. 0 where the deck does not tell enough, or they have no unit; of an
+    error the same as of its result. */
+enum { DECK_UNITS = 40 };
+typedef struct deck_si {
+  double factor;
+  char units[DECK_UNITS];
+} deck_si;
+int deck_si_of(const deck *d, const char *name, deck_si *out);
+
+/** The same in a unit with the prefix in which a number of that size in SI is easiest to read. */
+deck_si deck_si_prefixed(const deck_si *si, double value);
 
 /** Whether it is one of these. */
 int deck_has_axis(const deck *d, deck_axis_id axis);

@@ -66,7 +66,9 @@ static void add_form(char *text, const deck_key *key)
 
 static void add_unit(char *text, const deck_key *words)
 {
+  const char *example = deck_unit_example(words);
   if (words->unit != NULL && strcmp(words->unit, "1") != 0) add(text, ", in %s", words->unit);
+  if (example != NULL) add(text, ", or as %s", example);
 }
 
 static int is_by_drive(const deck_key *key)
@@ -340,7 +342,10 @@ static const char page_head[] =
   "drive; torques and energies are in units of m g l.\n"
   "\n"
   "An axis NAME of `&sweep` takes values, `NAME = v1, v2, ...`, a range, `NAME_range = first,\n"
-  "last, count`, or both, which are united.\n";
+  "last, count`, or both, which are united.\n"
+  "\n"
+  "Numbers may have units, `'1.2 MHz'`, where the column of units shows one: [units](units.md)\n"
+  "tells which scales a deck then has in `&units`. Numbers without a unit are in ours.\n";
 
 /* In a cell of a table a bar would end the cell. Empties the text. */
 static void write_cell(FILE *out, char *text)
@@ -381,7 +386,9 @@ static void reference_key(FILE *out, const deck_key *key)
   add(cell, "%s", words->meaning);
   if (condition(key) != NULL) add(cell, "; %s", condition(key));
   write_cell(out, cell);
+  const char *example = deck_unit_example(words);
   add(cell, "%s", words->unit != NULL ? words->unit : "");
+  if (example != NULL) add(cell, "%s%s", cell[0] != '\0' ? ", " : "", example);
   write_cell(out, cell);
   add_form(cell, key);
   write_cell(out, cell);

@@ -46,6 +46,8 @@ static int in_range(deck_builder *b, const deck_key *key, const namelist_value *
 static int read_real(deck_builder *b, const deck_key *key, const namelist_value *v,
                      const char *name, double *out)
 {
+  if (deck_value_has_unit(b->nl, v))
+    return deck_quantity_read(b, key, v, name, out) && in_range(b, key, v, name, *out);
   return namelist_value_real(b->nl, v, name, out, b->errors) && in_range(b, key, v, name, *out);
 }
 
@@ -192,9 +194,13 @@ static int apply_numbers(deck_builder *b, const deck_key *key, const namelist_ar
              key->name, "takes five numbers at most");
     return 0;
   }
-  for (size_t i = 0; i < array->count; i++) /* a null value leaves zero */
-    if (array->item[i] != NULL && !read_real(b, key, array->item[i], key->name, &number[i]))
+  for (size_t i = 0; i < array->count; i++) { /* a null value leaves zero */
+    const namelist_value *v = array->item[i];
+    if (v == NULL) continue;
+    if (deck_value_has_unit(b->nl, v) ? !deck_coefficient_read(b, key, v, (int)i + 1)
+                                      : !read_real(b, key, v, key->name, &number[i]))
       good = 0;
+  }
   return good;
 }
 

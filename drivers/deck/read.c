@@ -1,6 +1,7 @@
 /* read.c -- from the tree of a namelist to a checked deck; see deck.h. */
 #include "deck/table.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,40 +37,51 @@ static int came_before(const deck_builder *b, const namelist_group *g, size_t i)
   return 0;
 }
 
-/* The keys of a group of the deck, or the one of a setting. */
-static void read_keys(deck_builder *b, const namelist_group *g, const char *group)
+/* The order in which keys are read, wherever they stand: all depends on the kind of scene, and
+   numbers with units on the scales. */
+enum { STAGE_SCENE, STAGE_SCALES, STAGE_REST, STAGES };
+
+/* The stage of a key; that of a group is that of a key which is none. */
+static int stage_of(const char *group, const char *name)
 {
-  if (b->scene != 0 && !deck_group_has_scene(group, b->scene)) {
-    deck_report_idle_group(b, g, group);
-    return;
-  }
-  for (size_t i = 0; i < g->count; i++)
-    if (!came_before(b, g, i)) read_key(b, g, &b->nl->assignment[g->begin + i], group);
+  const int force = strcmp(name, "force") == 0 || strcmp(name, "force_coefficients") == 0;
+  if (strcmp(group, "scene") == 0) return STAGE_SCENE;
+  if (strcmp(group, "units") == 0 || (strcmp(group, "pendulum") == 0 && force)) return STAGE_SCALES;
+  return STAGE_REST;
 }
 
-static void read_group(deck_builder *b, const namelist_group *g, const char *group)
+/* The keys of a group of the deck, or the one of a setting, that are read at this stage. */
+static void read_keys(deck_builder *b, const namelist_group *g, const char *group, int stage)
+{
+  if (b->scene != 0 && !deck_group_has_scene(group, b->scene)) {
+    if (stage == stage_of(group, "")) deck_report_idle_group(b, g, group);
+    return;
+  }
+  for (size_t i = 0; i < g->count; i++) {
+    const namelist_assignment *a = &b->nl->assignment[g->begin + i];
+    if (stage == stage_of(group, a->name) && !came_before(b, g, i)) read_key(b, g, a, group);
+  }
+}
+
+static void read_group(deck_builder *b, const namelist_group *g, const char *group, int stage)
 {
   for (size_t i = 0; i < deck_table_size; i++)
     if (strcmp(deck_table[i].group, group) == 0) b->given[i].group = g;
-  read_keys(b, g, group);
+  read_keys(b, g, group, stage);
 }
 
-static int is_scene(const char *group)
-{
-  return strcmp(group, "scene") == 0;
-}
-
-/* Settings of &scene, or all others. */
-static void read_settings(deck_builder *b, int scene)
+static void read_settings(deck_builder *b, int stage)
 {
   const namelist *text = b->nl;
   for (size_t i = 0; i < b->setting_count; i++) {
     b->nl = &b->settings[i];
     if (b->nl->groups == 0 || b->nl->assignments == 0) continue; /* not understood, and reported */
     const namelist_group *g = &b->nl->group[0];
-    if (is_scene(g->name) != scene) continue;
+    const char *name = b->nl->assignment[0].name;
+    if (stage_of(g->name, name) != stage) continue;
     const char *group = deck_resolve_group(b, g);
-    if (group != NULL && !deck_is_set_before(b, i)) read_keys(b, g, group);
+    if (group != NULL && !deck_is_set_before(b, i))
+      read_keys(b, g, group, stage_of(group, name));
   }
   b->nl = text;
 }
@@ -89,7 +101,6 @@ static void check_kind(deck_builder *b, int found)
     namelist_error_at(nl, b->kind_at, b->errors, "&scene needs a 'kind'");
 }
 
-/* &scene first, wherever it stands: all else depends on the kind. */
 static void read_groups(deck_builder *b)
 {
   const char *name[NAMELIST_MAX_GROUPS] = { NULL };
@@ -97,18 +108,19 @@ static void read_groups(deck_builder *b)
   int found = 0;
   for (size_t i = 0; i < nl->groups; i++)
     if (!nl->group[i].repeated) name[i] = deck_resolve_group(b, &nl->group[i]);
-  for (int scene = 1; scene >= 0; scene--) {
+  for (int stage = 0; stage < STAGES; stage++) {
     for (size_t i = 0; i < nl->groups; i++) {
-      if (name[i] == NULL || is_scene(name[i]) != scene) continue;
-      if (scene) {
+      if (name[i] == NULL) continue;
+      if (stage == STAGE_SCENE && stage_of(name[i], "") == STAGE_SCENE) {
         b->kind_at = nl->group[i].at;
         found = 1;
       }
-      read_group(b, &nl->group[i], name[i]);
+      read_group(b, &nl->group[i], name[i], stage);
     }
-    read_settings(b, scene);
-    if (scene) check_kind(b, found);
-    if (scene && b->scene != 0) deck_key_defaults(b);
+    read_settings(b, stage);
+    if (stage == STAGE_SCENE) check_kind(b, found);
+    if (stage == STAGE_SCENE && b->scene != 0) deck_key_defaults(b);
+    if (stage == STAGE_SCALES && b->scene != 0) deck_scales_find(b);
   }
 }
 
@@ -151,7 +163,8 @@ static pendres_status build(const namelist *nl, const namelist *settings, size_t
 {
   deck d = { 0 };
   deck_builder b = { .nl = nl, .settings = settings, .setting_count = count, .errors = errors,
-                     .d = &d, .kind_nl = nl, .kind_at = { 1, 1, 1 } };
+                     .d = &d, .kind_nl = nl, .kind_at = { 1, 1, 1 }, .damping = NAN };
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) b.in_si[i] = NAN;
 
   deck_key_defaults(&b);
   default_output(&d, nl->name);

@@ -55,6 +55,8 @@
 #define LIST(g, n, f) .group = g, .name = n, .type = DECK_LIST, FIELD(f)
 #define SWEEP(n, a) .group = "sweep", .name = n, .type = DECK_SWEEP, .axis = DECK_AXIS_##a
 #define VALUE(n, a) .group = "pendulum", .name = n, .type = DECK_SWEEP_VALUE, .axis = DECK_AXIS_##a
+#define SCALE(f) REAL("units", #f, units.f), IN(FREE | DRIVEN | ALONG), \
+                 RANGE(0, BIG), .open = 1, .number = NAN
 #define IN(s) .scenes = (s)
 #define NEEDED_IN(s) .scenes = (s), .needed = (s)
 #define RANGE(l, h) .low = (l), .high = (h)
@@ -132,7 +134,7 @@ const deck_key deck_table[] = {
     UNLESS(DRIVE_AMPLITUDE) },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(ORBIT), NOT_NEGATIVE,
     .number = NAN, EXAMPLE("0.12"),
-    SAYS("omega0", "friction coefficient gamma; 1/gamma is the quality factor Q") },
+    SAYS("omega0", "friction coefficient gamma; a pendulum's quality factor Q is 1/gamma") },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE,
     .number = NAN, EXAMPLE("0.12") },
   { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(PATH), NOT_NEGATIVE,
@@ -349,11 +351,24 @@ const deck_key deck_table[] = {
     .number = 1000, .when = DECK_WITH_NOISE,
     SAYS(NULL, "drive periods over which each trajectory is followed") },
 
-  { REAL("units", "natural_frequency", units.natural_frequency), IN(FREE | DRIVEN | ALONG),
-    RANGE(0, 1e15), .open = 1, .number = NAN,
+  { SCALE(natural_frequency),
     SAYS("Hz",
-         "frequency of small free oscillations, omega0 / (2 pi): frequencies then stand in Hz, "
-         "and periods of the drive in s, beside ours") },
+         "frequency of small free oscillations, omega0 / (2 pi), which makes the unit of time; of "
+         "a junction its plasma frequency. Results then have units of SI, too (docs/units.md)") },
+  { SCALE(mass),
+    SAYS("kg", "mass of the oscillator, or of a pendulum; with coefficients of the force in SI, "
+         "such as '50 N/m', it tells the natural frequency") },
+  { SCALE(length),
+    SAYS("m", "displacement that is 1 in ours, which else follows from two coefficients in SI; of "
+         "a pendulum the distance from the axis to the centre of mass") },
+  { SCALE(gravity), SAYS("m s-2", "acceleration at a pendulum; without it 9.80665") },
+  { SCALE(volts_per_length),
+    SAYS("V m-1", "signal of a displacement, in which displacements then are told") },
+  { SCALE(critical_current), SAYS("A", "critical current of a Josephson junction, the unit of "
+                                  "'torque' and 'drive_amplitude'; velocities are voltages") },
+  { SCALE(resistance), SAYS("ohm", "of the junction: it makes the damping") },
+  { SCALE(capacitance),
+    SAYS("F", "of the junction: with the critical current it makes the plasma frequency") },
 
   { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), POSITIVE, .number = 1e-8,
     SAYS("1", "wanted error of the results: absolute, of lengths as x is and of what follows from "

@@ -114,6 +114,9 @@ typedef struct deck_builder {
   const namelist *kind_nl;   /* for what concerns the whole deck: where its kind is given */
   namelist_place kind_at;
   deck_given given[DECK_MAX_KEYS];
+  double in_si[PENDRES_FORCE_COEFFICIENTS]; /* coefficients that were given in SI, or NaN */
+  double damping;            /* that a resistance makes, or NaN */
+  int no_scales;             /* nonzero: &units has errors, which were reported */
   int out_of_memory;
 } deck_builder;
 
@@ -142,6 +145,23 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
 void deck_key_defaults(deck_builder *b);
 /* Does the key have an effect in this deck? */
 int deck_key_applies(const deck_key *key, const deck *d);
+
+/* quantity.c: */
+/* Is a value a text of a number with a unit? */
+int deck_value_has_unit(const namelist *nl, const namelist_value *v);
+/* Read such a value, in the model's own units. 1, or 0 with the error reported. */
+int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_value *v,
+                       const char *name, double *out);
+/* The same of coefficient k of the force, into in_si: the scales may follow from it. */
+int deck_coefficient_read(deck_builder *b, const deck_key *key, const namelist_value *v, int k);
+/* What such a value of the key looks like; NULL: it takes none. */
+const char *deck_unit_example(const deck_key *key);
+
+/* scales.c: */
+/* What &units and coefficients in SI make of the scales; before any other key with a unit. */
+void deck_scales_find(deck_builder *b);
+/* The damping that follows from a resistance, once all keys are read. */
+void deck_scales_damping(deck_builder *b);
 
 /* decimal.c: the shortest decimal that reads back as x, in the C locale, with a point or an
    exponent so that it is a real to the eye. */

@@ -389,14 +389,13 @@ static scene_more more(const deck *d, const farm_trial *trial, double states)
 
 const scene_kind scene_basins = {
   .kind = DECK_BASINS,
-  .references =
-    "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-    "pendulum, Fig. 7. Basin entropy: Daza et al., Scientific Reports 6 (2016) 31416. "
-    "Uncertainty exponent: McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125. With "
-    "temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, Phys. "
-    "Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, "
-    "SC11 (2011); linear theory: N. G. van Kampen, Stochastic Processes in Physics and Chemistry, "
-    "chapter VIII.6.",
+  .figures = "Fig. 7",
+  .references = ". Basin entropy: Daza et al., Scientific Reports 6 (2016) 31416. Uncertainty "
+                "exponent: McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125. With "
+                "temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. "
+                "Chin, Phys. Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random "
+                "numbers: as easy as 1, 2, 3, SC11 (2011); linear theory: N. G. van Kampen, "
+                "Stochastic Processes in Physics and Chemistry, chapter VIII.6.",
   .budget = 1,
   .size = {.head = 75e3, .point = 0.12, .memory = STATE_MEMORY, .stages = 1.0, .after = 1.2,
            .seconds = 4e-6, .values = strobes_of, .value = 7.0, .more = more},

@@ -375,9 +375,9 @@ static pendres_status run_scene(scene_run *run)
 
 const scene_kind scene_branches = {
   .kind = DECK_BRANCHES,
-  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Fig. 9; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, "
-                "chapters 4, 9 and 10",
+  .figures = "Fig. 9",
+  .references = "; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapters 4, 9 and "
+                "10",
   .budget = 1,
   .size = {.head = 60e3, .point = 470.0, .memory = 1e3, .stages = 2.0, .after = 1.1,
            .seconds = 2e-3, .slowest = SCENE_SLOWEST_BRANCH},

@@ -187,8 +187,10 @@ static pendres_status define(scene_run *run, const scene_table *t, const scene_c
   if (!scene_going(run)) return run->status;
   describe(run, t, c, &v);
   scene_define(run, &v.spec, words);
-  return scene_stored(run, pendres_store_variable(run->store, &v.spec, &out->value,
-                                                  c->type == SCENE_REAL ? &out->error : NULL));
+  scene_stored(run, pendres_store_variable(run->store, &v.spec, &out->value,
+                                           c->type == SCENE_REAL ? &out->error : NULL));
+  scene_mark_units(run, &v.spec, c->type == SCENE_REAL);
+  return run->status;
 }
 
 /* The rows of some values of the first dimension, or all there is. */

@@ -99,8 +99,7 @@ static void describe(const deck *d, FILE *out)
 
 const scene_kind scene_free_oscillation = {
   .kind = DECK_FREE_OSCILLATION,
-  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Fig. 1",
+  .figures = "Fig. 1",
   .size = {.head = 26e3, .point = 40.0, .memory = 100.0, .stages = 1.0, .after = 1.0,
            .seconds = 1e-5},
   .any_method = 1,

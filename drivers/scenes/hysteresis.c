@@ -216,7 +216,7 @@ static scene_more more(const deck *d, const farm_trial *trial, double points)
 
 const scene_kind scene_hysteresis = {
   .kind = DECK_HYSTERESIS,
-  .references = "Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; J. M. T. "
+  .references = "; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; J. M. T. "
                 "Thompson and M. S. Soliman, Proceedings of the Royal Society A 432 (1991) 101",
   .budget = 1,
   .size = {.head = 40e3, .point = 240.0, .memory = 60e3, .stages = 1.0, .after = 1.0,

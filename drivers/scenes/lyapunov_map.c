@@ -168,8 +168,8 @@ static void describe(const deck *d, FILE *out)
 
 const scene_kind scene_lyapunov_map = {
   .kind = DECK_LYAPUNOV_MAP,
-  .references = "G. Benettin, L. Galgani and J.-M. Strelcyn, Physical Review A 14 (1976) 2338; "
-                "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996)",
+  .references = "; G. Benettin, L. Galgani and J.-M. Strelcyn, Physical Review A 14 (1976) "
+                "2338; G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996)",
   .budget = 1,
   .size = {.head = 40e3, .point = 19.0, .memory = 100.0, .stages = 1.0, .after = 1.0,
            .seconds = 5e-4},

@@ -283,8 +283,7 @@ static scene_more more(const deck *d, const farm_trial *trial, double samples)
 
 const scene_kind scene_orbit = {
   .kind = DECK_ORBIT,
-  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Figs. 5 and 6",
+  .figures = "Figs. 5 and 6",
   .budget = 1,
   .size = {.head = 45e3, .point = 36.0, .memory = 60.0, .stages = 1.0, .after = 1.0,
            .seconds = 1e-5, .points = samples_of, .more = more},

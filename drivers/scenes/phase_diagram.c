@@ -95,9 +95,8 @@ static scene_more more(const deck *d, const farm_trial *trial, double points)
 
 const scene_kind scene_phase_diagram = {
   .kind = DECK_PHASE_DIAGRAM,
-  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Fig. 8 and section III D; Y. A. Kuznetsov, Elements of Applied "
-                "Bifurcation Theory, chapters 9 and 10",
+  .figures = "Fig. 8 and section III D",
+  .references = "; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapters 9 and 10",
   .budget = 1,
   .size = {.head = 60e3, .point = 17.0, .memory = 300.0, .stages = 3.0, .after = 1.2,
            .seconds = 1e-3, .more = more},

@@ -208,9 +208,8 @@ static pendres_status run_scene(scene_run *run)
 
 const scene_kind scene_resonance_curve = {
   .kind = DECK_RESONANCE_CURVE,
-  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Fig. 2; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 "
-                "(1999) 2067",
+  .figures = "Fig. 2",
+  .references = "; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 (1999) 2067",
   .budget = 1,
   .size = {.head = 32e3, .point = 240.0, .memory = 2e3, .stages = 1.0, .after = 1.0,
            .seconds = 0.02},

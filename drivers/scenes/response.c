@@ -391,9 +391,9 @@ static scene_more more(const deck *d, const farm_trial *trial, double points)
 
 const scene_kind scene_response = {
   .kind = DECK_RESPONSE,
-  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) "
-                "344; H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
+  .figures = "Figs. 3 and 4",
+  .references = "; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert "
+                "and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .budget = 1,
   .size = {.head = 50e3, .point = 128.0, .memory = 300.0, .stages = 2.0, .after = 1.0,
            .seconds = 4e-4, .more = more},

@@ -119,6 +119,7 @@ void scene_put(scene_run *run, const pendres_store_spec *spec, const void *value
   if (!scene_going(run)) return;
   scene_define(run, &defined, words);
   scene_stored(run, pendres_store_put(run->store, &defined, values, errors, n));
+  scene_mark_units(run, &defined, errors != NULL);
 }
 
 void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const void *values,
@@ -133,6 +134,7 @@ void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const v
     status = pendres_store_attribute(run->store, spec->group, spec->name, "comment",
                                      defined.comment);
   scene_stored(run, status);
+  scene_mark_units(run, &defined, 0);
 }
 
 /* ---- arrays -------------------------------------------------------------------------------- */

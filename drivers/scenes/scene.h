@@ -69,7 +69,8 @@ typedef struct scene_size {
 
 typedef struct scene_kind {
   deck_kind kind;
-  const char *references; /* root attribute of the file: what the scene reproduces, and methods */
+  const char *figures;    /* of the pendulum's paper, that the scene reproduces; NULL: none */
+  const char *references; /* for methods, with what stands before them, "; " or ". "; may be NULL */
   scene_size size;
   /* Flags that few kinds have. */
   int budget;             /* its tasks say which points they begin: --budget can end them */
@@ -84,6 +85,10 @@ typedef struct scene_kind {
   /* Compute and write everything but the provenance. */
   pendres_status (*run)(scene_run *run);
 } scene_kind;
+
+/* The root attribute of a file: whose equation the deck's is, and whose methods are used. */
+enum { SCENE_REFERENCES = 1024 };
+const char *scene_references(const deck *d, char text[SCENE_REFERENCES]);
 
 /* The scene of a kind; NULL if this build has none. */
 const scene_kind *scene_find(deck_kind kind);
@@ -150,9 +155,10 @@ void scene_numbering(scene_run *run, const char *name, size_t n, const char *wor
  */
 void scene_write_identity(scene_run *run);
 
-/* Where the deck gives the natural frequency, write results in Hz and s beside the dimensionless
-   ones, and print the short ones behind the table. */
-void scene_write_units(scene_run *run);
+/* Where a deck has &units: mark a variable that was just defined, and its errors if it has any,
+   with the attributes si_factor and si_units; and print short results in SI behind the table. */
+void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors);
+void scene_tell_units(scene_run *run);
 
 /* Describe a variable as files do: its `comment` defines it, where it has a definition, and nothing
    is called an angle where x is none. words: room for its long_name. For what writes variables, as

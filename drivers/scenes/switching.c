@@ -428,11 +428,11 @@ static pendres_status run_scene(scene_run *run)
 
 const scene_kind scene_switching = {
   .kind = DECK_SWITCHING,
-  .references = "S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, Phys. "
-                "Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as "
-                "1, 2, 3, SC11 (2011); H. A. Kramers, Physica 7 (1940) 284; M. I. Dykman and M. A. "
-                "Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. Hummer, J. Phys. "
-                "Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
+  .references = "; S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, "
+                "Phys. Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: "
+                "as easy as 1, 2, 3, SC11 (2011); H. A. Kramers, Physica 7 (1940) 284; M. I. "
+                "Dykman and M. A. Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. "
+                "Hummer, J. Phys. Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
   .budget = 1,
   .size = {.head = 55e3, .point = 400.0, .memory = 1e3, .stages = 1.0, .after = 1.0,
            .seconds = 2.0},

@@ -1,9 +1,9 @@
 /*
- * units.c -- frequencies in Hz and drive periods in seconds beside ours, where the deck tells
- * the pendulum's natural frequency: a copy NAME_hz or NAME_s of each such result, error included.
+ * units.c -- what a deck's &units make of results: attributes that tell what is SI of each, and
+ * the short ones behind the table in these units.
  *
- * Copies, so that ours stay what they are: files with and without can be put together, and
- * `damping` and the rest need no units.
+ * Numbers stay in the model's units, so that ours are what they are: files with and without can be
+ * put together, and what is written has the same bytes.
  */
 #include "scenes/scene.h"
 
@@ -11,151 +11,187 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PRINTED = 24 };
+enum { MOST_PRINTED = 16 };
 
-/* How a result is converted into a laboratory's units. */
-typedef struct conversion {
-  const char *suffix, *units;
-  double factor;
-} conversion;
-
-static int ends(const char *name, const char *with)
+static void mark(scene_run *run, const char *group, const char *name, const deck_si *si)
 {
-  const size_t n = strlen(name), m = strlen(with);
-  return n >= m && strcmp(name + n - m, with) == 0;
-}
-
-/* How a result is converted; 0: it is neither a frequency nor a time of the drive. The deck tells
-   what is swept. */
-static int convert(const deck *d, const char *name, conversion *out)
-{
-  const double natural = d->units.natural_frequency;
-  deck_axis_id moving[DECK_AXES] = {DECK_AXIS_COUNT};
-  const int along = ends(name, "_parameter") || strcmp(name, "cascade_limit") == 0;
-  if (along) (void)deck_axes(d, moving);
-  *out = (conversion){"_hz", "Hz", natural};
-  if (ends(name, "_error")) return 0; /* it goes with its result */
-  if (ends(name, "_hz")) return 0;    /* it is a copy */
-  if (ends(name, "_frequency") || strncmp(name, "frequency_", 10) == 0) return 1;
-  if (along && moving[0] == DECK_AXIS_DRIVE_FREQUENCY) return 1;
-  *out = (conversion){"_s", "s", 1.0 / (2.0 * PENDRES_PI * natural)};
-  return strcmp(name, "drive_period") == 0 || strcmp(name, "resonance_period") == 0 ||
-         (along && moving[0] == DECK_AXIS_DRIVE_PERIOD);
-}
-
-/* A result of at most one dimension. */
-typedef struct result {
-  const char *name, *dimension; /* dimension NULL: none */
-  size_t n;
-  const double *value, *error;  /* error NULL: none */
-} result;
-
-/* One line a point, with its dimension's value in front, for results that a reader takes in at a
-   glance. */
-static pendres_status tell(scene_run *run, const result *r)
-{
-  double axis[MOST_PRINTED];
-  if (r->n == 0 || r->n > MOST_PRINTED || (r->n > 1 && r->dimension == NULL)) return PENDRES_OK;
+  if (!scene_going(run) || !pendres_store_has(run->store, group, name)) return;
   const pendres_status status =
-    r->dimension == NULL
-      ? PENDRES_OK
-      : pendres_store_read(run->store, "", r->dimension, PENDRES_STORE_DOUBLE, axis, r->n);
-  if (status != PENDRES_OK) return status;
-  fprintf(run->table, "%s\n", r->name);
-  for (size_t i = 0; i < r->n; i++) {
-    if (isnan(r->value[i])) continue;
-    if (r->dimension != NULL) fprintf(run->table, "  %s %-9.4g", r->dimension, axis[i]);
-    fprintf(run->table, "  %.10g", r->value[i]);
-    if (r->error != NULL) fprintf(run->table, " +- %.1g", r->error[i]);
-    fputs("\n", run->table);
-  }
-  return PENDRES_OK;
+    pendres_store_attribute_number(run->store, group, name, "si_factor", si->factor);
+  if (scene_stored(run, status) == PENDRES_OK)
+    scene_stored(run, pendres_store_attribute(run->store, group, name, "si_units", si->units));
 }
 
-/* Read, convert and write one result; its dimensions are those of the original. */
-static pendres_status copy(scene_run *run, const char *name, const conversion *c, int rank,
-                           char *const *dimension, size_t n)
+void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors)
 {
-  char error_name[DECK_NAME + 8], converted[DECK_NAME + 8], words[2 * DECK_NAME];
-  pendres_store_spec spec = {.name = converted, .long_name = words, .units = c->units};
-  double *value = malloc((2 * n + 1) * sizeof *value), *error = NULL;
-  pendres_status status = value == NULL ? PENDRES_OUT_OF_MEMORY : PENDRES_OK;
+  char error_name[DECK_NAME + 8];
+  deck_si si;
+  const int is_number = spec->type == PENDRES_STORE_DOUBLE;
+  if (!is_number || !scene_going(run) || !deck_si_of(run->deck, spec->name, &si)) return;
+  mark(run, spec->group, spec->name, &si);
+  (void)snprintf(error_name, sizeof error_name, "%.64s_error", spec->name);
+  if (errors) mark(run, spec->group, error_name, &si);
+}
+
+/* ---- behind the table ---------------------------------------------------------------------- */
+
+/* A result or a coordinate: n values, and how they are printed. */
+typedef struct shown {
+  char name[DECK_NAME];
+  size_t n;
+  double value[MOST_PRINTED], error[MOST_PRINTED]; /* in the unit that is printed */
+  int has_error;
+  char units[DECK_UNITS];
+} shown;
+
+/* Its values in SI, with the prefix that the largest of them takes; without a unit as they are. */
+static void read_shown(scene_run *run, const char *name, size_t n, shown *out)
+{
+  char error_name[DECK_NAME + 8];
+  deck_si si = { .factor = 1.0 };
+  double most = 0.0;
+  *out = (shown){ .n = n };
+  (void)snprintf(out->name, sizeof out->name, "%.63s", name);
   (void)snprintf(error_name, sizeof error_name, "%.64s_error", name);
-  (void)snprintf(converted, sizeof converted, "%.64s%s", name, c->suffix);
-  (void)snprintf(words, sizeof words, "%.64s in %s", name, c->units);
-  for (int k = 0; k < rank; k++) spec.dimensions[k] = dimension[k];
-  if (status == PENDRES_OK)
-    status = pendres_store_read(run->store, "", name, PENDRES_STORE_DOUBLE, value, n);
-  if (status == PENDRES_OK && pendres_store_has(run->store, "", error_name)) {
-    error = value + n;
-    status = pendres_store_read(run->store, "", error_name, PENDRES_STORE_DOUBLE, error, n);
+  scene_stored(run, pendres_store_read(run->store, "", name, PENDRES_STORE_DOUBLE, out->value, n));
+  out->has_error = scene_going(run) && pendres_store_has(run->store, "", error_name);
+  if (out->has_error)
+    scene_stored(run, pendres_store_read(run->store, "", error_name, PENDRES_STORE_DOUBLE,
+                                         out->error, n));
+  if (!deck_si_of(run->deck, name, &si)) return;
+  for (size_t i = 0; i < n; i++)
+    if (isfinite(out->value[i])) most = fmax(most, fabs(si.factor * out->value[i]));
+  si = deck_si_prefixed(&si, most);
+  memcpy(out->units, si.units, sizeof out->units);
+  for (size_t i = 0; i < n; i++) {
+    out->value[i] *= si.factor;
+    out->error[i] *= si.factor;
   }
-  for (size_t i = 0; i < (error != NULL ? 2 * n : n) && status == PENDRES_OK; i++)
-    value[i] *= c->factor;
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, value, error, n);
-  /* Axes stand in front of every other result already. */
-  if (status == PENDRES_OK && rank <= 1 && (rank == 0 || strcmp(dimension[0], name) != 0))
-    status = tell(run, &(result){converted, rank == 1 ? dimension[0] : NULL, n, value, error});
-  free(value);
-  return status;
 }
 
-static pendres_status copy_if_wanted(scene_run *run, const char *name)
+/* A value with the digits that its error leaves, and two more. */
+static void print_value(FILE *out, const shown *s, size_t i, int width)
 {
-  conversion c;
-  int rank = 0;
-  size_t n = 1;
+  char text[80];
+  const double x = s->value[i], e = s->error[i];
+  int digits = 10, used = 0;
+  if (isfinite(x) && isfinite(e) && e > 0.0 && x != 0.0) digits = (int)log10(fabs(x) / e) + 2;
+  digits = digits < 3 ? 3 : digits > 15 ? 15 : digits;
+  used = snprintf(text, sizeof text, "%.*g", digits, x);
+  if (s->has_error && !isnan(x))
+    used += snprintf(text + used, sizeof text - (size_t)used, " +- %.1g", e);
+  fprintf(out, "%-*s", used < width ? width : used + 1, text);
+}
+
+/* Whether it is a number of this rank with few values that has a unit, or a dimension; of rank 1,
+   over that dimension unless it is NULL. */
+static int is_wanted(scene_run *run, const char *name, int rank, const char *over, size_t *n)
+{
+  const size_t length = strlen(name);
   uint64_t sizes[PENDRES_STORE_RANK];
-  char *dimension[PENDRES_STORE_RANK] = {NULL};
-  if (!convert(run->deck, name, &c)) return PENDRES_OK;
-  pendres_status status = pendres_store_shape(run->store, "", name, &rank, sizes);
-  for (int k = 0; k < rank && status == PENDRES_OK; k++) {
-    n *= (size_t)sizes[k];
-    status = pendres_store_dimension_of(run->store, "", name, k, &dimension[k]);
-  }
-  if (status == PENDRES_OK) status = copy(run, name, &c, rank, dimension, n);
-  for (int k = 0; k < PENDRES_STORE_RANK; k++) free(dimension[k]);
-  return status;
+  char *along = NULL;
+  deck_si si;
+  int found = 0, wanted = 0;
+  const int is_error = length > 6 && strcmp(name + length - 6, "_error") == 0;
+  if (is_error || !scene_going(run)) return 0;
+  scene_stored(run, pendres_store_shape(run->store, "", name, &found, sizes));
+  if (!scene_going(run) || found != rank || sizes[0] == 0 || sizes[0] > MOST_PRINTED) return 0;
+  *n = (size_t)sizes[0];
+  if (rank == 0) return deck_si_of(run->deck, name, &si);
+  scene_stored(run, pendres_store_dimension_of(run->store, "", name, 0, &along));
+  if (along != NULL && over == NULL) wanted = strcmp(along, name) == 0;
+  else if (along != NULL)
+    wanted = strcmp(along, over) == 0 && strcmp(name, over) != 0 &&
+             deck_si_of(run->deck, name, &si);
+  free(along);
+  return wanted;
 }
 
-/* The parameters among the copies are coordinates as those are that they come from. */
-static pendres_status extend_coordinates(scene_run *run)
+/* The next number of the root from *at on; NULL: there are no more. To be freed. */
+static char *next_number(scene_run *run, uint64_t *at)
 {
-  static const char *const names[] = {"natural_frequency_hz", "drive_frequency_hz",
-                                      "drive_period_s"};
-  char list[1024] = "", *old = NULL;
-  const pendres_status found =
-    pendres_store_read_attribute_text(run->store, "", NULL, "coordinates", &old);
-  if (found == PENDRES_OK) (void)snprintf(list, sizeof list - 100, "%s", old);
-  free(old);
-  if (found != PENDRES_OK && found != PENDRES_NOT_FOUND) return found;
-  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    if (!pendres_store_has(run->store, "", names[i])) continue;
-    if (list[0] != '\0') strcat(list, " ");
-    strcat(list, names[i]);
-  }
-  return pendres_store_attribute(run->store, "", NULL, "coordinates", list);
-}
-
-/* Copies are added to the list of members while the loop goes through it. */
-void scene_write_units(scene_run *run)
-{
-  pendres_status status = PENDRES_OK;
-  const double natural = run->deck->units.natural_frequency;
-  const pendres_store_spec spec = {.name = "natural_frequency_hz", .units = "Hz",
-                                   .long_name = "frequency of small free oscillations"};
-  if (!(natural > 0.0) || !scene_going(run)) return;
-  if (run->table != NULL) fprintf(run->table, "with a natural frequency of %g Hz:\n", natural);
-  for (uint64_t i = 0; status == PENDRES_OK; i++) {
+  while (scene_going(run)) {
     char *name = NULL;
     pendres_store_type type;
-    status = pendres_store_member(run->store, "", i, &type, &name);
-    if (status == PENDRES_NOT_FOUND) break;
-    if (status == PENDRES_OK && type == PENDRES_STORE_DOUBLE) status = copy_if_wanted(run, name);
+    const pendres_status status = pendres_store_member(run->store, "", (*at)++, &type, &name);
+    if (status == PENDRES_NOT_FOUND) return NULL;
+    if (scene_stored(run, status) == PENDRES_OK && type != PENDRES_STORE_STRING &&
+        type != PENDRES_STORE_TYPE_COUNT)
+      return name;
     free(name);
   }
-  if (status == PENDRES_OK || status == PENDRES_NOT_FOUND)
-    status = pendres_store_put(run->store, &spec, &natural, NULL, 1);
-  if (status == PENDRES_OK) status = extend_coordinates(run);
-  scene_stored(run, status);
+  return NULL;
+}
+
+static void tell_scalars(scene_run *run)
+{
+  char *name = NULL;
+  shown s;
+  size_t n = 0;
+  for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name)) {
+    if (!is_wanted(run, name, 0, NULL, &n)) continue;
+    read_shown(run, name, 1, &s);
+    if (isnan(s.value[0]) || (s.value[0] == 0.0 && !s.has_error)) continue; /* it is not there */
+    fprintf(run->table, "%-26s ", name);
+    print_value(run->table, &s, 0, 0);
+    fprintf(run->table, "%s\n", s.units);
+  }
+}
+
+/* A table of the results over one dimension, some columns at a time. */
+static void tell_columns(scene_run *run, const shown *along, const shown *column, int columns)
+{
+  enum { WIDTH = 30 };
+  char heading[2 * DECK_NAME];
+  if (columns == 0) return;
+  for (int k = -1; k < columns; k++) {
+    const shown *s = k < 0 ? along : &column[k];
+    (void)snprintf(heading, sizeof heading, "%s%s%s", s->name, s->units[0] != '\0' ? ", " : "",
+                   s->units);
+    fprintf(run->table, "%-*s", WIDTH, heading);
+  }
+  fputc('\n', run->table);
+  for (size_t i = 0; i < along->n; i++) {
+    print_value(run->table, along, i, WIDTH);
+    for (int k = 0; k < columns; k++) print_value(run->table, &column[k], i, WIDTH);
+    fputc('\n', run->table);
+  }
+}
+
+/* What is held fixed is told without a dimension. */
+static int varies(const shown *s)
+{
+  int varied = 0;
+  for (size_t i = 0; i < s->n; i++) varied |= s->value[i] != s->value[0] || s->error[i] != 0.0;
+  return varied;
+}
+
+static void tell_dimension(scene_run *run, const char *dimension, size_t n)
+{
+  enum { COLUMNS = 3 };
+  shown along, column[COLUMNS];
+  int columns = 0;
+  char *name = NULL;
+  size_t same = 0;
+  read_shown(run, dimension, n, &along);
+  for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name)) {
+    if (!is_wanted(run, name, 1, dimension, &same)) continue;
+    read_shown(run, name, n, &column[columns]);
+    if (n == 1 || varies(&column[columns])) columns++;
+    if (columns < COLUMNS) continue;
+    tell_columns(run, &along, column, columns);
+    columns = 0;
+  }
+  tell_columns(run, &along, column, columns);
+}
+
+void scene_tell_units(scene_run *run)
+{
+  char *name = NULL;
+  size_t n = 0;
+  if (!deck_has_units(run->deck) || !scene_prints(run)) return;
+  fputs("\nin SI:\n", run->table);
+  tell_scalars(run);
+  for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name))
+    if (is_wanted(run, name, 1, NULL, &n)) tell_dimension(run, name, n);
 }

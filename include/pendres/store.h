@@ -208,6 +208,10 @@ pendres_status pendres_store_put(pendres_store *store, const pendres_store_spec 
 pendres_status pendres_store_attribute(pendres_store *store, const char *group,
                                        const char *object, const char *name, const char *value);
 
+/** The same with a number. */
+pendres_status pendres_store_attribute_number(pendres_store *store, const char *group,
+                                              const char *object, const char *name, double value);
+
 /** Write n entries as scalars of the group "provenance". May be called more than once. */
 pendres_status pendres_store_provenance(pendres_store *store, const pendres_store_entry *entries,
                                         size_t n);

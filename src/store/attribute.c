@@ -88,6 +88,20 @@ pendres_status pendres_store_attribute(pendres_store *store, const char *group,
   return pendres_store_leave(store, status);
 }
 
+pendres_status pendres_store_attribute_number(pendres_store *store, const char *group,
+                                              const char *object, const char *name, double value)
+{
+  pendres_status status = pendres_store_enter(store, 1);
+  hid_t id = H5I_INVALID_HID;
+
+  if (!status) status = target(store, group, object, name, &id);
+  if (!status)
+    status = pendres_store_set(store, id, name,
+                               &(pendres_store_value){ H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 0,
+                                                       &value });
+  return pendres_store_leave(store, status);
+}
+
 pendres_status pendres_store_provenance(pendres_store *store, const pendres_store_entry *entries,
                                         size_t n)
 {

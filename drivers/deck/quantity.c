@@ -1,0 +1,404 @@
+/*
+ * quantity.c -- which quantity a key or a result is, what one of the model's units of it is in SI,
+ * and numbers with units in decks. See deck.h (deck_si_of) and table.h.
+ *
+ * All follows from the scales that a deck has in &units (scales.c), which are at most those of
+ * time, length, mass or current. A model's unit of time is 1/(2 pi natural_frequency).
+ */
+#include "deck/namelist_lex.h"
+#include "deck/si.h"
+#include "deck/table.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef enum quantity {
+  NUMBER, /* it has no unit */
+  POSITION,
+  VELOCITY,
+  RATE,
+  FREQUENCY, /* an angular one, in Hz */
+  TIME,
+  FORCE,
+  ENERGY,
+  POWER,
+  TEMPERATURE,
+  COVARIANCE_XX,
+  COVARIANCE_XV,
+  COVARIANCE_VV,
+  SPECTRUM,    /* of the velocity, by angular frequency */
+  COEFFICIENT, /* a1 ... a5 */
+  SWEPT        /* that of the parameter that is swept */
+} quantity;
+
+/*
+ * Names, in decks and in files: whole, or the end of a name behind an underscore; with a star the
+ * beginning. The first row that fits decides.
+ */
+static const struct {
+  const char *name;
+  quantity is;
+} names[] = {
+  { "parametric_amplitude", NUMBER },
+  { "drive_amplitude", FORCE }, { "drive", FORCE }, { "torque", FORCE },
+  { "amplitude", POSITION }, { "x", POSITION }, { "x_first", POSITION }, { "x_last", POSITION },
+  { "tolerance", POSITION },
+  { "v", VELOCITY }, { "v_last", VELOCITY }, { "velocity", VELOCITY },
+  { "damping", RATE }, { "lyapunov", RATE }, { "lyapunov_exponent", RATE }, { "rate_*", RATE },
+  { "escape_rate_bound", NUMBER }, { "escape_rate*", RATE },
+  { "frequency", FREQUENCY }, { "frequency_*", FREQUENCY }, { "resonance_range", FREQUENCY },
+  { "drive_period", TIME }, { "resonance_period", TIME }, { "rotation_period", TIME },
+  { "exposure", TIME }, { "exposure_*", TIME },
+  { "loop_area", ENERGY }, { "dissipation", ENERGY }, { "torque_work", ENERGY },
+  { "parametric_work", ENERGY }, { "activation_energy*", ENERGY },
+  { "power", POWER },
+  { "temperature", TEMPERATURE }, { "fit_temperature*", TEMPERATURE },
+  { "cov_xx", COVARIANCE_XX }, { "cov_xv", COVARIANCE_XV }, { "cov_vv", COVARIANCE_VV },
+  { "power_spectrum", SPECTRUM },
+  { "a1", COEFFICIENT }, { "a2", COEFFICIENT }, { "a3", COEFFICIENT }, { "a4", COEFFICIENT },
+  { "a5", COEFFICIENT },
+  { "parameter", SWEPT }, { "cascade_limit", SWEPT }, { "jump_mean", SWEPT },
+  { "jump_delay", SWEPT }, { "jump_deviation", SWEPT },
+};
+
+static int fits(const char *name, size_t n, const char *row)
+{
+  const size_t m = strlen(row);
+  if (row[m - 1] == '*') return n >= m - 1 && strncmp(name, row, m - 1) == 0;
+  return n >= m && strncmp(name + n - m, row, m) == 0 && (n == m || name[n - m - 1] == '_');
+}
+
+/* Of an error, that of its result. */
+static quantity quantity_of(const char *name)
+{
+  size_t n = strlen(name);
+  if (n > 6 && strcmp(name + n - 6, "_error") == 0) n -= 6;
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (fits(name, n, names[i].name)) return names[i].is;
+  return NUMBER;
+}
+
+/* ---- what one of the model's units is ------------------------------------------------------ */
+
+/* NaN: the deck does not tell. `told`: positions and velocities as the deck wants to see them;
+   otherwise as lengths or angles. */
+typedef struct scales {
+  double rate, position, velocity, force, energy;
+  const char *x, *v, *f;
+} scales;
+
+static scales scales_of_angle(const deck *d, int told)
+{
+  const double f0 = d->units.natural_frequency, current = d->units.critical_current;
+  const double weight = d->units.mass * d->units.gravity * d->units.length;
+  scales s = { .rate = 2.0 * PENDRES_PI * f0, .position = 1.0, .velocity = 2.0 * PENDRES_PI * f0,
+               .force = weight, .energy = weight, .x = "rad", .v = "rad s-1", .f = "N m" };
+  if (isnan(current)) return s;
+  s.force = current;
+  s.energy = SI_FLUX * current;
+  s.f = "A";
+  if (!told) return s;
+  s.velocity = SI_FLUX * s.rate;
+  s.v = "V";
+  return s;
+}
+
+static scales scales_of(const deck *d, int told)
+{
+  if (pendres_model_of(d->pendulum.force)->angle) return scales_of_angle(d, told);
+  const double rate = 2.0 * PENDRES_PI * d->units.natural_frequency, length = d->units.length;
+  scales s = { .rate = rate, .position = length, .velocity = length * rate,
+               .force = d->units.mass * rate * rate * length, .x = "m", .v = "m s-1", .f = "N" };
+  s.energy = s.force * length;
+  if (isnan(d->units.volts_per_length) || !told) return s;
+  s.position *= d->units.volts_per_length;
+  s.velocity *= d->units.volts_per_length;
+  s.x = "V";
+  s.v = "V s-1";
+  return s;
+}
+
+static deck_si si(double factor, const char *units, const char *more)
+{
+  deck_si out = { .factor = factor };
+  snprintf(out.units, sizeof out.units, "%s%s%s", units, more[0] != '\0' ? " " : "", more);
+  return out;
+}
+
+/* Of coefficient k of a polynomial; that of a ring is a number. */
+static deck_si si_of_coefficient(const deck *d, int k)
+{
+  const scales s = scales_of(d, 0);
+  char per[16];
+  if (pendres_model_of(d->pendulum.force)->angle) return si(NAN, "", "");
+  double factor = s.force;
+  for (int i = 0; i < k; i++) factor /= s.position;
+  snprintf(per, sizeof per, "m-%d", k);
+  return si(factor, s.f, per);
+}
+
+static deck_si si_of_quantity(const deck *d, quantity q, int told)
+{
+  const scales s = scales_of(d, told);
+  char square[32];
+  switch (q) {
+  case POSITION: return si(s.position, s.x, "");
+  case VELOCITY: return si(s.velocity, s.v, "");
+  case RATE: return si(s.rate, "s-1", "");
+  case FREQUENCY: return si(d->units.natural_frequency, "Hz", "");
+  case TIME: return si(1.0 / s.rate, "s", "");
+  case FORCE: return si(s.force, s.f, "");
+  case ENERGY: return si(s.energy, "J", "");
+  case POWER: return si(s.energy * s.rate, "W", "");
+  case TEMPERATURE: return si(s.energy / SI_BOLTZMANN, "K", "");
+  case COVARIANCE_XX: return si(s.position * s.position, s.x, s.x);
+  case COVARIANCE_XV: return si(s.position * s.velocity, s.x, s.v);
+  case COVARIANCE_VV: return si(s.velocity * s.velocity, s.v, s.v);
+  case SPECTRUM:
+    snprintf(square, sizeof square, "%s Hz-1", s.v);
+    return si(s.velocity * s.velocity / d->units.natural_frequency, s.v, square);
+  default: return si(NAN, "", "");
+  }
+}
+
+/* Of a name whose quantity is that. */
+static deck_si si_of_name(const deck *d, const char *name, quantity q, int told)
+{
+  deck_axis_id axis[DECK_AXES] = { DECK_AXIS_COUNT };
+  if (q == SWEPT) {
+    if (deck_axes(d, axis) < 1) return si(NAN, "", "");
+    name = deck_axis_name(axis[0]);
+    q = quantity_of(name);
+  }
+  if (q != COEFFICIENT) return si_of_quantity(d, q, told);
+  const char *digit = strpbrk(name, "12345");
+  return si_of_coefficient(d, digit != NULL ? *digit - '0' : 0);
+}
+
+const char *deck_unit_example(const deck_key *key)
+{
+  static const char *const example[] = {
+    [POSITION] = "'2 nm'", [VELOCITY] = "'3 mm/s'", [RATE] = "'Q 5000'",
+    [FREQUENCY] = "'1.2 MHz'", [TIME] = "'5 us'", [FORCE] = "'3 pN'", [TEMPERATURE] = "'300 K'",
+    [COEFFICIENT] = "'3 N/m^3'", [SWEPT] = NULL,
+  };
+  const int has_own = strcmp(key->group, "units") == 0;
+  if (has_own || (key->type == DECK_SWEEP && key->axis == DECK_AXIS_TOLERANCE)) return NULL;
+  return key->type == DECK_NUMBERS ? "'50 N/m'" : example[quantity_of(key->name)];
+}
+
+int deck_has_units(const deck *d)
+{
+  return !isnan(d->units.natural_frequency) || !isnan(d->units.length) ||
+         !isnan(d->units.critical_current);
+}
+
+int deck_si_of(const deck *d, const char *name, deck_si *out)
+{
+  if (!deck_has_units(d)) return 0;
+  *out = si_of_name(d, name, quantity_of(name), 1);
+  return isfinite(out->factor);
+}
+
+deck_si deck_si_prefixed(const deck_si *si, double value)
+{
+  deck_si out = *si;
+  double ten = 1.0;
+  if (!si_takes_prefix(si->units)) return out;
+  snprintf(out.units, sizeof out.units, "%s%.30s", si_prefix_for(value, &ten), si->units);
+  out.factor /= ten;
+  return out;
+}
+
+/* ---- numbers with units in decks ----------------------------------------------------------- */
+
+enum { TEXT = 64 };
+
+/* Bytes of a number at the start of a text. */
+static size_t number_length(const char *t)
+{
+  size_t n = *t == '+' || *t == '-', digits = 0;
+  for (; lex_is_digit(t[n]) || t[n] == '.'; n++) digits += t[n] != '.';
+  if (digits == 0) return 0;
+  const int letter = lex_lower(t[n]);
+  if (letter != 'e' && letter != 'd') return n;
+  const size_t sign = t[n + 1] == '+' || t[n + 1] == '-';
+  if (!lex_is_digit(t[n + 1 + sign])) return n;
+  for (n += 1 + sign; lex_is_digit(t[n]);) n++;
+  return n;
+}
+
+/* A value in its parts: 'Q 5000' and '1.2 MHz'. */
+typedef struct parts {
+  char text[TEXT];
+  size_t number, length; /* where the number stands in it */
+  const char *unit;      /* behind it; "Q" */
+} parts;
+
+static int take_apart(const namelist *nl, const namelist_value *v, parts *out)
+{
+  namelist_errors unused = { 0 };
+  const int bare = v->form == NAMELIST_BARE && nl->order > 0;
+  if (v->length >= TEXT || (v->form != NAMELIST_STRING && !bare)) return 0;
+  const int good = namelist_value_string(nl, v, "", out->text, TEXT, &unused);
+  namelist_errors_free(&unused);
+  if (!good) return 0;
+  size_t at = strspn(out->text, " ");
+  const int quality = out->text[at] == 'Q';
+  if (quality) at += 1 + strspn(out->text + at + 1, " =");
+  out->number = at;
+  out->length = number_length(out->text + at);
+  out->unit = out->text + at + out->length;
+  out->unit += strspn(out->unit, " ");
+  if (quality && *out->unit == '\0') out->unit = "Q";
+  else if (quality) return 0;
+  return out->length > 0 && *out->unit != '\0';
+}
+
+int deck_value_has_unit(const namelist *nl, const namelist_value *v)
+{
+  parts p;
+  return take_apart(nl, v, &p);
+}
+
+/* The number, by the reader of numbers. */
+static int read_number(deck_builder *b, const namelist_value *v, const char *name, const parts *p,
+                       double *out)
+{
+  namelist_value number = *v;
+  number.form = NAMELIST_BARE;
+  number.begin += p->number + (v->form == NAMELIST_STRING);
+  number.length = p->length;
+  return namelist_value_real(b->nl, &number, name, out, b->errors);
+}
+
+typedef struct nearest {
+  deck_suggestion s;
+  char best[SI_SYMBOL];
+  int same; /* nonzero: only symbols with the same first letter, since M and m are two prefixes */
+} nearest;
+
+static void offer(void *of, const char *symbol)
+{
+  nearest *n = of;
+  if (n->same && symbol[0] != n->s.word[0]) return;
+  deck_suggest(&n->s, symbol);
+  if (n->s.best != symbol) return;
+  snprintf(n->best, sizeof n->best, "%s", symbol);
+  n->s.best = n->best;
+}
+
+static int parse_unit(deck_builder *b, const namelist_value *v, const char *name,
+                      const char *text, si_unit *out)
+{
+  char bad[SI_SYMBOL], hint[100];
+  if (si_parse(text, out, bad)) return 1;
+  nearest near = { .s = { .word = bad }, .same = 1 };
+  si_each(offer, &near);
+  near.same = 0;
+  if (near.s.best == NULL) si_each(offer, &near);
+  namelist_error_at(b->nl, v->at, b->errors, "'%s': '%s' is no unit%s", name, bad,
+                    deck_suggestion_text(&near.s, hint, sizeof hint));
+  return 0;
+}
+
+static int refuse_unit(deck_builder *b, const namelist_value *v, const char *name,
+                       const char *units, const char *text)
+{
+  namelist_error_at(b->nl, v->at, b->errors, "'%s' is in %s here: '%s' does not fit", name, units,
+                    text);
+  return 0;
+}
+
+/* What &units must have for it. */
+static int refuse_scale(deck_builder *b, const namelist_value *v, const char *name,
+                        const char *text)
+{
+  const int angle = pendres_model_of(b->d->pendulum.force)->angle;
+  namelist_error_at(b->nl, v->at, b->errors, "'%s' in %s needs more of &units: %s", name, text,
+                    angle ? "'natural_frequency' or 'length', for torques 'mass' and 'length'; of "
+                            "a junction 'critical_current' and 'capacitance'"
+                          : "'mass' or 'natural_frequency', with 'force_coefficients' in SI or a "
+                            "'length'; for forces 'mass' in any case");
+  return 0;
+}
+
+/* 'Q 5000': the damping at which small oscillations have that quality factor. */
+static int read_quality(deck_builder *b, const namelist_value *v, const char *name, double q,
+                        double *out)
+{
+  const pendres_pendulum *p = &b->d->pendulum;
+  const double stiffness = p->force == PENDRES_FORCE_PENDULUM      ? 1.0
+                           : p->force == PENDRES_FORCE_POLYNOMIAL ? p->force_coefficients[0]
+                                                                  : NAN;
+  *out = sqrt(stiffness) / q;
+  if (stiffness > 0.0 && q > 0.0) return 1;
+  namelist_error_at(b->nl, v->at, b->errors, q > 0.0
+                    ? "'%s': a quality factor needs a force that pulls back to x = 0, with the "
+                      "coefficient a1 in 'force_coefficients'; give the damping in 1/s"
+                    : "'%s': a quality factor is positive", name);
+  return 0;
+}
+
+/* The unit that a key of &units has itself. */
+static int read_scale(deck_builder *b, const namelist_value *v, const deck_key *key,
+                      const parts *p, double *out)
+{
+  si_unit from, to;
+  char bad[SI_SYMBOL];
+  if (!parse_unit(b, v, key->name, p->unit, &from)) return 0;
+  if (!si_parse(key->unit, &to, bad) || !si_fits(&from, &to))
+    return refuse_unit(b, v, key->name, key->unit, p->unit);
+  *out = si_convert(*out, &from, &to);
+  return 1;
+}
+
+int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_value *v,
+                       const char *name, double *out)
+{
+  parts p;
+  si_unit from, to;
+  char bad[SI_SYMBOL];
+  const quantity q = quantity_of(key->name);
+  if (!take_apart(b->nl, v, &p) || !read_number(b, v, name, &p, out)) return 0;
+  if (strcmp(key->group, "units") == 0) return read_scale(b, v, key, &p, out);
+  if (b->no_scales) return 0;
+  if (strcmp(p.unit, "Q") == 0 && q == RATE) return read_quality(b, v, name, *out, out);
+  if (!parse_unit(b, v, name, p.unit, &from)) return 0;
+  const deck_si seen = si_of_name(b->d, key->name, q, 1), plain = si_of_name(b->d, key->name, q, 0);
+  const deck_si *in = &seen;
+  if (seen.units[0] == '\0') {
+    namelist_error_at(b->nl, v->at, b->errors, "'%s' takes numbers without a unit", name);
+    return 0;
+  }
+  if (!si_parse(seen.units, &to, bad)) return 0;
+  if (!si_fits(&from, &to)) {
+    in = &plain;
+    if (!si_parse(plain.units, &to, bad)) return 0;
+  }
+  /* The force of an angle is a torque or a current, as the scales tell. */
+  const int open = q == FORCE && strcmp(in->units, "N m") == 0 && isnan(in->factor);
+  if ((!si_fits(&from, &to) && !open) || (q == FREQUENCY && from.power[SI_RAD] == 0))
+    return refuse_unit(b, v, name, seen.units, p.unit);
+  if (isnan(in->factor)) return refuse_scale(b, v, name, p.unit);
+  *out = si_convert(*out, &from, &to) / in->factor;
+  return 1;
+}
+
+int deck_coefficient_read(deck_builder *b, const deck_key *key, const namelist_value *v, int k)
+{
+  parts p;
+  si_unit from, to;
+  char bad[SI_SYMBOL], units[16];
+  double x = 0.0;
+  const int ring = strcmp(b->d->force, "squid") == 0;
+  if (!take_apart(b->nl, v, &p) || !read_number(b, v, key->name, &p, &x)) return 0;
+  if (!parse_unit(b, v, key->name, p.unit, &from)) return 0;
+  snprintf(units, sizeof units, "N m-%d", k);
+  if (!si_parse(ring ? "H" : units, &to, bad) || !si_fits(&from, &to)) {
+    snprintf(bad, sizeof bad, "a%d", k);
+    return refuse_unit(b, v, bad, ring ? "H" : units, p.unit);
+  }
+  b->in_si[k - 1] = si_convert(x, &from, &to);
+  return 1;
+}
