@@ -287,9 +287,20 @@ static void ask_paths(const problem *q)
   ask_lyapunov(q);
 }
 
+/* A branch without bifurcations has an array without elements, which goes through the door, too. */
+static void ask_plain_branch(const problem *q)
+{
+  const pendres_attractor a = settled(q, 0.2);
+  ask_branch(q, &a.orbit);
+}
+
 static void every_question(void **state)
 {
+  static const pendres_pendulum strongly_damped = {
+    .damping = 1.0, .drive_amplitude = 0.1, .drive_frequency = 1.2,
+    .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 1.0}};
   (void)state;
+  in_all_units("no bifurcations", &strongly_damped, 1e-9, ask_plain_branch);
   in_all_units("branches", &duffing, 1e-9, ask_continuation);
   in_all_units("paths", &duffing, 1e-9, ask_paths);
 }

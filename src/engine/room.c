@@ -15,7 +15,8 @@ typedef struct pendres_room_array {
 void *pendres_room_take(pendres_room *r, size_t n, size_t size)
 {
   if (r->status != PENDRES_OK) return NULL;
-  array *a = n <= (SIZE_MAX - sizeof *a) / size ? calloc(1, sizeof *a + n * size) : NULL;
+  const int fits = size == 0 || n <= (SIZE_MAX - sizeof(array)) / size;
+  array *a = fits ? calloc(1, sizeof *a + n * size) : NULL;
   if (a == NULL) {
     r->status = pendres_context_fail(r->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu %s", n,
                                      r->what);

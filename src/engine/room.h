@@ -22,7 +22,8 @@ static inline pendres_room pendres_room_open(pendres_context *ctx, const char *w
   return (pendres_room){.ctx = ctx, .what = what, .status = PENDRES_OK};
 }
 
-/* An array of n elements; NULL: this one or an earlier one was refused. */
+/* An array of n elements, of which either number may be 0; NULL: this one or an earlier one was
+   refused. */
 void *pendres_room_take(pendres_room *r, size_t n, size_t size);
 
 /* Free them all; gives back the status that it is handed, so that it can be a function's end. */
