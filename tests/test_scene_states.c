@@ -181,6 +181,37 @@ static void wells_are_counted(void **state)
   pendres_store_free(store);
 }
 
+/* A ring whose spring pushes, x'' + 0.3 x' + sin x - 0.05 x, which beats the sine and the drive
+   beyond 21: what starts at rest at 25 or 30 is gone. Each value in the file has its meaning. */
+static void rings_escape(void **state)
+{
+  enum { NX = 13, NV = 3, ESCAPE = 6 };
+  size_t n = 0, all = 0, gone = 0;
+  char *meanings = NULL;
+  (void)state;
+  scene_run_deck("&scene kind = 'basins' /\n"
+                 "&pendulum force = 'squid', force_coefficients = -0.05, damping = 0.3,\n"
+                 "  drive_amplitude = 0.05, drive_frequency = 0.8 /\n"
+                 "&sweep x_range = -30, 30, 13, v_range = -1, 1, 3 /\n", 1, "ring");
+  pendres_store *store = scene_open("ring");
+  check_ok(pendres_store_read_attribute_text(store, "", "label", "flag_meanings", &meanings));
+  assert_string_equal(meanings, "sa la periodic running chaotic unresolved escape");
+  double *label = scene_values(store, "label", &n);
+  double *states = scene_values(store, "basin_states", &all);
+  assert_int_equal(n, NX * NV);
+  for (size_t i = 0; i < n; i++) gone += label[i] == ESCAPE;
+  for (int i = 0; i < NX; i++)
+    if (abs(5 * i - 30) > 21) assert_true(label[i * NV + 1] == ESCAPE);
+  assert_true(label[NX / 2 * NV + 1] != ESCAPE);
+  assert_true(scene_scalar(store, "escaped_states") == (double)gone);
+  for (size_t i = 0; i < all; i++) gone += (size_t)states[i];
+  assert_int_equal(gone, NX * NV);
+  free(meanings);
+  free(label);
+  free(states);
+  pendres_store_free(store);
+}
+
 /* A fractal boundary fills a grid; then the exponent is from random states, as in the library. */
 static void exponent_of_a_fractal_boundary(void **state)
 {
@@ -294,6 +325,7 @@ int main(void)
     cmocka_unit_test(orbits_of_baker_and_gollub),
     cmocka_unit_test(basins_of_baker_and_gollub),
     cmocka_unit_test(wells_are_counted),
+    cmocka_unit_test(rings_escape),
     cmocka_unit_test(exponent_of_a_fractal_boundary),
     cmocka_unit_test(same_bytes_on_any_threads),
     cmocka_unit_test(refined_until_a_sample_is_clean),

@@ -60,13 +60,19 @@ static scene_variables variables_of(basins *b)
   return (scene_variables){BASINS_VARIABLES, b->column, b->variable};
 }
 
+/* Whether the force is one of those that may drive pendulums to infinity. */
+static int may_escape(const basins *b)
+{
+  return pendres_model_of(b->d->pendulum.force)->outward != NULL;
+}
+
 void basins_define(basins *b)
 {
   const scene_table table = state_table("", "v", 0, NULL);
   const scene_variables of = variables_of(b);
   memcpy(b->column, of_states, sizeof of_states);
-  /* Where a force may drive pendulums to infinity, the first two columns have a value for that. */
-  if (b->d->pendulum.force == PENDRES_FORCE_POLYNOMIAL) {
+  /* The first two columns have a value for that. */
+  if (may_escape(b)) {
     b->column[0].names = scene_fate_names;
     b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
   }
@@ -236,7 +242,7 @@ static const scene_column of_refinement[] = {
                   "filled states that may be wrong at most, with a confidence of 95 %"),
 };
 
-/* The states that go to infinity, where a force may drive them there. */
+/* The states that go to infinity, where they may. */
 static const scene_column of_escapes[] = {
   {SCENE_TYPED(SCENE_COUNT, "escaped_states", pendres_basin_statistics, escaped,
                "states that escape to infinity")},
@@ -247,7 +253,7 @@ static const scene_column of_escapes[] = {
 static void write_escapes(basins *b, const pendres_basin_statistics *s)
 {
   const scene_table table = {SCENE_ROWS(s, 1)};
-  if (b->d->pendulum.force == PENDRES_FORCE_POLYNOMIAL) SCENE_WRITE(b->run, &table, of_escapes);
+  if (may_escape(b)) SCENE_WRITE(b->run, &table, of_escapes);
 }
 
 static void write_counts(basins *b)
