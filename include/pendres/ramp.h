@@ -14,12 +14,12 @@
  * harmonic a + i b of its angle over each drive period, or as many as the two states need to close.
  * The pendulum has left when its harmonic is nearer to that of the new state than to that of the
  * old one, or farther from the old one than the new one is, and does not return within the time
- * 2/damping in which transients decay. Both are taken at the parameter's present value; the old
- * state, beyond its end, at its last value, the new one, before its begin, at its first. If the
- * states' x advance differently by half a radian or more in that time, the mean velocity is used
- * instead, over the time of a turn at least. Between two windows the time is interpolated. Another
- * definition would shift a delay by some drive periods, while the delay of a slow ramp past a fold
- * grows as rate^(-1/3).
+ * 2/damping in which transients decay, in whole windows, the last one that begins in it included.
+ * Both are taken at the parameter's present value; the old state, beyond its end, at its last
+ * value, the new one, before its begin, at its first. If the states' x advance differently by half
+ * a radian or more in that time, the mean velocity is used instead, over the time of a turn at
+ * least. Between two windows the time is interpolated. Another definition would shift a delay by
+ * some drive periods, while the delay of a slow ramp past a fold grows as rate^(-1/3).
  *
  * Without a drive the drive's frequency is a unit of time and nothing else. Windows are then the
  * time of a turn of states that rotate, and the time in which motions about them decay of states at

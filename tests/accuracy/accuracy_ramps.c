@@ -149,7 +149,9 @@ static double leave(const item *t, int steps, accuracy_random *noise, double *x,
   const accuracy_own own = {.pendulum = t->ramp.pendulum, .parameter = t->ramp.parameter,
                             .from = t->value[0], .rate = (t->value[1] - t->value[0]) / (double)all,
                             .steps = steps};
-  const double patience = 2.0 * o->pendulum.drive_frequency / (6.2831853 * o->pendulum.damping);
+  /* In whole windows, begun ones included. */
+  const double fading = 2.0 * o->pendulum.drive_frequency / (6.2831853 * o->pendulum.damping);
+  const double patience = (double)q_all * ceil(fading / (double)q_all);
   double s[2] = {t->ramp.point[0].x, t->ramp.point[0].v}, sum[2] = {0.0, 0.0}, before = 0.0;
   double left = NAN, since = 0.0;
   int check = 0;
