@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Check the Python package: python_check.py SCRATCH. Run by python_check.sh."""
+import glob
+import inspect
 import os
 import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import warnings
@@ -219,6 +222,12 @@ def test_choices():
     one = pendres.pendulum(force="polynomial", force_coefficients=[1, 0, 0.5], drive_frequency=1)
     assert one.shape == () and one.force == pendres.Force.POLYNOMIAL
     assert list(one.force_coefficients) == [1, 0, 0.5, 0, 0]
+    same = pendres.pendulum(force=[1, 0, 0.5], drive_frequency=1)
+    assert same.shape == () and np.asarray(same) == np.asarray(one)
+    same = pendres.pendulum(force=[[1, 0, 0.5], [1, 0, 0.25]], damping=[0.1, 0.2])
+    assert list(same.force) == [pendres.Force.POLYNOMIAL] * 2
+    assert list(pendres.pendulum(force=same.force).force) == list(same.force)
+    raised(TypeError, pendres.pendulum, force=[1, 0, 1], force_coefficients=[1])
     several = pendres.pendulum(force="polynomial", drive_frequency=1, damping=[0.1, 0.2],
                                force_coefficients=[[1, 0, 0.5], [1, 0, 0.25]])
     assert several.shape == (2,) and list(several.force_coefficients[:, 2]) == [0.5, 0.25]
@@ -399,6 +408,180 @@ def test_file():
     assert "deck" in pendres.open(out, group="provenance")
 
 
+DUFFING = {"damping": 0.1, "drive_amplitude": 0.3, "drive_frequency_range": (1, 2, 21), "x": 0}
+
+
+def has_files():
+    """Whether scenes can be computed, and their files read."""
+    import importlib.util
+    return bool(os.environ.get("RESONANCE")) and all(
+        importlib.util.find_spec(name) for name in ("xarray", "h5netcdf"))
+
+
+def imagined(name, body):
+    """A program in place of the real one, as pendres.run would start it."""
+    path = os.path.join(SCRATCH, name)
+    with open(path, "w", encoding="utf-8") as script:
+        script.write(f"#!/bin/sh\nreal='{os.path.abspath(os.environ['RESONANCE'])}'\n{body}\n")
+    os.chmod(path, 0o700)
+    return path
+
+
+def test_scenes():
+    """A scene by keywords is the program's own file, to the bit, however its deck is given."""
+    if not has_files():
+        print("scenes: skipped, no xarray with h5netcdf")
+        return
+    deck, out = os.path.join(SCRATCH, "up.nml"), os.path.join(SCRATCH, "up.h5")
+    text = ("&scene kind = 'hysteresis' /\n&pendulum damping = 0.1, drive_amplitude = 0.3, "
+            "force = 'polynomial', force_coefficients = 1, 0, 1 /\n"
+            "&sweep drive_frequency_range = 1, 2, 21 /\n&hysteresis x = 0 /\n")
+    with open(deck, "w", encoding="utf-8") as file:
+        file.write(text)
+    subprocess.run([os.environ["RESONANCE"], "-o", out, deck], check=True, capture_output=True)
+    wanted = pendres.open(out)
+    groups = {"scene": {"kind": "hysteresis"}, "sweep": {"drive_frequency_range": (1, 2, 21)},
+              "pendulum": {"force": pendres.Force.POLYNOMIAL, "damping": np.float64(0.1),
+                           "force_coefficients": np.array([1, 0, 1]), "drive_amplitude": 0.3},
+              "hysteresis": {"x": 0}}
+    for found in (pendres.hysteresis(**DUFFING, force=[1, 0, 1]), pendres.run(deck),
+                  pendres.run(text), pendres.run(groups), pendres.run(groups, threads=1),
+                  pendres.run(text.replace("0.3", "0.2"), pendulum={"drive_amplitude": 0.3})):
+        assert found.attrs["scene"] == "hysteresis"
+        for one in (found, wanted):
+            for name in ("history", "deck", "title"):
+                one.attrs.pop(name, None)
+        assert found.identical(wanted), found
+    assert wanted.amplitude.attrs["units"] and "amplitude_error" in wanted
+    # In SI, scales and numbers as keywords: lengths are in units of 2 m.
+    beam = pendres.hysteresis(**{**DUFFING, "x": "0 m"}, mass="1 kg",
+                              force=["1 N/m", 0, "0.25 N/m^3"])
+    real = pendres.si(beam)
+    assert real.amplitude.units == "m" and "si_factor" not in real.amplitude.attrs
+    assert np.allclose(real.amplitude, 2 * wanted.amplitude, rtol=1e-15, atol=0)
+    assert real.amplitude_error.units == "m"
+    assert np.allclose(real.drive_frequency, wanted.drive_frequency / (2 * np.pi), rtol=1e-15)
+    assert pendres.si(beam.amplitude).identical(real.amplitude)
+    assert pendres.si(wanted).identical(wanted)
+    # The library's function of the same name, with the same jumps.
+    p = pendres.pendulum(force=[1, 0, 1], damping=0.1, drive_amplitude=0.3, drive_frequency=1)
+    path = wanted.drive_frequency.values
+    jumps = pendres.hysteresis(p, np.append(path, path[::-1]), 0.0).jumps
+    assert list(jumps.value) == list(wanted.jump_parameter.values)
+    # Groups of the file, while there is one; none is left behind.
+    data, home = pendres.free_oscillation(amplitude=[0.5, 1.0]), os.getcwd()
+    assert "0.5, 1.0" in pendres.open(data, "provenance").deck.item()
+    where, copy = data.encoding["source"], data.copy()
+    del data
+    assert "gone" in raised(FileNotFoundError, pendres.open, copy, "provenance")
+    assert not os.path.exists(os.path.dirname(where))
+    os.chdir(SCRATCH)
+    try:
+        data = pendres.free_oscillation(amplitude=0.5, output="kept.h5")
+        assert data.identical(pendres.open("kept.h5")) and not os.path.exists("resonance.h5")
+    finally:
+        os.chdir(home)
+
+
+def test_scenes_known():
+    """Functions of scenes, their keywords and their words are the program's: also of a kind, in a
+    group, with a key, that this package has never heard of."""
+    if not has_files():
+        return
+    for kind in pendres.kinds():
+        function = getattr(pendres, kind)
+        keys = set(inspect.signature(function).parameters) - {"arguments"}
+        assert kind in dir(pendres) and function.__name__ == kind and "threads" in keys, kind
+        assert "&scene" in function.__doc__, kind
+        assert all(re.search(rf"\b{key.rstrip('_')}\b", function.__doc__) for key in keys), kind
+    assert "rate = a number" in pendres.explain("rate")
+    known = os.environ["PENDRES_PROGRAM"]
+    try:
+        os.environ["PENDRES_PROGRAM"] = imagined("newer", """case $1 in
+  --list) "$real" --list; echo 'springs  how springs age' ;;
+  --explain=springs) printf '%s\\n' 'springs: age' '' '&ageing' '  years, years_range = numbers' \\
+    '  from = a year' ;;
+  -) [ "$2" = --dump-namelist ] && cat >&2 && exit 2 ;;
+  *) exec "$real" "$@" ;;
+esac""")
+        said = raised(pendres.InvalidArgument, pendres.springs, years=[0.5, 3], from_=1,
+                      ageing={"of": "it's"})
+        assert said.split() == ("&scene kind = 'springs' / &ageing years = 0.5, 3 from = 1 "
+                                "of = 'it''s' /").split(), said
+        assert "how springs age" in pendres.springs.__doc__
+        os.environ["PENDRES_PROGRAM"] = imagined("older", "echo resonance 0.0.1")
+        assert "0.0.1" in raised(ImportError, pendres.run, "&scene /")
+        os.environ["PENDRES_PROGRAM"] = os.path.join(SCRATCH, "none")
+        assert "no program" in raised(OSError, pendres.run, "&scene /")
+        assert "no program" in raised(AttributeError, getattr, pendres, "lyapunov")
+        pendres.basins(pendres.pendulum(damping=0.3, drive_frequency=1), [0, 1], [0, 1])
+    finally:
+        os.environ["PENDRES_PROGRAM"] = known
+    assert "no scene" in raised(AttributeError, getattr, pendres, "lyapunov")
+
+
+def test_scenes_wrong():
+    """What is wrong with keywords is told by their names; failed points are a warning."""
+    if not has_files():
+        return
+    wrong, deck = pendres.InvalidArgument, {**DUFFING, "force": [1, 0, 1]}
+    assert "did you mean 'damping'" in raised(TypeError, pendres.hysteresis, dampng=1)
+    assert "for basins" in raised(TypeError, pendres.hysteresis, refine=1)
+    assert "no keyword 'kind'" in raised(TypeError, lambda: pendres.hysteresis(kind="orbit"))
+    assert "&noise" in raised(TypeError, pendres.response, seed=1)
+    assert "keywords" in raised(TypeError, pendres.lyapunov_map, 0.1)
+    assert "rate" in raised(TypeError, pendres.ramp, damping=0.1)
+    assert "force" in raised(TypeError, pendres.hysteresis, **deck, force_coefficients=[1])
+    assert "output" in raised(ValueError, pendres.hysteresis, **deck, resume=True)
+    assert "--threads" in raised(wrong, pendres.hysteresis, **deck, threads=0)
+    assert "dmping" in raised(wrong, pendres.run, "&scene kind='orbit' /\n&pendulum dmping=1 /")
+    assert "none.nml" in raised(wrong, pendres.run, "none.nml")
+    assert "group" in raised(TypeError, pendres.run, {"scene": 1})
+    assert "such folder" in raised(pendres.FileError, pendres.hysteresis, **deck,
+                                   output="/none/such folder/a.h5")
+    said = raised(wrong, pendres.hysteresis, **{**deck, "damping": -0.1, "x": None})
+    assert "'damping' must be positive\n    damping = -0.1\n" in said and "'start'" in said
+    assert ":" not in said.split("\n")[0], said
+    frequencies = [*np.linspace(1, 2, 40), np.nan]
+    said = raised(wrong, pendres.hysteresis, **{**deck, "drive_frequency_range": None},
+                  drive_frequency=frequencies)
+    assert "nan" in said and "^" in said and "'drive_frequency'" in said, said
+    for bad in ([], {}, object(), 1j, "a\nb", [[1, 2]], np.zeros((2, 2)), np.nan, 2**70, b"x"):
+        for key in ("damping", "drive_frequency_range", "start", "force", "title"):
+            try:
+                pendres.hysteresis(**{**deck, "x": None, "damping": -1, key: bad})
+                raise AssertionError((key, bad))
+            except (TypeError, ValueError) as why:
+                assert len(str(why)) > 12, (key, bad, why)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        data = pendres.resonance_curve(damping=[0.1, 0.2], drive_amplitude=0.3,
+                                       drive_frequency_range=(0.4, 0.5))  # the second is above
+    assert list(data.failed.values > 0) == [False, True] and len(told) == 1, (data.failed, told)
+    assert told[0].category is RuntimeWarning and told[0].filename.endswith("python_check.py")
+    assert "1 point failed" in str(told[0].message) and "damping 0.2" in str(told[0].message)
+    known = pendres._files._importable  # pylint: disable=protected-access
+    pendres._files._importable = lambda name: name != "xarray"
+    try:
+        assert "python3-xarray" in raised(ImportError, pendres.hysteresis, **deck)
+    finally:
+        pendres._files._importable = known
+
+
+def test_scenes_stop():
+    """Ctrl-C ends the program, too, and leaves nothing; with an output it can go on."""
+    if not has_files():
+        return
+    out = os.path.join(SCRATCH, "stopped.h5")
+    before = set(glob.glob(os.path.join(tempfile.gettempdir(), "pendres-*")))
+    start = time.monotonic()
+    for more in ({}, {"output": out}):
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        raised(KeyboardInterrupt, pendres.run, "input/lyapunov.nml", **more)
+    assert time.monotonic() - start < 40 and not os.path.exists(out)
+    assert before == set(glob.glob(os.path.join(tempfile.gettempdir(), "pendres-*")))
+
+
 def test_tutorial():
     """Every command of docs/python.md, in its order, as it stands; the figure's numbers are the
     program's, and pictures are drawn where there is matplotlib."""
@@ -418,8 +601,8 @@ def test_tutorial():
                                 flags=re.M | re.S):
             if block[1] and program:
                 subprocess.run([program, *block[1].split()[1:]], check=True, capture_output=True)
-            if ("matplotlib" in block[0] and not has["matplotlib"]) or \
-                    ("pendres.open" in block[0] and not (program and has["h5netcdf"])):
+            files = re.search(r"pendres\.(open|run|ramp)|_range=", block[0])
+            if ("matplotlib" in block[0] and not has["matplotlib"]) or (files and not has_files()):
                 continue
             with contextlib.redirect_stdout(printed):
                 exec(compile(block[0], "docs/python.md", "exec"), names)  # pylint: disable=exec-used

@@ -17,9 +17,10 @@ done
 }
 
 PENDRES_LIBRARY=$(cd "$BUILD" && pwd)/libpendres.so
+PENDRES_PROGRAM=${RESONANCE:-}
 PYTHONPATH=$PWD/python
 PYTHONDONTWRITEBYTECODE=1
-export PENDRES_LIBRARY PYTHONPATH PYTHONDONTWRITEBYTECODE CC
+export PENDRES_LIBRARY PENDRES_PROGRAM PYTHONPATH PYTHONDONTWRITEBYTECODE CC
 "$python" tests/python_check.py "$scratch" || exit 1
 
 # Installed by pip, away from the tree, without asking the network for anything.

@@ -11,21 +11,27 @@ Results have the fields of the library's structures, errors included, as numpy r
 exceptions (pendres.Error) with the library's sentence. While the library computes, other threads
 run: a function without `context=` uses one of its thread's own.
 
+Scenes of the program `resonance`, each a function whose keywords are the keys of decks, return
+xarray Datasets: pendres.hysteresis(damping=0.12, drive_amplitude=0.2, start="sa",
+drive_frequency_range=(0.4, 1, 241)), pendres.lyapunov_map(...) and so on; pendres.run("f02.nml")
+computes a deck, pendres.kinds() lists them, help(pendres.lyapunov_map) has their keys.
+
 `pendres.c` has every public function of the library as C has it, with its documentation:
 `help(pendres.c.strobe_advance)`, `dir(pendres.c)`; pendres.dtype(NAME) its structures for numpy.
 """
-from ._curves import (Boundary, Branch, Curve, Hysteresis, backbone, boundary, branches, curves,
-                      cusp, fold, hysteresis, saddle)
-from ._files import open, words  # pylint: disable=redefined-builtin
+from . import _curves, _noise, _scenes, _states
+from ._curves import (Boundary, Branch, Curve, Hysteresis, backbone, boundary, curves, cusp, fold,
+                      saddle)
+from ._files import open, si, words  # pylint: disable=redefined-builtin
 from ._handles import Context, ensemble, pendulum
 from ._library import (Error, Status, array, c, declared as _declared, dtype,
                        enumerations as _enumerations, errors as _errors, ffi, lib)
 from ._motion import (free_frequency, free_frequency_integrate, orbit_sample, orbits,
                       strobe_advance, strobe_record)
 from ._noise import (activation, cloud, cloud_request, cloud_steps, langevin_advance, linear_noise,
-                     rate, switching)
-from ._states import (Attractors, Basins, attractors, basins, phase_line, resonance, response,
-                      settle)
+                     rate)
+from ._scenes import explain, kinds, ramp, run
+from ._states import Attractors, Basins, attractors, phase_line, resonance, settle
 
 __version__ = _declared.constants["PENDRES_VERSION"]
 
@@ -34,3 +40,31 @@ SWITCHING_WELL = lib.PENDRES_SWITCHING_WELL
 # Enumerations (pendres.Label.SA, pendres.Peak.EDGE, ...) and exceptions, as the headers list them.
 for _kind in (*_enumerations.values(), *_errors.values()):
     globals()[_kind.__name__] = _kind
+
+
+# The library's functions that have the name of a kind of scene: a pendulum, or what they find, goes
+# before all else; keywords alone are a scene's.
+_beside = {function.__name__: function for function in (
+    _curves.branches, _curves.hysteresis, _noise.switching, _states.basins, _states.response)}
+
+
+def __getattr__(name):
+    """Kinds of scenes are the program's, which is not asked before one is wanted."""
+    if name not in _beside:
+        try:
+            known = not name.startswith("_") and name in kinds()
+        except (OSError, ImportError, Error) as why:
+            raise AttributeError(f"pendres has no '{name}', and knows no scenes: {why}") from None
+        if not known:
+            raise AttributeError(f"pendres has no '{name}', and no scene is called so: "
+                                 "dir(pendres) lists what there is")
+    globals()[name] = _scenes.scene(name, _beside.get(name))
+    return globals()[name]
+
+
+def __dir__():
+    try:
+        scenes = kinds()
+    except (OSError, ImportError, Error):
+        scenes = ()
+    return sorted({*globals(), *_beside, *scenes})

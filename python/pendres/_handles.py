@@ -4,7 +4,8 @@ import threading
 
 import numpy as np
 
-from ._library import Handle, Record, array, assign, c, copied, dtype, errors, ffi, lib, structures
+from ._library import (Handle, Record, array, assign, c, copied, dtype, enumerations, errors, ffi,
+                       lib, structures)
 
 PENDULUM = dtype("pendres_pendulum")
 
@@ -87,20 +88,33 @@ def default_context(context=None):
 def pendulum(**fields):
     """Pendulums by their parameters, dimensionless: damping (1/Q), drive_amplitude (torque over
     m g l), drive_frequency (over that of small oscillations), temperature (kT over m g l), and
-    whatever else the library's pendres_pendulum has. force="polynomial" has force_coefficients=[a1,
-    a2, ...], five at most.
+    whatever else the library's pendres_pendulum has. force=[a1, a2, ...], five at most, is the
+    polynomial a1 x + a2 x^2 + ...; other forces have names, and force_coefficients: force="squid".
 
     Arrays are broadcast: pendulum(damping=[0.1, 0.2], drive_amplitude=0.2, drive_frequency=1)
     makes two; so are those of force_coefficients along all but their last dimension. The result is
     a numpy array with the parameters as fields and attributes.
     """
-    values = dict(fields)
+    values = force_and_coefficients(fields)
     if "force_coefficients" in values:
         values["force_coefficients"] = _padded(values["force_coefficients"])
     shapes = [np.shape(value)[:-1] if key == "force_coefficients" else np.shape(value)
               for key, value in values.items()]
     return filled("pendres_pendulum", values, array("pendres_pendulum",
                                                     np.broadcast_shapes(*shapes)))
+
+
+def force_and_coefficients(fields):
+    """Fields, or keys of a deck, in which force=[a1, a2, ...] is the polynomial with these; in a
+    deck some may have units. An array of the field's own type holds kinds of forces."""
+    force, kinds = fields.get("force"), enumerations["pendres_force"]
+    given = np.asarray(force)
+    if not given.ndim or given.dtype.kind not in "iufU" or given.dtype == PENDULUM["force"] or any(
+            isinstance(one, kinds) for one in np.asarray(force, dtype=object).flat):
+        return dict(fields)
+    if fields.get("force_coefficients") is not None:
+        raise TypeError("force: coefficients are given here or in force_coefficients, not in both")
+    return {**fields, "force": "polynomial", "force_coefficients": force}
 
 
 def _padded(coefficients):
