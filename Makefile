@@ -470,9 +470,9 @@ figures: $(PROGRAM)
 # The few pictures that docs/gallery.md and the README show, from what `make figures` left.
 GALLERY := f05 f07 f08 f09 duffing hysteresis josephson cascade
 gallery:
-	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 100 -o docs/gallery \
+	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 200 -o docs/gallery \
 	  $(GALLERY:%=$(BUILD)/figures/%.h5)
-	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 100 -o docs $(BUILD)/figures/f02.h5
+	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 200 -o docs $(BUILD)/figures/f02.h5
 
 style:
 	@tests/style_check.sh

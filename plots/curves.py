@@ -4,12 +4,12 @@ import os
 import h5py
 import numpy as np
 
-from style import (EXACT, FREE, LA, NARROW, SA, Run, around, drive_axis, figure, free_frequency,
-                   frequency, legend, parameter_axis, plt, words)
+from style import (EXACT, FREE, LA, SA, Run, amplitude_axis, around, drive_axis, figure,
+                   free_frequency, frequency, legend, parameter_axis, parameter_text, plt)
 
 
 def draw_free_oscillation(h, path):
-    fig, ax = figure(h, 4.8, 3.6)
+    fig, ax = figure(h, 3.3)
     a = h["amplitude"]
     ax.axhline(1, color=FREE, ls="-.", label="harmonic oscillator")
     ax.plot(a, h["frequency_exact"], color=EXACT, label="exact (elliptic integral)")
@@ -19,7 +19,7 @@ def draw_free_oscillation(h, path):
     ax.plot(a[::step], h["frequency_integrated"][::step], "o", ms=4, mfc="none", color=EXACT,
             label="integrated")
     ax.set(xlabel="amplitude $x_0$ (rad)", ylabel=r"frequency $\omega_1/\omega_0$")
-    ax.legend()
+    legend(ax)
     return fig
 
 
@@ -27,7 +27,9 @@ def resonance_axes(ax, h, labels):
     """Resonance frequency against amplitude; values of the axis are written beside their points:
     `labels` of dampings, some of the others."""
     name = h.axis_of("mean_loop_amplitude", 0)
-    amplitude, peak, values = h["mean_loop_amplitude"], h["peak"], h[name]
+    factor, across = amplitude_axis(h, "mean_loop_amplitude",
+                                    r"mean loop amplitude $\overline{x_0}$")
+    amplitude, peak, values = h["mean_loop_amplitude"] * factor, h["peak"], h[name]
     if name != "damping" or not np.isin(labels, values).all():
         labels = values[::-(-len(values) // 8)]
     omega, label = frequency(h, h["resonance_frequency"])
@@ -48,7 +50,7 @@ def resonance_axes(ax, h, labels):
     # the right of what is beyond that line.
     top = amplitude[np.nanargmax(omega)] if np.any(np.isfinite(omega)) else 0
     free = frequency(h, free_frequency(amplitude))[0] if plain else omega
-    apart = 0.1 * right, 0.05 * (np.nanmax(omega, initial=0) - np.nanmin(omega, initial=1))
+    apart = 0.14 * right, 0.08 * (np.nanmax(omega, initial=0) - np.nanmin(omega, initial=1))
     numbered = np.empty((0, 2))
     for value in labels:
         i = np.argmin(abs(values - value))
@@ -65,27 +67,26 @@ def resonance_axes(ax, h, labels):
                     fontsize=plt.rcParams["legend.fontsize"] - 0.5)
     seen = np.append(omega, frequency(h, 1.0)[0]) if plain else omega
     ax.set(xlim=(0, right), ylim=around(seen, 0.12))
-    return label
+    return across, label
 
 
 def draw_resonance_curve(h, path):
-    fig, ax = figure(h, 5.4, 4.0)
-    label = resonance_axes(ax, h, [0.06, 0.1, 0.14, 0.2, 0.24, 0.32, 0.7, 1.0])
-    unit = " (rad)" if "free_frequency" in h else ""
-    ax.set(xlabel=r"mean loop amplitude $\overline{x_0}$" + unit, ylabel="resonance: " + label)
+    fig, ax = figure(h, 3.6)
+    across, label = resonance_axes(ax, h, [0.06, 0.1, 0.14, 0.2, 0.24, 0.32, 0.7, 1.0])
+    ax.set(xlabel=across, ylabel="resonance: " + label)
     beside = path[:-3] + "_inset.h5"
     inset = os.path.exists(beside)
     if inset:  # the free space is at the lower left, below the curve
         low, high = ax.get_ylim()
         ax.set_ylim(low - 0.75 * (high - low), high)
         with h5py.File(beside, "r") as other:
-            small = ax.inset_axes([0.11, 0.1, 0.5, 0.36])
+            small = ax.inset_axes([0.14, 0.13, 0.5, 0.36])
             resonance_axes(small, Run(other, h.options), [0.099, 0.28])
-        small.set_title("$F_0 = 0.1$", fontsize=7.5, pad=2)
-        small.tick_params(labelsize=7)
+        small.set_title("$F_0 = 0.1$", fontsize=plt.rcParams["legend.fontsize"], pad=2)
+        small.tick_params(labelsize=plt.rcParams["legend.fontsize"] - 0.5)
     axis = h.axis_of("mean_loop_amplitude", 0).replace("_", " ")
     legend(ax, loc="lower right" if inset else "best", title="numbers: " + axis,
-           title_fontsize=7.5, framealpha=1)
+           title_fontsize=plt.rcParams["legend.fontsize"], framealpha=1)
     return fig
 
 
@@ -93,9 +94,9 @@ def draw_response(h, path):
     """Amplitude above, phase lag below; with temperatures a curve each, without the resonance."""
     name, lines = h.axis_of("mean_loop_amplitude", -1), h.axis_of("mean_loop_amplitude", -2)
     drive, label = parameter_axis(h, h[name], name)
-    symbol = parameter_axis(h, [], lines)[1].split()[-1].strip("$")
-    fig, (top, below) = figure(h, 5.0, 5.2, 2, 1, sharex=True)
-    amplitude, lag = h["mean_loop_amplitude"], h["phase_lag"]
+    fig, (top, below) = figure(h, 4.2, 2, 1, sharex=True)
+    factor, height = amplitude_axis(h, "mean_loop_amplitude", r"amplitude $\langle x_0\rangle$")
+    amplitude, lag = h["mean_loop_amplitude"] * factor, h["phase_lag"]
     noisy = amplitude.ndim == 3
     if not noisy:
         amplitude, lag = amplitude[None], lag[None]
@@ -103,7 +104,9 @@ def draw_response(h, path):
     marks = dict(marker=".", ms=4) if len(drive) < 30 else {}
     for t in range(len(amplitude)):
         for i, g in enumerate(h[lines]):
-            text = f"${symbol} = {g:g}$" + (f", $T = {h['temperature'][t]:g}$" if noisy else "")
+            text = parameter_text(h, g, lines)
+            if noisy:
+                text += ", " + parameter_text(h, h["temperature"][t], "temperature")
             top.plot(drive, amplitude[t, i], styles[t % 4], color=f"C{i % 6}", label=text, **marks)
             below.plot(drive, lag[t, i] / np.pi, styles[t % 4], color=f"C{i % 6}", **marks)
     resonances = h["resonance_period"] if not noisy and "resonance_period" in h else []
@@ -111,15 +114,15 @@ def draw_response(h, path):
         if not np.isfinite(tau):
             continue
         at = drive_axis(h, 2 * np.pi / tau if name == "drive_frequency" else tau, name)[0]
-        top.plot(at, h["resonance_amplitude"][i], "o", ms=5, mfc="none", color=f"C{i % 6}")
+        top.plot(at, factor * h["resonance_amplitude"][i], "o", ms=5, mfc="none", color=f"C{i % 6}")
         below.plot(at, h["resonance_phase_lag"][i] / np.pi, "o", ms=5, mfc="none",
-                   color=f"C{i % 6}", label=f"resonance, {at:.4f}")
-    top.set(ylabel=amplitude_label(h, r"amplitude $\langle x_0\rangle$"))
+                   color=f"C{i % 6}", label=f"resonance, {at:.6g}")
+    top.set(ylabel=height)
     top.set_ylim(bottom=0)
     below.set(xlabel=label, ylabel=r"phase lag $\phi/\pi$", ylim=(0, 1))
-    top.legend()
+    top.legend(handlelength=1.2)
     if below.get_legend_handles_labels()[0]:
-        below.legend()
+        below.legend(handletextpad=0.2)
     return fig
 
 
@@ -132,8 +135,8 @@ def arrow_along(ax, x, y, colour):
 
 def orbit_title(h):
     if np.isfinite(h["period"]):
-        return (rf"area {h['loop_area']:.6f}, amplitude {h['amplitude']:.4f}, "
-                rf"phase lag {h['phase_lag'] / np.pi:.4f}$\pi$")
+        return (rf"area {h['loop_area']:.5f}, amplitude {h['amplitude']:.4f}, "
+                rf"lag {h['phase_lag'] / np.pi:.4f}$\pi$")
     if np.isfinite(h["lyapunov_exponent"]):
         return f"chaotic, Lyapunov exponent {h['lyapunov_exponent']:.4f}"
     return "no closed orbit"
@@ -161,7 +164,7 @@ def draw_section(h, samples):
     """Chaos once a drive period: its Poincaré section, angles within one turn; its spectrum if
     there."""
     spectrum = "power_spectrum" in h
-    fig, axes = figure(h, 5.0, 6.0 if spectrum else 4.2, 1 + spectrum, 1,
+    fig, axes = figure(h, 4.6 if spectrum else 3.2, 1 + spectrum, 1,
                        **({"height_ratios": (2, 1)} if spectrum else {}))
     ax = np.atleast_1d(axes)[0]
     x, v = within_turn(h, h["x"][::samples]), h["v"][::samples]
@@ -180,34 +183,31 @@ def draw_section(h, samples):
 
 
 def draw_orbit(h, path):
-    periods, x, drive = h["drive_phase"] / (2 * np.pi), h["x"], h["drive"]
+    periods, drive = h["drive_phase"] / (2 * np.pi), h["drive"]
+    factor, label = amplitude_axis(h, "x", "$x$")
+    x = h["x"] * factor
     closed = np.isfinite(h["period"])
     samples = round(1 / (periods[1] - periods[0])) if len(periods) > 1 else 1  # a period
     if not closed and len(periods) > (1 if samples == 1 else 200 * samples):
         return draw_section(h, samples)
     colour = {0: SA, 1: LA}.get(int(h["label"]), "#009E73")
-    fig, (top, bottom) = figure(h, 4.8, 5.6, 2, 1)
+    fig, (top, bottom) = figure(h, 4.2, 2, 1)
     scale = 0.5 * np.ptp(x) / np.ptp(drive) if np.ptp(drive) > 0 and np.ptp(x) > 0 else 1.0
     marks = dict(marker="o", ms=3) if len(x) < 16 else {}
     top.plot(periods, x, color=colour, label="$x$", **marks)
     top.plot(periods, np.mean(x) + scale * drive, "--", color=FREE,
              label=f"drive, magnified {scale:.1f} times", **marks)
-    top.set(xlabel="drive periods", ylabel="$x$ (rad)", ylim=around(x, 0.25))
-    top.legend(loc="upper right", ncol=2, frameon=False)
-    label = "$x$ (rad)"
+    top.set(xlabel="drive periods", ylabel=label, ylim=around(x))
+    top.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0, ncol=2, frameon=False)
     if closed and h["winding"] != 0:  # the mean rotation encloses no area
-        x, label = x - 2 * np.pi * h["winding"] / h["period"] * periods, "$x$ without rotation (rad)"
+        x = x - 2 * np.pi * h["winding"] / h["period"] * periods
+        label = label.replace("$x$", "$x$ without rotation")
     bottom.plot(drive, x, color=colour, **marks)
     if len(x) >= 16:
         arrow_along(bottom, drive, x, colour)
     bottom.set(xlabel="drive $F$", ylabel=label, ylim=around(x))
     bottom.set_title(orbit_title(h))
     return fig
-
-
-def amplitude_label(h, symbol="amplitude $x_0$"):
-    """The label of an axis of amplitudes: only a pendulum's are angles."""
-    return symbol if "a1" in h else symbol + " (rad)"
 
 
 def column_of(name):
@@ -272,22 +272,23 @@ def draw_branch(ax, x, y, stable, kind, colour):
 
 def draw_branches(h, path):
     """Amplitude against the frequency, or against whatever the branches are followed along."""
-    fig, ax = figure(h, 5.4, 3.9)
+    fig, ax = figure(h, 3.3)
     name = h.axis_of("mean_loop_amplitude", -1)
     rows = h.axis_of("mean_loop_amplitude", 0)
     axis, label = parameter_axis(h, h[name], name)
+    factor, height = amplitude_axis(h, "branch_amplitude", "amplitude $x_0$")
+    amplitude = h["branch_amplitude"] * factor
     number, stable, kind = h["branch_number"], h["branch_stable"] == 1, h["branch_kind"]
     value, row = h[f"branch_{column_of(name)}"], h[f"branch_{column_of(rows)}"]
     along = parameter_axis(h, value if name != "drive_period" else 2 * np.pi / value, name)[0]
-    symbol = parameter_axis(h, [], rows)[1].split()[-1].strip("$")
     for i, g in enumerate(h[rows]):
         for k in np.unique(number[abs(row - g) <= 1e-9 * max(1, abs(g))]):
             here = number == k
-            draw_branch(ax, along[here], h["branch_amplitude"][here], stable[here], kind[here],
+            draw_branch(ax, along[here], amplitude[here], stable[here], kind[here],
                         f"C{i % 6}")
-        ax.plot([], [], color=f"C{i % 6}", label=f"${symbol} = {g:g}$")
+        ax.plot([], [], color=f"C{i % 6}", label=parameter_text(h, g, rows))
         if h.options.ensemble:
-            ax.plot(axis, h["mean_loop_amplitude"][i], ".", ms=3, color=f"C{i % 6}")
+            ax.plot(axis, factor * h["mean_loop_amplitude"][i], ".", ms=3, color=f"C{i % 6}")
     ax.plot([], [], ls=UNSTABLE, color="black", lw=1.1, label="unstable")
     if h.options.ensemble:
         ax.plot([], [], ".", ms=3, color="black", label="mean of the ensemble")
@@ -295,28 +296,27 @@ def draw_branches(h, path):
     for k, mark, text in BIFURCATION_MARKS:
         here = (kind == k) & (along >= low) & (along <= high)
         if np.any(here):
-            ax.plot(along[here], h["branch_amplitude"][here], mark, ms=3.5, mfc="white", mew=0.8,
+            ax.plot(along[here], amplitude[here], mark, ms=3.5, mfc="white", mew=0.8,
                     color="black", label=text, zorder=3)
     if name == "drive_frequency" and h.options.boundary:
-        for named, omega, amplitude in bifurcation_curves(h, "fold", "frequency", "amplitude"):
+        symbol = parameter_axis(h, [], rows)[1].partition(" (")[0].split()[-1]
+        for named, omega, at in bifurcation_curves(h, "fold", "frequency", "amplitude"):
             if named:
-                line = smooth(frequency(h, omega)[0], amplitude)
-                ax.plot(*line.T, color="0.75", lw=0.8, zorder=1, label=f"folds, all ${symbol}$")
+                line = smooth(frequency(h, omega)[0], factor * at)
+                ax.plot(*line.T, color="0.75", lw=0.8, zorder=1, label=f"folds, all {symbol}")
         if "free_amplitude" in h:
-            ax.plot(frequency(h, h["free_frequency"])[0], h["free_amplitude"], "-.", color=FREE,
+            ax.plot(frequency(h, h["free_frequency"])[0], factor * h["free_amplitude"], "-.", color=FREE,
                     lw=0.8, zorder=1, label="free pendulum")
     inside = (along >= low) & (along <= high)
-    shown = h["branch_amplitude"][inside] if np.any(inside) else h["mean_loop_amplitude"].ravel()
-    ax.set(xlabel=label, ylabel=amplitude_label(h), xlim=(low, high), ylim=(0, around(shown)[1]))
-    if ax.figure.get_size_inches()[0] < NARROW:
-        ax.locator_params(axis="x", nbins=5)
+    shown = amplitude[inside] if np.any(inside) else factor * h["mean_loop_amplitude"].ravel()
+    ax.set(xlabel=label, ylabel=height, xlim=(low, high), ylim=(0, around(shown)[1]))
     legend(ax)
     return fig
 
 
 def draw_switching(h, path):
     """Rates with confidence intervals, the fits, and the activation energies that they mean."""
-    fig, ax = figure(h, 4.8, 3.8)
+    fig, ax = figure(h, 3.4)
     t = h["temperature"]
     inverse = np.linspace(0.95 / t.max(), 1.05 / t.min(), 60)
     for what, colour, text, marker in (("sa_la", SA, "SA to LA", "o"), ("la_sa", LA, "LA to SA", "s"),
@@ -347,12 +347,14 @@ def draw_ramp(h, name):
     """Strobe points while the parameter moves, the ends of states and when they are left, and how
     noise scatters that."""
     noisy = "jump_noisy_parameter" in h
-    fig, axes = figure(h, 5.2, 4.8 if noisy else 3.4, 2 if noisy else 1, 1, sharex=True,
+    fig, axes = figure(h, 4.0 if noisy else 3.0, 2 if noisy else 1, 1, sharex=True,
                        **({"height_ratios": (2, 1)} if noisy else {}))
     top = axes[0] if noisy else axes
+    factor, height = amplitude_axis(h, "ramp_x", "$x$ at drive phase 0")
     for way in range(2):
         x, label = parameter_axis(h, h["ramp_parameter"][way], name)
-        top.plot(x, within_turn(h, h["ramp_x"][way]), lw=0.9, color=f"C{way}", label=f"{('up', 'down')[way]}, strobe")
+        top.plot(x, factor * within_turn(h, h["ramp_x"][way]), lw=0.9, color=f"C{way}",
+                 label=f"{('up', 'down')[way]}wards")
     for k, way in enumerate(h["jump_direction"]):
         lines = [("jump_parameter", "-", "quasi-static"), ("jump_ramp_parameter", "--", "real time")]
         for what, style, text in lines:
@@ -365,79 +367,61 @@ def draw_ramp(h, name):
         values = values[np.isfinite(values)]
         if len(values) > 1:
             axes[1].hist(parameter_axis(h, values, name)[0], bins="auto", color=f"C{way}", alpha=0.5)
-    top.set_ylabel("x at drive phase 0 (rad)")
+    top.set_ylabel(height)
     legend(top, under=np.atleast_1d(axes)[-1])
     if noisy:
-        axes[1].set_ylabel(f"jumps at\n$T = {h['temperature']:g}$")
+        axes[1].set_ylabel("jumps at\n" + parameter_text(h, h["temperature"], "temperature"))
     np.atleast_1d(axes)[-1].set_xlabel(label)
     return fig
 
 
-def jumped(x, y, ends):
-    """A curve that goes on to where states end, a gap there, and the pieces that bridge the gaps:
-    from the state that ended to the next one at which the sweep stood, whatever lies between."""
+def jumped(x, y, ends, held):
+    """A curve with a gap at each end of a state, and the gaps: from the last point of the one state
+    to the first of the next. What is held constant up to its end, as a voltage on a step, is drawn
+    up to there; of other curves nobody has computed what lies between."""
     at = np.searchsorted(x, ends)
     xs, ys, gaps = [x[:1]], [y[:1]], []
     for i in range(1, len(x)):
         here = ends[at == i]
         if len(here):
-            xs.append([here.min(), np.nan, here.max()])
-            ys.append([y[i - 1], np.nan, y[i]])
-            gaps.append((here.min(), here.max(), y[i - 1], y[i]))
+            before = (here.min(), y[i - 1]) if held[i - 1] else (x[i - 1], y[i - 1])
+            after = (here.max(), y[i]) if held[i] else (x[i], y[i])
+            xs.append([before[0], np.nan, after[0]])
+            ys.append([before[1], np.nan, after[1]])
+            gaps.append((before, after))
         xs.append(x[i:i + 1])
         ys.append(y[i:i + 1])
     return np.concatenate(xs), np.concatenate(ys), gaps
 
 
-def draw_jumps(ax, gaps, way, colour):
-    """Thin lines at the jumps, with an arrow on the large ones."""
-    span = np.ptp([y for gap in gaps for y in gap[2:] if np.isfinite(y)] or [0])
-    for a, b, before, after in gaps:
-        ax.plot([a, b], [before, after], color=colour, lw=0.6)
-        if abs(after - before) > 0.25 * span and span > 0:
-            start, end = ((a, before), (b, after))[::1 - 2 * way]
+def draw_jumps(ax, gaps, back, colour):
+    """Dotted lines with an arrow at the large jumps."""
+    span = np.ptp([y for gap in gaps for _, y in gap if np.isfinite(y)] or [0])
+    for gap in gaps:
+        start, end = gap[::-1] if back else gap
+        if span > 0 and abs(end[1] - start[1]) > 0.25 * span:
+            ax.plot(*np.transpose(gap), color=colour, lw=0.8, ls=":")
             middle = np.add(start, end) / 2
             ax.annotate("", middle + 0.1 * np.subtract(end, start), middle,
                         arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 0.6,
                                     "mutation_scale": 8})
 
 
-def locked_steps(h, x):
-    """The steps of a junction, by voltage: winding, period, the first and the last torque at which
-    it is seen, and its width, from where the way down leaves it to where the way up does (NaN if one
-    of them does not: where a sweep comes to a step is no end of it)."""
-    found, jumps = {}, h["jump_parameter"]
-    for way in range(2):
-        p, q = h["winding"][way], h["period"][way]
-        turns = p / q
-        cuts = np.flatnonzero(np.diff(turns) != 0) + 1
-        for first, last in zip(np.append(0, cuts), np.append(cuts, len(x)) - 1):
-            if not np.isfinite(turns[first]):
-                continue
-            step = found.setdefault(turns[first], [p[first], q[first], np.inf, -np.inf, [], []])
-            step[2], step[3] = min(step[2], x[first]), max(step[3], x[last])
-            inner, outer = (first, first - 1) if way else (last, last + 1)
-            if 0 <= outer < len(x):
-                inner, outer = x[inner], x[outer]
-                step[4 + way] += [e for e in jumps[h["jump_direction"] == way]
-                                  if min(inner, outer) <= e <= max(inner, outer)]
-    return {turns: (p, q, first, last, max(up) - min(down) if up and down else np.nan)
-            for turns, (p, q, first, last, up, down) in found.items()}
-
-
 def write_steps(ax, h, x):
-    """Above each wide step of a junction its voltage, in drive frequencies, and its width."""
-    for turns, (p, q, first, last, width) in locked_steps(h, x).items():
-        if last - first < 0.04 * np.ptp(x):
+    """Above each wide step of a junction its voltage, in drive frequencies, and its width if the
+    sweep has left it at both ends."""
+    names = ("winding", "period", "lower", "upper", "width")
+    factor = parameter_axis(h, 1.0, "torque")[0]
+    for p, q, first, last, width in zip(*(h["step_" + name] for name in names)):
+        if (last - first) * factor < 0.04 * np.ptp(x):
             continue
-        text = f"{turns:g}" if turns % 1 == 0 else f"{p:g}/{q:g}"
+        text = f"{p / q:g}" if p % q == 0 else f"{p}/{q}"
         if np.isfinite(width):
-            text += f" ({width:.4f})"
-            ax.plot([], [], " ", label="numbers: step (its width)")
-        wide = last - first > 0.15 * np.ptp(x)
-        ax.annotate(text, (first + 0.75 * (last - first) if wide else last, turns), ha="right",
-                    va="bottom", xytext=(0, 2), textcoords="offset points",
-                    fontsize=plt.rcParams["legend.fontsize"])
+            text += f" ({width * factor:.4g})"
+        wide = (last - first) * factor > 0.15 * np.ptp(x)
+        at = first + (0.55 * (last - first) if wide else last - first)
+        ax.annotate(text, (at * factor, p / q), ha="right", va="bottom", xytext=(0, 2),
+                    textcoords="offset points", fontsize=plt.rcParams["legend.fontsize"])
 
 
 def draw_hysteresis(h, path):
@@ -447,34 +431,40 @@ def draw_hysteresis(h, path):
     if "ramp_parameter" in h:
         return draw_ramp(h, name)
     x, label = parameter_axis(h, h[name], name)
-    velocity = h["mean_velocity"]
+    velocity, turns = amplitude_axis(h, "mean_velocity", "mean velocity")
+    velocity = h["mean_velocity"] * velocity
     runs = np.nanmax(np.abs(velocity), initial=0) > 0
     steps = runs and name == "torque"
-    shown = velocity / h["drive_frequency"] if steps else h["amplitude"]
-    fig, (top, below) = figure(h, 5.2, 4.8, 2, 1, sharex=True, height_ratios=(2, 1))
+    factor, height = amplitude_axis(h, "amplitude", "amplitude $x_0$")
+    shown = h["mean_velocity"] / h["drive_frequency"] if steps else factor * h["amplitude"]
+    fig, (top, below) = figure(h, 3.6, 2, 1, sharex=True, height_ratios=(2.4, 1))
     gradual = h["jump_gradual"] if "jump_gradual" in h else np.zeros(len(h["jump_parameter"]))
     ends = parameter_axis(h, h["jump_parameter"], name)[0]
-    order = slice(None) if len(x) < 2 or x[-1] > x[0] else slice(None, None, -1)
+    falling = len(x) > 1 and x[-1] < x[0]
+    order = slice(None, None, -1) if falling else slice(None)
     for way in range(2):
         # Where both ways agree, the narrow line of the way down lies on the wide one of the way up.
         stops = ends[(h["jump_direction"] == way) & (gradual == 0)]
+        held = np.isfinite(h["period"][way]) & steps
         for ax, values in (top, shown[way]), (below, h["lyapunov"][way]):
-            a, b, gaps = jumped(x[order], values[order], stops)
+            a, b, gaps = jumped(x[order], values[order], stops, held[order])
             ax.plot(a, b, lw=(2.6, 0.9)[way], color=f"C{way}", marker="." if len(x) < 3 else None,
-                    label=f"{words(name)} goes {('up', 'down')[way]}")
-            if ax is top:
-                draw_jumps(ax, gaps, way if order == slice(None) else 1 - way, f"C{way}")
+                    label=f"{('up', 'down')[way]}wards")
+            if ax is top and not steps:
+                draw_jumps(ax, gaps, (way == 1) != falling, f"C{way}")
     if runs and not steps:
         right = top.twinx()
         right.plot(x, velocity.T, lw=0.8, ls=":")
-        right.set_ylabel("mean velocity (dotted)")
-    if steps and "winding" in h:
+        right.set_ylabel(turns + " (dotted)")
+    title = None
+    if steps and "step_width" in h:
         write_steps(top, h, x)
-    top.set_ylabel("mean velocity /\ndrive frequency" if steps else amplitude_label(h))
+        title = "numbers: step (its width)"
+    top.set_ylabel("mean velocity /\ndrive frequency" if steps else height)
     for end, way, slow in zip(ends, h["jump_direction"], gradual):
         if slow:  # nothing jumps: a tick at the axis
             top.axvline(end, ymax=0.04, color=f"C{way}", lw=0.8)
-    legend(top, under=below)
+    top.legend(title=title, title_fontsize=plt.rcParams["legend.fontsize"])
     below.axhline(0, color="0.7", lw=0.8)
     below.set(ylabel="Lyapunov\nexponent", xlabel=label)
     return fig
@@ -484,21 +474,22 @@ def draw_bifurcation_diagram(h, path):
     name = h.axis_of("strobe_x", 0)
     x, label = parameter_axis(h, h[name], name)
     if "lyapunov" in h:
-        fig, (top, below) = figure(h, 6.0, 5.2, 2, 1, sharex=True, height_ratios=(3, 1))
+        fig, (top, below) = figure(h, 3.6, 2, 1, sharex=True, height_ratios=(3, 1))
         below.plot(x, h["lyapunov"], ".-", ms=3, lw=0.6)
         below.axhline(0, color="0.7", lw=0.8)
         below.set_ylabel("Lyapunov\nexponent")
     else:
-        fig, top = figure(h, 6.0, 4.0)
+        fig, top = figure(h, 2.7)
         below = top
     strobes = h["strobe_x"]
-    top.plot(np.repeat(x, strobes.shape[1]), strobes.ravel(), ",", color="black", rasterized=True)
+    factor, height = amplitude_axis(h, "strobe_x", "$x$ at drive phase 0")
+    top.plot(np.repeat(x, strobes.shape[1]), factor * strobes.ravel(), ",", color="black", rasterized=True)
     for value in h["cascade_parameter"] if "cascade_parameter" in h else ():
         top.axvline(parameter_axis(h, value, name)[0], color=SA, lw=0.6)
     if "cascade_limit" in h and np.isfinite(h["cascade_limit"]):
         top.axvline(parameter_axis(h, h["cascade_limit"], name)[0], color=LA, lw=0.9, ls="--",
                     label="doublings accumulate")
         top.legend()
-    top.set_ylabel("x at drive phase 0 (rad)")
+    top.set_ylabel(height)
     below.set_xlabel(label)
     return fig

@@ -8,7 +8,8 @@ from matplotlib.patheffects import withStroke
 from curves import bifurcation_curves, column_of, unit_of_x
 from curves import draw_response as curve_response
 from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
-                   colours_of, figure, frequency, legend, parameter_axis, plt)
+                   WIDE, WIDTH, amplitude_axis, colours_of, figure, frequency, legend,
+                   page, parameter_axis, parameter_text, plt)
 
 OUTLINE = [withStroke(linewidth=2, foreground="black")]
 MOST_PIXELS = 1500  # a side; finer grids are thinned
@@ -105,7 +106,7 @@ def wells_apart(h, index, thin):
 def draw_basins(h, path):
     unit, label = unit_of_x(h)
     x, v = h["x"] / unit, h["v"]
-    fig, ax = figure(h, 5.6, 3.8)
+    fig, ax = figure(h, 2.8)
     thin = tuple(max(1, -(-len(axis) // MOST_PIXELS)) for axis in (x, v))
     index = h["attractor_index"][:: thin[0], :: thin[1]]
     names, colours = attractor_styles(h)
@@ -141,7 +142,7 @@ def draw_one_damping(h):
     """A phase diagram of a single damping is a line: shares and mean loop area."""
     name = h.axis_of("mean_loop_area", 1)
     drive, label = parameter_axis(h, h[name], name)
-    fig, (top, below) = figure(h, 5.0, 4.6, 2, 1, sharex=True)
+    fig, (top, below) = figure(h, 3.6, 2, 1, sharex=True)
     top.plot(drive, h["sa_fraction"][0], color=SA, label="SA")
     top.plot(drive, h["la_fraction"][0], color=LA, label="LA")
     top.set(ylabel="share of the members", ylim=(-0.03, 1.03))
@@ -171,7 +172,7 @@ def draw_plane(h, rows):
     """A phase diagram over other axes than the damping: what members do, and the curves."""
     name = h.axis_of("regime", 1)
     (across, below), (up, beside) = (parameter_axis(h, h[n], n) for n in (name, rows))
-    fig, ax = figure(h, 5.4, 4.4)
+    fig, ax = figure(h, 3.9)
     kind, regime, other = h["regime"], h["regime"], h["other"]
     for bit in range(5):  # what comes last is the most telling
         kind = np.where((regime == 4) & (other & (1 << bit) != 0), 4 + bit, kind)
@@ -187,7 +188,7 @@ def draw_plane(h, rows):
                 ax.plot(parameter_axis(h, x, name)[0], y, style, color="black", lw=0.9)
             handles.append(Line2D([], [], ls=style, color="black", lw=0.9, label=text))
     ax.set(xlabel=below, ylabel=beside, xlim=around(across, 0.0), ylim=around(up, 0.0))
-    ax.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=3)
+    legend(ax, handles, loc="upper left", bbox_to_anchor=(1.02, 1))
     return fig
 
 
@@ -202,7 +203,7 @@ def draw_phase_diagram(h, path):
     name = h.axis_of("regime", 1)
     drive, label = parameter_axis(h, h[name], name)
     damping = h["damping"]
-    fig, axes = figure(h, 5.2, 7.0, 2, 1, sharex=True)
+    fig, axes = figure(h, 5.4, 2, 1, sharex=True)
     mesh = axes[0].pcolormesh(drive, damping, h["regime"], shading="nearest", rasterized=True,
                               cmap=ListedColormap(REGIMES[1]),
                               norm=BoundaryNorm(np.arange(-0.5, 5), 5))
@@ -215,6 +216,7 @@ def draw_phase_diagram(h, path):
         if name in ("drive_frequency", "drive_period") and h.options.boundary:
             add_bifurcations(ax, h)
         ax.set(ylabel=r"damping $\gamma$", xlim=around(drive, 0.0), ylim=around(damping, 0.0))
+        ax.yaxis.set_major_locator(plt.MaxNLocator(5))
     axes[1].set_xlabel(label)
     if h.options.boundary:
         handles = [Line2D([], [], color="black", lw=w, ls=s, label=t) for w, s, t in (
@@ -230,7 +232,8 @@ def draw_lyapunov_map(h, path):
     across, below = parameter_axis(h, h[columns], columns)
     up, beside = parameter_axis(h, h[rows], rows)
     exponent, period = h["lyapunov"], h["period"]
-    fig, axes = figure(h, 9.5, 4.2, 1, 2, sharex=True, sharey=True)
+    wide = h.options.size is not None and h.options.size[0] > WIDE - 1
+    fig, axes = figure(h, 5.6, *((1, 2) if wide else (2, 1)), sharex=True, sharey=True)
     most = np.nanpercentile(np.abs(exponent), 99)
     shown = axes[0].pcolormesh(across, up, exponent, cmap="RdBu_r", vmin=-most, vmax=most,
                                shading="nearest", rasterized=True)
@@ -248,8 +251,8 @@ def draw_lyapunov_map(h, path):
                                shading="nearest", rasterized=True)
     fig.colorbar(shown, ax=axes[1], ticks=range(count)).ax.set_yticklabels(names)
     for ax in axes:
-        ax.set_xlabel(below)
-    axes[0].set_ylabel(beside)
+        ax.set(xlabel=below, ylabel=beside)
+        ax.label_outer()
     return fig
 
 
@@ -259,21 +262,21 @@ def draw_atlas(h):
     slow, up, along = (h.axis_of(quantity, i) for i in range(3))
     across, below = parameter_axis(h, h[along], along)
     height, beside = parameter_axis(h, h[up], up)
-    symbol = parameter_axis(h, [], slow)[1].split()[-1].strip("$")
     planes = np.unique(np.linspace(0, len(h[slow]) - 1, MOST_PLANES).round().astype(int))
-    columns = min(len(planes), 3)
+    columns = min(len(planes), 2)
     rows = -(-len(planes) // columns)
-    fig, axes = figure(h, 3.1 * columns + 0.6, 2.5 * rows + 0.4, rows, columns, sharex=True,
-                       sharey=True, squeeze=False, layout="constrained")
-    most = np.nanmax(h[quantity])
+    fig, axes = figure(h, 1.5 * rows + 0.7, rows, columns, sharex=True, sharey=True,
+                       squeeze=False)
+    factor, amplitude = amplitude_axis(h, quantity, r"amplitude $\langle x_0\rangle$")
+    most = np.nanmax(factor * h[quantity])
     for ax, i in zip(axes.flat, planes):
-        shown = ax.pcolormesh(across, height, h[quantity][i], cmap="viridis", vmin=0, vmax=most,
+        shown = ax.pcolormesh(across, height, factor * h[quantity][i], cmap="viridis", vmin=0, vmax=most,
                               shading="nearest", rasterized=True)
         if "resonance_period" in h:
             at = 2 * np.pi / h["resonance_period"][i] if along == "drive_frequency" else (
                 h["resonance_period"][i])
             ax.plot(parameter_axis(h, at, along)[0], height, "w.-", lw=1, ms=4)
-        ax.set_title(f"${symbol} = {h[slow][i]:g}$", fontsize=9)
+        ax.set_title(parameter_text(h, h[slow][i], slow))
         ax.set(xlim=around(across, 0.0))
     for ax in axes.flat[len(planes):]:
         ax.axis("off")
@@ -282,7 +285,7 @@ def draw_atlas(h):
         axes[(len(planes) - 1 - k) // columns, k].set_xlabel(below)
     for row in axes:
         row[0].set_ylabel(beside)
-    fig.colorbar(shown, ax=axes, label=r"amplitude $\langle x_0\rangle$ (rad)", shrink=0.9)
+    fig.colorbar(shown, ax=axes, label=amplitude, shrink=0.9, location="top")
     return fig
 
 
@@ -296,8 +299,8 @@ def draw_surface(h):
     name = h.axis_of("mean_loop_area", 1)
     drive, label = parameter_axis(h, h[name], name)
     damping, area = h["damping"], h["mean_loop_area"]
-    fig = plt.figure(figsize=h.options.size or (5.4, 7.2))
-    grid = fig.add_gridspec(2, 1, height_ratios=(3, 2))
+    fig = plt.figure(figsize=page(h, WIDTH, 5.4))
+    grid = fig.add_gridspec(2, 1, height_ratios=(4, 3))
     top = fig.add_subplot(grid[0], projection="3d")
     thin = max(1, len(damping) // 90), max(1, len(drive) // 120)
     w, g = np.meshgrid(drive[:: thin[1]], damping[:: thin[0]])
@@ -305,13 +308,14 @@ def draw_surface(h):
                      linewidth=0, antialiased=False, rasterized=True)
     top.set(xlabel=label, ylabel=r"damping $\gamma$", zlabel="mean loop area")
     top.view_init(elev=32, azim=-58)
-    top.set_box_aspect((4, 4, 2.8), zoom=0.9)
-    top.tick_params(labelsize=7)
+    top.set_box_aspect((4, 4, 2.8), zoom=0.8)
+    top.tick_params(labelsize=plt.rcParams["legend.fontsize"], pad=0)
+    top.locator_params(nbins=5)
     below = fig.add_subplot(grid[1])
     chosen = np.unique(np.linspace(0, len(damping) - 1, 8).round().astype(int))
     for colour, i in zip(colours_of(chosen), chosen):
         below.plot(drive, area[i], color=colour, label=rf"$\gamma = {damping[i]:.4g}$")
     below.set(xlabel=label, ylabel="mean loop area", xlim=around(drive, 0.0))
     below.set_ylim(bottom=0)
-    below.legend(ncol=2)
+    legend(below)
     return fig

@@ -3,9 +3,10 @@
 
     python3 plots/plot.py FILE.h5 ... [-o FOLDER] [-f png|pdf|svg] [--size W,H] [--dpi N]
 
-Each file becomes one picture of the same name. A file NAME_inset.h5 beside NAME.h5 is drawn into
-it as an inset. A file that cannot be drawn is told on one line, and the others are drawn. Needs
-h5py and matplotlib (Debian: python3-h5py python3-matplotlib).
+Each file becomes one picture of the same name, a column of print wide, in a laboratory's units
+where its deck has them. A file NAME_inset.h5 beside NAME.h5 is drawn into it as an inset. A file
+that cannot be drawn is told on one line, and the others are drawn. Needs h5py and matplotlib
+(Debian: python3-h5py python3-matplotlib).
 """
 import argparse
 import os
@@ -57,8 +58,10 @@ def parse():
     parser.add_argument("-o", "--output", default=".", help="folder for the pictures")
     parser.add_argument("-f", "--format", default="png", choices=["png", "pdf", "svg"])
     parser.add_argument("--size", type=size, metavar="W,H",
-                        help="size in inches (a column of print: 3.4,2.6)")
-    parser.add_argument("--dpi", type=float, default=150, help="dots an inch (default: 150)")
+                        help="size in inches (by default a column of print, 3.4 wide)")
+    parser.add_argument("--dpi", type=float, default=300, help="dots an inch (default: 300)")
+    parser.add_argument("--no-title", dest="title", action="store_false",
+                        help="without the deck's title, as above a caption")
     parser.add_argument("--frequency", action="store_true",
                         help="drive frequencies where a run has drive periods")
     parser.add_argument("--unit", type=hertz, metavar="F0",
@@ -110,7 +113,9 @@ def draw(path, options):
         except KeyError as missing:
             raise ValueError(f"something is missing from it: {missing}") from None
         most = max(20, int(120 * figure.get_size_inches()[0] / plt.rcParams["font.size"]))
-        figure.suptitle(balanced(title(run), most), fontsize=plt.rcParams["font.size"])
+        if options.title:
+            figure.suptitle(balanced(title(run), most),
+                            fontsize=plt.rcParams["font.size"])
         return figure
 
 

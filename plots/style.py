@@ -24,6 +24,8 @@ plt.rcParams.update({
     "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,
     "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 7),
     "legend.fontsize": 7.5, "lines.linewidth": 1.2, "savefig.bbox": None,
+    "lines.solid_capstyle": "butt", "legend.handlelength": 1.6, "legend.borderpad": 0.3,
+    "xtick.direction": "in", "ytick.direction": "in", "axes.labelpad": 2.5,
     "axes.prop_cycle": plt.cycler(color=[SA, LA, "#009E73", "#CC79A7", "#56B4E9", "#E69F00"]),
 })
 
@@ -44,6 +46,39 @@ class Run:
         value = self.file.attrs.get(attribute, "")
         return value.decode() if isinstance(value, bytes) else str(value)
 
+    def si(self, name):
+        """What a variable is to be multiplied by to be in SI, and the unit; 1 and "" where the file
+        does not tell."""
+        attributes = self.file[name].attrs if name in self.file else {}
+        units = attributes.get("si_units", b"")
+        units = units.decode() if isinstance(units, bytes) else str(units)
+        return (float(attributes["si_factor"]), units) if units else (1.0, "")
+
+    def natural_frequency(self):
+        """The unit of frequencies in Hz: of the command line, or of the file; None: there is
+        none."""
+        if self.options.unit is not None:
+            return self.options.unit
+        if "natural_frequency_hz" in self.file:
+            return float(self["natural_frequency_hz"])
+        for name in self.file:
+            factor, units = self.si(name)
+            if units == "Hz" and name.endswith("frequency"):
+                return factor
+            if units == "s" and name == "drive_period":
+                return 1 / (2 * np.pi * factor)
+        return None
+
+    def scale(self, name):
+        """What a variable is multiplied by to be drawn, and the unit behind its label."""
+        factor, units = self.si(name)
+        label = re.sub(r"\^?(-?[0-9]+)", r"$^{\1}$", units)
+        if not re.match("(Hz|[msNVAKJW])(?![-^0-9])", units):
+            return factor, "" if units == "1" else label
+        most = np.max(np.abs(self[name]), initial=0, where=np.isfinite(self[name])) * factor
+        power, prefix = prefix_of(most) if most > 0 else (1.0, "")
+        return factor / power, prefix + label
+
     def settings(self):
         """Keys that were set on the command line."""
         value = self.file["provenance/settings"][()] if "provenance/settings" in self.file else b""
@@ -59,16 +94,28 @@ def strings(values):
     return [v.decode() if isinstance(v, bytes) else str(v) for v in np.atleast_1d(values)]
 
 
-NARROW = 4.5                            # inches; a column of print is less
-SIZES = {False: (9, 7.5), True: (7.5, 6.5)}  # of text and of legends, in points
+WIDTH, WIDE = 3.4, 7.0                  # inches: a column of print, and a page
+NARROW = 4.5
+SIZES = {False: (9, 7.5), True: (8, 7)}  # of text and of legends, in points
 
 
-def figure(run, width, height, rows=1, columns=1, **more):
-    """Axes of a default size in inches, or of the one that the command line asks for."""
+def page(run, width, height):
+    """The size of a picture, by which texts get theirs."""
     size = run.options.size or (width, height)
     text, small = SIZES[size[0] < NARROW]
-    plt.rcParams.update({"font.size": text, "axes.titlesize": text, "legend.fontsize": small})
-    return plt.subplots(rows, columns, figsize=size, **more)
+    plt.rcParams.update({"font.size": text, "axes.titlesize": small, "legend.fontsize": small})
+    return size
+
+
+def figure(run, height, rows=1, columns=1, width=WIDTH, **more):
+    """Axes of a column's width and some height in inches, or of the size that the command line asks
+    for."""
+    size = page(run, width, height)
+    fig, axes = plt.subplots(rows, columns, figsize=size, **more)
+    if size[0] < NARROW:
+        for ax in np.ravel(axes):
+            ax.xaxis.set_major_locator(plt.MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
+    return fig, axes
 
 
 def legend(ax, handles=None, under=None, **more):
@@ -91,19 +138,26 @@ def legend(ax, handles=None, under=None, **more):
     ax.legend(*zip(*once.values()), **more)
 
 
-PREFIXES = ((1e12, "T", "p"), (1e9, "G", "n"), (1e6, "M", "µ"), (1e3, "k", "m"), (1, "", ""))
+PREFIXES = {12: "T", 9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n", -12: "p", -15: "f"}
+
+
+def prefix_of(value):
+    """The power of ten that a value in SI is divided by for a label, with its prefix."""
+    ten = 3 * int(np.floor(np.log10(value) / 3 + 1e-9))
+    ten = min(max(ten, min(PREFIXES)), max(PREFIXES))
+    return 10.0 ** ten, PREFIXES[ten]
 
 
 def drive_axis(run, values, name):
     """Values of an axis of drive frequencies or periods in the quantity and unit asked for."""
-    unit, periods = run.options.unit, name == "drive_period" and not run.options.frequency
+    unit, periods = run.natural_frequency(), name == "drive_period" and not run.options.frequency
     values = np.asarray(values, dtype=float)
     omega = values if name == "drive_frequency" else 2 * np.pi / values
     if unit is None:
         return (values, r"drive period $\tau$") if periods else (omega, r"drive frequency $\omega$")
-    power, prefix, inverse = next(p for p in PREFIXES if unit >= p[0] or p[0] == 1)
+    power, prefix = prefix_of(1 / unit if periods else unit)
     if periods:
-        return 2 * np.pi / omega / unit * power, f"drive period ({inverse}s)"
+        return 2 * np.pi / omega / (2 * np.pi * unit) / power, f"drive period ({prefix}s)"
     return omega * unit / power, f"drive frequency ({prefix}Hz)"
 
 
@@ -117,6 +171,9 @@ def words(name):
     symbols = {"damping": r"damping $\gamma$", "drive_amplitude": "drive amplitude $F_0$",
                "torque": "torque $I$", "parametric_amplitude": "parametric amplitude $b$",
                "temperature": "temperature $T$"}
+    coefficient = re.fullmatch("a([1-9])", name)
+    if coefficient:
+        return f"coefficient $a_{coefficient[1]}$"
     return symbols.get(name, name.replace("_", " "))
 
 
@@ -124,7 +181,24 @@ def parameter_axis(run, values, name):
     """Values and label of an axis of any parameter."""
     if name in ("drive_frequency", "drive_period"):
         return drive_axis(run, values, name)
-    return np.asarray(values, dtype=float), words(name)
+    factor, unit = run.scale(name)
+    return np.asarray(values, dtype=float) * factor, words(name) + (f" ({unit})" if unit else "")
+
+
+def parameter_text(run, value, name):
+    """A parameter with one of its values, as legends have it."""
+    shown, label = parameter_axis(run, value, name)
+    symbol, _, unit = label.partition(" (")
+    symbol = symbol.split()[-1] if "$" in symbol else symbol
+    return f"{symbol} = {shown:.6g} {unit.rstrip(')')}".rstrip()
+
+
+def amplitude_axis(run, name, label):
+    """What amplitudes are multiplied by to be drawn, and the label of their axis: only a
+    pendulum's are angles."""
+    factor, unit = run.scale(name)
+    unit = unit or ("" if "a1" in run else "rad")
+    return factor, label + (f" ({unit})" if unit else "")
 
 
 def around(values, share=0.06):

@@ -44,7 +44,8 @@ class View:
                             norm=BoundaryNorm(np.arange(-0.5, 5), 5))
         add_bifurcations(self.map, self.run)
         self.map.set(xlabel=r"drive frequency $\omega$", ylabel=r"damping $\gamma$",
-                     title="click a point", xlim=(omega[0], omega[-1]),
+                     title="regimes",
+                     xlim=(omega[0], omega[-1]),
                      ylim=(damping[0], damping[-1]))
 
     def clicked(self, event):
@@ -158,6 +159,7 @@ def main():
     if options.output:
         view.figure.savefig(options.output, dpi=options.dpi)
     else:
+        view.map.set_title("regimes: click a point")
         plt.show()
     return 0
 

@@ -56,13 +56,15 @@ deck map lyapunov_map '&pendulum damping = 0.5 / &precision tolerance = 1e-4 /
 deck rates switching "$p, damping = 0.12, drive_period = 7.7 / &sweep temperature = 0.02, 0.03 /
   &noise trajectories = 200, periods = 20 /"
 deck branches branches "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
+deck hertz branches "&units natural_frequency = 1.2e6 / $p / &sweep damping = 0.2, 0.3,
+  drive_frequency_range = 0.7, 0.9, 5 / $e"
 deck ramp hysteresis "$p, damping = 0.15, temperature = 1e-3 / &sweep
   drive_frequency_range = 0.83, 0.87, 9 / &hysteresis start = 'sa', rate = 5e-4 /
   &noise trajectories = 9 /"
 
 plot() { "$python" -W error::UserWarning "$top/plots/plot.py" "$@" >out 2>err; }
 plot ./*.h5 -o pictures || { cat err; exit 1; }
-plot ./*.h5 -o narrow -f svg --size 3.4,3 --unit 1.2MHz --frequency --no-boundary --ensemble --surface ||
+plot ./*.h5 -o narrow -f svg --size 3.4,3 --unit 1.2MHz --frequency --no-boundary --ensemble --surface --no-title ||
   { cat err; exit 1; }
 [ "$(wc -l <out)" -eq "$(ls ./*.h5 | wc -l)" ] || { echo "not all were drawn"; exit 1; }
 
@@ -83,4 +85,5 @@ if "$python" -c 'import cffi' 2>/dev/null; then
   [ "$(wc -l <err)" -eq 1 ] || { cat err; exit 1; }
 fi
 
+"$python" "$top/tests/plots_axes.py" || exit 1
 "$python" "$top/tests/plots_colours.py"

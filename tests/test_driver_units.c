@@ -4,6 +4,8 @@
  */
 #include "driver_run.h"
 
+#include "kinds_fixture.h"
+
 #include <math.h>
 
 #include <pendres/pendulum.h>
@@ -123,6 +125,71 @@ static void test_marks(void **state)
   check_code(RUN("-q", "orbit.nml", "units.natural_frequency=-1"), 2);
 }
 
+/* Numbers without a unit: the ends of their names, or with a star how they begin. */
+static const char *const pure[] = {
+  "drift", "escape_rate_bound", "phase_lag", "watched_periods", "basin_entropy", "fraction",
+  "curvature", "multiplier", "multiplier_re", "multiplier_im", "parametric_amplitude", "period",
+  "ratio", "level", "dispersion_*", "distance", "drive_phase", "escapes", "events_*", "fit_chi2_*",
+  "share", "ramp_time", "log_prefactor_*", "occupation_*", "implied_occupation_*",
+  "prefactor_exponent_*", "rotation", "settling_periods", "uncertainty_exponent", "well", "winding",
+  "lyapunov_dimension", "correlation_dimension", "correlation_sum",
+};
+
+static int is_pure(const char *name)
+{
+  const size_t n = strlen(name);
+  for (size_t i = 0; i < sizeof pure / sizeof *pure; i++) {
+    const size_t m = strlen(pure[i]);
+    if (pure[i][m - 1] == '*' && strncmp(name, pure[i], m - 1) == 0) return 1;
+    if (n < m || strcmp(name + n - m, pure[i]) != 0) continue;
+    if (n == m || name[n - m - 1] == '_') return 1;
+  }
+  return 0;
+}
+
+/* Whoever adds a result tells its quantity (drivers/deck/quantity.c), or that it is a number. */
+static int check_all_marked(const char *file)
+{
+  pendres_store *store = NULL;
+  pendres_store_type type;
+  char *name = NULL;
+  int wrong = 0;
+  check_ok(pendres_store_open(file, &store));
+  for (uint64_t i = 0; pendres_store_member(store, "", i, &type, &name) == PENDRES_OK; i++) {
+    char result[200];
+    double value = NAN;
+    const size_t n = strlen(name);
+    const int error = n > 6 && strcmp(name + n - 6, "_error") == 0;
+    snprintf(result, sizeof result, "%.*s", (int)(error ? n - 6 : n), name);
+    const int marked = pendres_store_read_attribute_double(store, "", name, "si_factor", &value) ==
+                       PENDRES_OK;
+    if (type == PENDRES_STORE_DOUBLE && !marked && !is_pure(result)) {
+      print_error("%s of %s has no unit\n", name, file);
+      wrong++;
+    }
+    free(name);
+  }
+  pendres_store_free(store);
+  return wrong;
+}
+
+static void test_all_marked(void **state)
+{
+  const char *decks[MOST_ARGUMENTS + 1];
+  int wrong = 0;
+  (void)state;
+  add_kinds(decks, 0);
+  for (size_t i = 0; decks[i] != NULL; i++) {
+    const int code = RUN("-q", "-o", "kind.h5", decks[i], "units.natural_frequency=2",
+                         "units.mass=3", "units.length=5", "sweep.resolution=1");
+    if (strstr(decks[i], "hard.nml") != NULL) check_code(code, 2); /* it has no units */
+    else assert_true(code == DONE || code == 3);
+    if (code != 2) wrong += check_all_marked("kind.h5");
+    (void)remove("kind.h5");
+  }
+  assert_int_equal(wrong, 0);
+}
+
 static void check_references(const char *setting, const char *words, const char *missing)
 {
   pendres_store *store = NULL;
@@ -161,7 +228,8 @@ static void test_references(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    TEST(test_jumps), TEST(test_cusp), TEST(test_marks), TEST(test_references),
+    TEST(test_jumps), TEST(test_cusp), TEST(test_marks), TEST(test_all_marked),
+    TEST(test_references),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

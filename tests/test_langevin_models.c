@@ -252,6 +252,35 @@ static void neighbours_of_other_models_do_not_matter(void **state)
   pendres_context_free(ctx);
 }
 
+/* A ring is a spring far out. Where its parametric drive makes oscillations there grow, in tongues
+   that begin far below b = 1 as well as above, noise has no steady state, however stable the states
+   within are; and has one where they decay. Oscillations that begin at 200 tell. */
+static void rings_are_lost_in_tongues(void **state)
+{
+  enum { PERIODS = 10 };
+  static const double far = 200.0;
+  int lost = 0, kept = 0;
+  pendres_context *ctx = make(0, 0, 8);
+  (void)state;
+  for (double b = 0.25; b < 2.0; b += 0.25)
+    for (double omega = 0.5; omega < 2.1; omega += 0.5) {
+      const pendres_pendulum p = {
+        .damping = 0.1, .drive_amplitude = 0.1, .drive_frequency = omega,
+        .parametric_amplitude = b, .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.5}};
+      double x = far, v = 0.0;
+      check_ok(pendres_strobe_advance(ctx, 1, &p, &x, &v, PERIODS, NULL));
+      const int refused = pendres_noise_refuses(&p) != NULL, strong = b >= 1.0;
+      if (hypot(x, v) > 3.0 * far) assert_true(refused);
+      else if (hypot(x, v) < 0.3 * far) assert_false(refused);
+      else continue;
+      lost |= refused << strong;
+      kept |= !refused << strong;
+    }
+  assert_int_equal(lost, 3);
+  assert_int_equal(kept, 3);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -261,6 +290,7 @@ int main(void)
     cmocka_unit_test(torques_work_against_friction),
     cmocka_unit_test(overdamped_junctions_drift_as_stratonovich_says),
     cmocka_unit_test(neighbours_of_other_models_do_not_matter),
+    cmocka_unit_test(rings_are_lost_in_tongues),
   };
   return cmocka_run_group_tests_name("langevin_models", tests, NULL, NULL);
 }

@@ -59,6 +59,7 @@ static const struct {
   { "a5", COEFFICIENT },
   { "parameter", SWEPT }, { "cascade_limit", SWEPT }, { "jump_mean", SWEPT },
   { "jump_delay", SWEPT }, { "jump_deviation", SWEPT },
+  { "step_lower", SWEPT }, { "step_upper", SWEPT }, { "step_width", SWEPT },
 };
 
 static int fits(const char *name, size_t n, const char *row)

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PRINTED = 16 };
+enum { MOST_PRINTED = 20 };
 
 static void mark(scene_run *run, const char *group, const char *name, const deck_si *si)
 {

@@ -32,17 +32,40 @@ uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor)
   return (hash >> 1) & ~(uint64_t)(IDS - 1);
 }
 
+/* The spring that a force comes down to far out, where a sine does not count; NaN: none. */
+static double spring_of(const pendres_pendulum *p)
+{
+  double half, all, slope;
+  if (pendres_model_of(p->force)->period > 0.0) return NAN;
+  pendres_model_force(p, 0.5 * noise_far_out, &half, &slope);
+  pendres_model_force(p, noise_far_out, &all, &slope);
+  return fabs(all - 2.0 * half) <= noise_spring * fabs(all) ? all / noise_far_out : NAN;
+}
+
+/* Whether a parametric drive makes the oscillations of a spring grow. */
+static int grows(const pendres_pendulum *p, double spring)
+{
+  const pendres_pendulum far = {.damping = p->damping, .drive_frequency = p->drive_frequency,
+                                .parametric_amplitude = p->parametric_amplitude,
+                                .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {spring}};
+  pendres_langevin_linear theory;
+  return pendres_langevin_linear_find(&far, 0.0, 0.0, 1, &theory) == PENDRES_NOT_FOUND;
+}
+
 const char *pendres_noise_refuses(const pendres_pendulum *p)
 {
   static const char *const carried =
     "noise carries a pendulum of this force to infinity: its highest power must be odd, with a "
     "positive coefficient that the parametric drive does not turn over";
-  int highest = PENDRES_FORCE_COEFFICIENTS;
   if (pendres_pendulum_leaves(p)) return carried;
-  if (p->force != PENDRES_FORCE_POLYNOMIAL || fabs(p->parametric_amplitude) < 1.0) return NULL;
-  while (highest > 0 && p->force_coefficients[highest - 1] == 0.0) highest--;
-  /* A linear force may be driven parametrically as strongly as its orbit remains stable. */
-  return highest == 1 && p->force_coefficients[0] > 0.0 ? NULL : carried;
+  if (p->parametric_amplitude == 0.0) return NULL;
+  const double spring = spring_of(p);
+  if (isnan(spring))
+    return p->force == PENDRES_FORCE_POLYNOMIAL && fabs(p->parametric_amplitude) >= 1.0 ? carried
+                                                                                       : NULL;
+  return grows(p, spring) ? "noise carries a pendulum of this force to infinity: far out it is a "
+                            "spring, whose oscillations this parametric drive makes grow"
+                          : NULL;
 }
 
 long pendres_noise_settle(const pendres_orbit *orbit)

@@ -17,7 +17,7 @@
 uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor);
 
 /* NULL, or why noise has no steady state around the attractors of a pendulum: beyond some position
-   its force leads to infinity, and noise eventually drives it there. */
+   its force leads to infinity, or grow oscillations, and noise eventually drives it there. */
 const char *pendres_noise_refuses(const pendres_pendulum *p);
 
 /* Drive periods until the influence of the starting point on a cloud around the orbit has fallen to

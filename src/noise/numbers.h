@@ -40,6 +40,10 @@ static const double noise_settled = 1e-5;
    vanish, of which the time is not known. */
 static const double noise_longest_settling = 1e5, noise_unknown_settling = 1e4;
 
+/* So far out a force is looked at, in its units of length, and is a spring if it is so to this
+   share: a sine is less, and a higher power more. */
+static const double noise_far_out = 1e9, noise_spring = 1e-6;
+
 /* ---- statistics ---- */
 
 /* Of confidence intervals, unless told. */
