@@ -229,8 +229,21 @@ static pendres_status mean_life(const search *w, double value, double *life)
 
 /* ---- the search ---- */
 
+/* Whether some pendulums have come to one and the same motion: to an orbit, in a window. In chaos
+   they stay apart. */
+static int in_window(const search *w)
+{
+  const double y = crisis_same * w->where.across, v = crisis_same * w->where.up;
+  const sample *s = &w->points;
+  for (int i = CRISIS_PERIODS - 1; i < LIVES * CRISIS_PERIODS; i += CRISIS_PERIODS)
+    for (int k = CRISIS_PERIODS - 1; k < i; k += CRISIS_PERIODS)
+      if (fabs(s->y[i] - s->y[k]) < y && fabs(s->w[i] - s->w[k]) < v) return 1;
+  return 0;
+}
+
 /* Whether chaos leaves the region of the smaller one at a value. Where it does not, that is
-   extended by what it has visited: what grows gradually is followed. */
+   extended by what it has visited: what grows gradually is followed. From a window nothing is taken
+   over: as chaos, pendulums that have become alike would be one, whose life tells nothing. */
 static pendres_status leaves(search *w, double value, int *left)
 {
   const pendres_pendulum p = pendres_parameter_with(&w->smaller->pendulum, w->parameter, value);
@@ -239,6 +252,7 @@ static pendres_status leaves(search *w, double value, int *left)
   *left = status != PENDRES_OK || share_outside(&w->where, &w->points) > 0.0;
   if (*left) return status;
   w->small = value;
+  if (in_window(w)) return status;
   w->in = s;
   add_all(&w->where, &w->points);
   return status;

@@ -104,6 +104,10 @@ enum {
 /* Chaos that is larger is outside the region of the smaller for this share of its time. */
 static const double crisis_least_share = 0.01;
 
+/* Pendulums closer than this share of a cell's side are on one orbit: of 32 in chaos, whose
+   dimension is above 1, two are so close in 5 of 100,000 samples at most. */
+static const double crisis_same = 1e-6;
+
 /* Lives become longer towards a crisis, as a power of the distance, mostly of 1/2 to 1. Each of two
    lives, the means of 32, has a standard error of 18 %, and the power one of 0.12 to 0.18. For
    the error it is taken to be 1 unless it is more: with a higher one lives are long for further. */
