@@ -228,6 +228,7 @@ def test_choices():
     assert list(same.force) == [pendres.Force.POLYNOMIAL] * 2
     assert list(pendres.pendulum(force=same.force).force) == list(same.force)
     raised(TypeError, pendres.pendulum, force=[1, 0, 1], force_coefficients=[1])
+    assert "each row" in raised(TypeError, pendres.pendulum, force=[[1], [1, 2]])
     several = pendres.pendulum(force="polynomial", drive_frequency=1, damping=[0.1, 0.2],
                                force_coefficients=[[1, 0, 0.5], [1, 0, 0.25]])
     assert several.shape == (2,) and list(several.force_coefficients[:, 2]) == [0.5, 0.25]

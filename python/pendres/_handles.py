@@ -108,8 +108,13 @@ def force_and_coefficients(fields):
     """Fields, or keys of a deck, in which force=[a1, a2, ...] is the polynomial with these; in a
     deck some may have units. An array of the field's own type holds kinds of forces."""
     force, kinds = fields.get("force"), enumerations["pendres_force"]
-    given = np.asarray(force)
-    if not given.ndim or given.dtype.kind not in "iufU" or given.dtype == PENDULUM["force"] or any(
+    try:
+        given = np.asarray(force)
+    except ValueError:  # rows of several lengths
+        raise TypeError(f"force: as many coefficients in each row are wanted, not {force!r:.40}"
+                        ) from None
+    several = given.ndim and given.size and given.dtype.kind in "iufU"
+    if not several or given.dtype == PENDULUM["force"] or any(
             isinstance(one, kinds) for one in np.asarray(force, dtype=object).flat):
         return dict(fields)
     if fields.get("force_coefficients") is not None:

@@ -212,7 +212,7 @@ def _as_keywords(complaints, keys):
             lines.append(words if not shown or f"'{key}'" in words else f"{key}: {words}")
         elif shown:
             lines.append(line)
-    if "in &sweep" in complaints:
+    if "&sweep" in complaints:
         lines.append("(&sweep has what is given as a list, or as NAME_range=(first, last, count))")
     return "\n".join(lines)
 
