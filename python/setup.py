@@ -12,6 +12,7 @@ import subprocess
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
+from setuptools.errors import ExecError
 
 try:
     from setuptools.command.bdist_wheel import bdist_wheel
@@ -21,6 +22,10 @@ except ImportError:  # before setuptools 70
 HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCES = os.path.join(HERE, "library")
 WHOLE = os.path.exists(SOURCES)
+NEEDS = """the library was not built ({why}). Its sources need a C compiler, GNU make, pkg-config,
+SUNDIALS 6.4 or later, HDF5, GSL, Random123 and zlib; a wheel needs none of them. Debian and Ubuntu:
+    apt-get install gcc libc6-dev libgsl-dev libhdf5-dev librandom123-dev libsundials-dev make \\
+      pkg-config zlib1g-dev"""
 
 
 def header_text():
@@ -48,8 +53,11 @@ class BuildPackage(build_py):
             out.write(header_text())
         if WHOLE:
             jobs = f"-j{os.cpu_count() or 1}"
-            subprocess.check_call(["make", "-C", SOURCES, "BUILD=build", jobs],
-                                  env={"CFLAGS": "-O3", **os.environ})
+            try:
+                subprocess.check_call(["make", "-C", SOURCES, "BUILD=build", jobs],
+                                      env={"CFLAGS": "-O3", **os.environ})
+            except (OSError, subprocess.CalledProcessError) as why:
+                raise ExecError(NEEDS.format(why=why)) from None
             library, = glob.glob(os.path.join(SOURCES, "build", "libpendres.so.*.*.*"))
             shutil.copy(library, os.path.join(package, "libpendres.so"))
 

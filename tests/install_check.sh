@@ -208,6 +208,24 @@ assert pendres.free_frequency(0.0) == 1.0') || exit 1
   break
 done
 
+# What pip builds from sources says what they need where that is missing, as a make that fails does;
+# setuptools announces of nothing that it will refuse it.
+mkdir -p source/library source/licences
+cp -r "$top"/python/*.* "$top/python/pendres" source
+cp -r "$top/include" source/library
+cp "$top/LICENSE" source/licences/LICENSE.pendres
+echo 'all: ; @false' >source/library/Makefile
+for python in "${PYTHON:-python3}" /usr/bin/python3; do
+  (cd source && "$python" -c 'import setuptools.errors, wheel' 2>/dev/null) || continue
+  (cd source && "$python" -B setup.py -q build) >log 2>&1 && fail "built by a make that fails"
+  grep -q '^error: the library was not built' log && grep -q 'apt-get install gcc' log &&
+    ! grep -qi 'setuptoolsdeprecationwarning' log || {
+    cat log
+    fail "setup.py does not say what the sources need, or asks for what setuptools will refuse"
+  }
+  break
+done
+
 if [ -x "$prefix/bin/resonance" ]; then
   "$prefix/bin/resonance" --version >"$scratch/log" 2>&1 || fail "resonance --version failed"
   grep -qF "$version" "$scratch/log" || fail "resonance --version does not say $version"
