@@ -149,7 +149,7 @@ static void junction(void **state)
   deck_free(&d);
   /* A ring: a1 = hbar / (2 e L I_c). */
   d = read_twice("&scene kind='orbit' /\n&orbit x=0 /\n&units critical_current='1 uA' /\n"
-                 "&pendulum force='squid' force_coefficients='100 pH' damping=0.1\n"
+                 "&pendulum force_coefficients='100 pH' force='squid' damping=0.1\n"
                  " drive_frequency=1 drive_amplitude='0.1 uA' /\n");
   check_relative(d.pendulum.force_coefficients[0], hbar / (2 * charge) / (100e-12 * 1e-6),
                  rounding);
@@ -197,9 +197,14 @@ static const bad_deck bad[] = {
   { ORBIT "0.1 drive_frequency='1 khz' /\n&units natural_frequency=1 /",
     { "3:59 'khz' is no unit (did you mean 'kHz'?)" } },
   { ORBIT "0.1 drive_frequency='1.2 V' /\n&units natural_frequency=1 /",
-    { "3:59 'drive_frequency' is in Hz here: 'V' does not fit" } },
+    { "3:59 'drive_frequency' is in Hz or rad/s here: 'V' does not fit" } },
   { ORBIT "0.1 drive_frequency='1.2 1/s' /\n&units natural_frequency=1 /",
-    { "3:59 is in Hz here" } },
+    { "3:59 is in Hz or rad/s here" } },
+  { ORBIT "0.1 drive_period=8 force_coefficients='2 N/m' /",
+    { "3:77 'force_coefficients' takes numbers without a unit here" } },
+  { ORBIT "0.1 drive_period=8 /\n&units f0=1 stiffness=3 /",
+    { "4:8 did you mean 'natural_frequency'?", "4:13 did you mean 'force_coefficients' in "
+      "&pendulum?" } },
   { ORBIT "0.1 drive_period='1 s^' /\n&units natural_frequency=1 /", { "3:56 's^' is no unit" } },
   { ORBIT "0.1 drive_period='1 s99' /\n&units natural_frequency=1 /", { "3:56 is no unit" } },
   { ORBIT "0.1 drive_period='1' /", { "3:56 'drive_period' wants a number" } },

@@ -249,7 +249,7 @@ static pendres_status unknown_word(const char *word, int only_kinds, char *why, 
   for (int k = 0; k < DECK_KIND_COUNT; k++) deck_suggest(&s, deck_kind_name((deck_kind)k));
   for (size_t i = 0; i < deck_table_size && !only_kinds; i++)
     if (deck_table[i].scenes != 0) deck_suggest(&s, deck_table[i].name);
-  if (s.best == NULL && !only_kinds) s.best = deck_synonym(word);
+  if (s.best == NULL && !only_kinds) s.best = deck_synonym(word, 0);
   snprintf(why, size, "'%.60s' is no kind of scene%s%s; --list names the kinds", word,
            only_kinds ? "" : ", group or key", deck_suggestion_text(&s, hint, sizeof hint));
   return PENDRES_INVALID_ARGUMENT;

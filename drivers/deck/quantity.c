@@ -126,12 +126,12 @@ static deck_si si(double factor, const char *units, const char *more)
   return out;
 }
 
-/* Of coefficient k of a polynomial; that of a ring is a number. */
+/* Of coefficient k of a polynomial; those of other forces are numbers. */
 static deck_si si_of_coefficient(const deck *d, int k)
 {
   const scales s = scales_of(d, 0);
   char per[16];
-  if (pendres_model_of(d->pendulum.force)->angle) return si(NAN, "", "");
+  if (d->pendulum.force != PENDRES_FORCE_POLYNOMIAL) return si(NAN, "", "");
   double factor = s.force;
   for (int i = 0; i < k; i++) factor /= s.position;
   snprintf(per, sizeof per, "m-%d", k);
@@ -311,6 +311,12 @@ static int refuse_unit(deck_builder *b, const namelist_value *v, const char *nam
   return 0;
 }
 
+static int refuse_any(deck_builder *b, const namelist_value *v, const char *name)
+{
+  namelist_error_at(b->nl, v->at, b->errors, "'%s' takes numbers without a unit here", name);
+  return 0;
+}
+
 /* What &units must have for it. */
 static int refuse_scale(deck_builder *b, const namelist_value *v, const char *name,
                         const char *text)
@@ -368,10 +374,7 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
   if (!parse_unit(b, v, name, p.unit, &from)) return 0;
   const deck_si seen = si_of_name(b->d, key->name, q, 1), plain = si_of_name(b->d, key->name, q, 0);
   const deck_si *in = &seen;
-  if (seen.units[0] == '\0') {
-    namelist_error_at(b->nl, v->at, b->errors, "'%s' takes numbers without a unit", name);
-    return 0;
-  }
+  if (seen.units[0] == '\0') return refuse_any(b, v, name);
   if (!si_parse(seen.units, &to, bad)) return 0;
   if (!si_fits(&from, &to)) {
     in = &plain;
@@ -380,7 +383,7 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
   /* The force of an angle is a torque or a current, as the scales tell. */
   const int open = q == FORCE && strcmp(in->units, "N m") == 0 && isnan(in->factor);
   if ((!si_fits(&from, &to) && !open) || (q == FREQUENCY && from.power[SI_RAD] == 0))
-    return refuse_unit(b, v, name, seen.units, p.unit);
+    return refuse_unit(b, v, name, q == FREQUENCY ? "Hz or rad/s" : seen.units, p.unit);
   if (isnan(in->factor)) return refuse_scale(b, v, name, p.unit);
   *out = si_convert(*out, &from, &to) / in->factor;
   return 1;
@@ -392,9 +395,10 @@ int deck_coefficient_read(deck_builder *b, const deck_key *key, const namelist_v
   si_unit from, to;
   char bad[SI_SYMBOL], units[16];
   double x = 0.0;
-  const int ring = strcmp(b->d->force, "squid") == 0;
+  const int ring = b->d->pendulum.force == PENDRES_FORCE_SQUID;
   if (!take_apart(b->nl, v, &p) || !read_number(b, v, key->name, &p, &x)) return 0;
   if (!parse_unit(b, v, key->name, p.unit, &from)) return 0;
+  if (!ring && b->d->pendulum.force != PENDRES_FORCE_POLYNOMIAL) return refuse_any(b, v, key->name);
   snprintf(units, sizeof units, "N m-%d", k);
   if (!si_parse(ring ? "H" : units, &to, bad) || !si_fits(&from, &to)) {
     snprintf(bad, sizeof bad, "a%d", k);

@@ -37,17 +37,18 @@ static int came_before(const deck_builder *b, const namelist_group *g, size_t i)
   return 0;
 }
 
-/* The order in which keys are read, wherever they stand: all depends on the kind of scene, and
-   numbers with units on the scales. */
-enum { STAGE_SCENE, STAGE_SCALES, STAGE_REST, STAGES };
+/* The order in which keys are read, wherever they stand: all depends on the kind of scene, scales
+   on the force, and numbers with units on the scales. */
+enum { STAGE_SCENE, STAGE_FORCE, STAGE_SCALES, STAGE_REST, STAGES };
 
 /* The stage of a key; that of a group is that of a key which is none. */
 static int stage_of(const char *group, const char *name)
 {
-  const int force = strcmp(name, "force") == 0 || strcmp(name, "force_coefficients") == 0;
   if (strcmp(group, "scene") == 0) return STAGE_SCENE;
-  if (strcmp(group, "units") == 0 || (strcmp(group, "pendulum") == 0 && force)) return STAGE_SCALES;
-  return STAGE_REST;
+  if (strcmp(group, "units") == 0) return STAGE_SCALES;
+  if (strcmp(group, "pendulum") != 0) return STAGE_REST;
+  if (strcmp(name, "force") == 0) return STAGE_FORCE;
+  return strcmp(name, "force_coefficients") == 0 ? STAGE_SCALES : STAGE_REST;
 }
 
 /* The keys of a group of the deck, or the one of a setting, that are read at this stage. */
@@ -101,6 +102,13 @@ static void check_kind(deck_builder *b, int found)
     namelist_error_at(nl, b->kind_at, b->errors, "&scene needs a 'kind'");
 }
 
+static void find_force(deck *d)
+{
+  for (int f = 0; f < PENDRES_FORCE_COUNT; f++)
+    if (strcmp(d->force, pendres_model_of((pendres_force)f)->name) == 0)
+      d->pendulum.force = (pendres_force)f;
+}
+
 static void read_groups(deck_builder *b)
 {
   const char *name[NAMELIST_MAX_GROUPS] = { NULL };
@@ -120,6 +128,7 @@ static void read_groups(deck_builder *b)
     read_settings(b, stage);
     if (stage == STAGE_SCENE) check_kind(b, found);
     if (stage == STAGE_SCENE && b->scene != 0) deck_key_defaults(b);
+    if (stage == STAGE_FORCE) find_force(b->d);
     if (stage == STAGE_SCALES && b->scene != 0) deck_scales_find(b);
   }
 }

@@ -195,9 +195,6 @@ void deck_scales_find(deck_builder *b)
   deck *d = b->d;
   const size_t errors = b->errors->count;
   b->no_scales = is_broken(b);
-  for (int f = 0; f < PENDRES_FORCE_COUNT; f++)
-    if (strcmp(d->force, pendres_model_of((pendres_force)f)->name) == 0)
-      d->pendulum.force = (pendres_force)f;
   if (b->no_scales) return;
   const int angle = pendres_model_of(d->pendulum.force)->angle;
   const int junction = angle && told(b, "critical_current");

@@ -53,7 +53,7 @@ const char *deck_suggestion_text(const deck_suggestion *s, char *buffer, size_t 
   return buffer;
 }
 
-const char *deck_synonym(const char *word)
+const char *deck_synonym(const char *word, size_t number)
 {
   static const char *const pair[][2] = {
     { "gamma", "damping" },          { "friction", "damping" },
@@ -69,8 +69,14 @@ const char *deck_synonym(const char *word)
     { "steps", "steps_per_period" }, { "file", "output" },
     { "name", "title" },             { "scene", "kind" },
     { "methods", "method" },         { "tolerances", "tolerance" },
+    { "f0", "natural_frequency" },   { "plasma_frequency", "natural_frequency" },
+    { "stiffness", "force_coefficients" },
+    { "k", "force_coefficients" },   { "k3", "force_coefficients" },
+    { "q", "damping" },              { "quality_factor", "damping" },
+    { "current", "torque" },         { "ic", "critical_current" },
+    { "i_c", "critical_current" },   { "responsivity", "volts_per_length" },
   };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++)
-    if (strcmp(word, pair[i][0]) == 0) return pair[i][1];
+    if (strcmp(word, pair[i][0]) == 0 && number-- == 0) return pair[i][1];
   return NULL;
 }

@@ -197,7 +197,8 @@ typedef struct deck_suggestion {
 void deck_suggest(deck_suggestion *s, const char *candidate);
 /* " (did you mean 'BEST'?)" or "", into a buffer. */
 const char *deck_suggestion_text(const deck_suggestion *s, char *buffer, size_t size);
-/* Names from the literature for what decks call otherwise (gamma, tau); NULL if it is none. */
-const char *deck_synonym(const char *word);
+/* Names from the literature for what decks call otherwise (gamma, tau), from number 0 on; NULL if
+   there are no more. */
+const char *deck_synonym(const char *word, size_t number);
 
 #endif

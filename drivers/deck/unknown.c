@@ -78,25 +78,31 @@ static int takes(const deck_builder *b, const char *group, const deck_key *key)
 static size_t find_near(const deck_builder *b, const char *word, const char *group, char *hint,
                         size_t size)
 {
-  const char *synonym = deck_synonym(word);
+  const char *synonym;
   char names[DECK_MAX_KEYS][2 * DECK_NAME];
   deck_suggestion s = { .word = word };
   int range = 0;
   for (size_t i = 0; i < deck_table_size; i++)
     if (takes(b, group, &deck_table[i])) offer(&s, &deck_table[i], names, i);
-  if (synonym != NULL && deck_table_find(group, synonym, b->scene, &range) < deck_table_size)
-    s.best = synonym;
+  for (size_t k = 0; (synonym = deck_synonym(word, k)) != NULL; k++)
+    if (deck_table_find(group, synonym, b->scene, &range) < deck_table_size) s.best = synonym;
   deck_suggestion_text(&s, hint, size);
   return s.best != NULL ? deck_table_find(group, s.best, b->scene, &range) : deck_table_size;
 }
 
-/* " (it belongs in &noise)" if another group takes the key; its row. */
+/* " (it belongs in &noise)" if another group takes the key, or one of that meaning; its row. */
 static size_t find_elsewhere(const deck_builder *b, const char *name, char *hint, size_t size)
 {
+  const char *synonym = deck_synonym(name, 0);
   int range = 0;
   for (size_t i = 0; i < deck_table_size; i++) {
     if (deck_table_find(deck_table[i].group, name, b->scene, &range) != i) continue;
     snprintf(hint, size, " (it belongs in &%s)", deck_table[i].group);
+    return i;
+  }
+  for (size_t i = 0; i < deck_table_size && synonym != NULL; i++) {
+    if (deck_table_find(deck_table[i].group, synonym, b->scene, &range) != i) continue;
+    snprintf(hint, size, " (did you mean '%s' in &%s?)", synonym, deck_table[i].group);
     return i;
   }
   return deck_table_size;
