@@ -2,6 +2,7 @@
 """Check the Python package: python_check.py SCRATCH. Run by python_check.sh."""
 import glob
 import inspect
+import io
 import os
 import re
 import signal
@@ -478,7 +479,7 @@ def test_scenes():
     assert not os.path.exists(os.path.dirname(where))
     os.chdir(SCRATCH)
     try:
-        data = pendres.free_oscillation(amplitude=0.5, output="kept.h5")
+        data = pendres.free_oscillation(amplitude=0.5, output="kept.h5", resume=True)
         assert data.identical(pendres.open("kept.h5")) and not os.path.exists("resonance.h5")
     finally:
         os.chdir(home)
@@ -516,6 +517,26 @@ esac""")
         assert "no program" in raised(OSError, pendres.run, "&scene /")
         assert "no program" in raised(AttributeError, getattr, pendres, "lyapunov")
         pendres.basins(pendres.pendulum(damping=0.3, drive_frequency=1), [0, 1], [0, 1])
+        # How far a run is, on a terminal; and its ends.
+        for end, kind, words in (("exit 1", pendres.FileError, "no room\n  a.csv:2:1: error: x"),
+                                 ("exit 75", pendres.Interrupted, "was stopped"),
+                                 ("kill -9 $$", pendres.Interrupted, "signal 9"), ("", None, "")):
+            os.environ["PENDRES_PROGRAM"] = imagined("ending" + end[:6].replace(" ", ""), f"""
+case $* in *--output*) printf 'resonance: %s\\n' '4 % of 9 parts after 2.0 s' >&2
+  [ '{end}' = '' ] || printf 'resonance: %s\\n' 'error: no room' '  a.csv:2:1: error: x' >&2
+  {end} ;; esac
+exec "$real" "$@\"""")
+            sys.stderr, shown = io.StringIO(), sys.stderr
+            sys.stderr.isatty = lambda: True
+            try:
+                if kind:
+                    assert words in raised(kind, pendres.free_oscillation, amplitude=0.5), end
+                else:
+                    pendres.free_oscillation(amplitude=0.5)
+                told = sys.stderr.getvalue()
+            finally:
+                sys.stderr = shown
+            assert told == "\r\033[K4 % of 9 parts after 2.0 s\r\033[K", told
     finally:
         os.environ["PENDRES_PROGRAM"] = known
     assert "no scene" in raised(AttributeError, getattr, pendres, "lyapunov")
@@ -588,12 +609,10 @@ def test_tutorial():
     program's, and pictures are drawn where there is matplotlib."""
     import contextlib
     import importlib.util
-    import io
     with open("docs/python.md", encoding="utf-8") as page:
         text = page.read()
     program = os.environ.get("RESONANCE")
-    has = {name: importlib.util.find_spec(name) is not None for name in
-           ("matplotlib", "xarray", "h5netcdf")}
+    drawn = importlib.util.find_spec("matplotlib") is not None
     os.symlink(os.path.abspath("input"), os.path.join(SCRATCH, "input"))
     names, done, printed, home = {}, 0, io.StringIO(), os.getcwd()
     os.chdir(SCRATCH)
@@ -603,14 +622,14 @@ def test_tutorial():
             if block[1] and program:
                 subprocess.run([program, *block[1].split()[1:]], check=True, capture_output=True)
             files = re.search(r"pendres\.(open|run|ramp)|_range=", block[0])
-            if ("matplotlib" in block[0] and not has["matplotlib"]) or (files and not has_files()):
+            if ("matplotlib" in block[0] and not drawn) or (files and not has_files()):
                 continue
             with contextlib.redirect_stdout(printed):
                 exec(compile(block[0], "docs/python.md", "exec"), names)  # pylint: disable=exec-used
             done += 1
     finally:
         os.chdir(home)
-    assert done > 10 and "True\n" in printed.getvalue() or not has["h5netcdf"], printed.getvalue()
+    assert done > 10 and "True\n" in printed.getvalue() or not has_files(), printed.getvalue()
     # Fig. 2 as the paper has it: edges at weak damping, and smooth peaks at strong.
     assert not names["smooth"][:8].any() and names["smooth"][-80:].all()
     print(printed.getvalue())
