@@ -8,6 +8,7 @@
 
 #include "deck_fixture.h"
 #include "deck/si.h"
+#include "deck/table.h"
 
 static const double rounding = 8 * 1.2e-16;
 
@@ -253,6 +254,24 @@ static const bad_deck bad[] = {
     { "4:13 'mass' must be positive", "4:16 did you mean 'length'?" } },
 };
 
+/* Every key whose numbers are in units of the model takes those of SI. */
+static void keys(void **state)
+{
+  static const char *const ours[] = { "omega0", "1/omega0", "rad", "m g l", "m g l / k" };
+  int wrong = 0;
+  (void)state;
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *words = deck_table_words(&deck_table[i]);
+    for (size_t k = 0; k < sizeof ours / sizeof *ours; k++) {
+      if (words->unit == NULL || strcmp(words->unit, ours[k]) != 0) continue;
+      if (deck_unit_example(&deck_table[i]) != NULL) continue;
+      print_error("%s takes no unit\n", deck_table[i].name);
+      wrong++;
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
 static void bad_decks(void **state)
 {
   int wrong = 0;
@@ -295,7 +314,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(conversions), cmocka_unit_test(resonator), cmocka_unit_test(other_forces),
-    cmocka_unit_test(junction),    cmocka_unit_test(pendulum),  cmocka_unit_test(bad_decks),
+    cmocka_unit_test(junction),    cmocka_unit_test(pendulum),  cmocka_unit_test(keys),
+    cmocka_unit_test(bad_decks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
