@@ -19,6 +19,7 @@
 #   make doc        reference manual from the public headers, with doxygen
 #   make man        man/resonance.1 anew, with help2man: for a release, and when options change
 #   make decks-reference   docs/decks.md anew, from the table of keys
+#   make results-reference  docs/results.md anew, from runs of each kind
 #   make interface-list    tests/interface.txt anew, the functions, values and structs that are public
 #   make figures    run every deck and draw every picture, into build/figures; some minutes
 #   make gallery    the small pictures of docs/gallery.md anew, from those runs
@@ -200,7 +201,7 @@ BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 FUZZ_SECONDS ?= 60
 
 .PHONY: all accuracy check check-run fuzz bench bench-baseline install uninstall deps deps-mpi \
-        deps-fuzz deps-plots deps-python doc decks-reference interface-list style figures gallery \
+        deps-fuzz deps-plots deps-python doc decks-reference results-reference interface-list style figures gallery \
         clean \
         help sdist wheel FORCE
 .SUFFIXES:
@@ -233,6 +234,14 @@ endif
 endif
 $(BUILD)/sources: ;
 $(OBJ)/drivers/resume.o: $(BUILD)/sources
+
+# Headings and tables of the docs, for --explain, but of pages on the program itself.
+PAGES := $(filter-out $(patsubst %,docs/%.md,decks accuracy architecture auto comparison install \
+           interface platforms replication scaling),$(wildcard docs/*.md))
+$(BUILD)/pages.inc: $(PAGES) drivers/pages.awk
+	@mkdir -p $(@D); LC_ALL=C awk -f drivers/pages.awk $(PAGES) </dev/null >$@.new && mv $@.new $@
+$(OBJ)/drivers/pages.o: $(BUILD)/pages.inc
+$(OBJ)/drivers/pages.o: ALL_CPPFLAGS += -I$(BUILD)
 $(OBJ)/drivers/resume.o: ALL_CPPFLAGS += '-DSOURCES_SUM="$(SOURCES_SUM)"'
 
 COMPILE = @mkdir -p $(@D); echo "  CC  $(@:$(OBJ)/%=%)"; \
@@ -454,6 +463,10 @@ man: $(PROGRAM)
 decks-reference: $(PROGRAM)
 	@./$(PROGRAM) --reference >docs/decks.md.new && mv docs/decks.md.new docs/decks.md
 
+results-reference: $(PROGRAM)
+	@$${PYTHON:-/usr/bin/python3} -B tests/results_list.py ./$(PROGRAM) tests/kinds/*.nml \
+	  >docs/results.md.new && mv docs/results.md.new docs/results.md
+
 interface-list:
 	@$${PYTHON:-/usr/bin/python3} -B tests/interface_list.py '$(CC)' include >tests/interface.txt
 
@@ -479,7 +492,7 @@ style:
 
 # A build directory of another name is kept if it holds anything else.
 clean:
-	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags sources) \
+	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags sources pages.inc) \
 	  $(BUILD)/libpendres.* $(BUILD)/libdriver.a $(PROGRAM)
 ifeq ($(BUILD),build)
 	rm -rf build

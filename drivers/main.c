@@ -10,6 +10,7 @@
 
 #include "ending.h"
 #include "farm/ranks.h"
+#include "pages.h"
 #include "run.h"
 #include "shard.h"
 #include "terminal/safe_text.h"
@@ -362,7 +363,10 @@ static int answer(const options *o)
   if (o->action == OPTIONS_LIST) deck_list(stdout);
   else if (o->action == OPTIONS_REFERENCE) deck_reference(stdout);
   else if (o->action == OPTIONS_INIT) status = deck_init(o->word, stdout, why, sizeof why);
-  else status = deck_explain(o->word, stdout, why, sizeof why);
+  else {
+    status = deck_explain(o->word, stdout, why, sizeof why);
+    if (pages_tell(o->word, status == PENDRES_OK, stdout) > 0) status = PENDRES_OK;
+  }
   if (status == PENDRES_OK) return options_written(stdout);
   fputs("resonance: error: ", stderr);
   safe_text_write(stderr, why);

@@ -42,6 +42,8 @@ make_sdist()
   cp -r python/pendres python/*.py python/*.toml python/*.cfg python/*.md python/*.in "$work/stage"
   cp LICENSE "$work/stage/licences/LICENSE.pendres"
   cp -r Makefile pendres.map drivers include input man plots src validation "$work/stage/library"
+  mkdir "$work/stage/library/docs"
+  cp docs/*.md "$work/stage/library/docs"
   (cd "$work/stage" && quiet sdist "$python" -c \
     "from setuptools import build_meta; build_meta.build_sdist('$dist')")
 }

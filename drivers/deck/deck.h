@@ -349,6 +349,9 @@ void deck_list(FILE *out);
  */
 pendres_status deck_explain(const char *word, FILE *out, char *why, size_t size);
 
+/** Write words in lines that begin with `margin`; repeated blanks are written as one. */
+void deck_write_wrapped(FILE *out, const char *margin, const char *words);
+
 /** The same of all kinds and keys, as the page docs/decks.md. */
 void deck_reference(FILE *out);
 

@@ -151,8 +151,7 @@ static void add_scenes(char *text, unsigned scenes)
 
 /* ---- paragraphs ---------------------------------------------------------------------------- */
 
-/* Write words in lines that begin with `margin`; repeated blanks are written as one. */
-static void write_wrapped(FILE *out, const char *margin, const char *words)
+void deck_write_wrapped(FILE *out, const char *margin, const char *words)
 {
   size_t column = 0;
   while (*words != '\0') {
@@ -184,13 +183,13 @@ static void explain_key(FILE *out, const char *margin, const deck_key *key, unsi
   if ((key->needed & (scene != 0 ? scene : key->scenes)) == 0 && !is_by_drive(key))
     add(text, "default ");
   add_need(text, key, scene);
-  write_wrapped(out, margin, text);
-  write_wrapped(out, inner, words->meaning);
-  if (condition(key) != NULL) write_wrapped(out, inner, condition(key));
+  deck_write_wrapped(out, margin, text);
+  deck_write_wrapped(out, inner, words->meaning);
+  if (condition(key) != NULL) deck_write_wrapped(out, inner, condition(key));
   if (scene != 0) return;
   snprintf(text, sizeof text, "scenes: ");
   add_scenes(text, key->scenes);
-  write_wrapped(out, inner, text);
+  deck_write_wrapped(out, inner, text);
 }
 
 /* ---- kinds, groups, keys ------------------------------------------------------------------- */
@@ -251,7 +250,8 @@ static pendres_status unknown_word(const char *word, int only_kinds, char *why, 
     if (deck_table[i].scenes != 0) deck_suggest(&s, deck_table[i].name);
   if (s.best == NULL && !only_kinds) s.best = deck_synonym(word, 0);
   snprintf(why, size, "'%.60s' is no kind of scene%s%s; --list names the kinds", word,
-           only_kinds ? "" : ", group or key", deck_suggestion_text(&s, hint, sizeof hint));
+           only_kinds ? "" : ", group, key, result or subject of a page",
+           deck_suggestion_text(&s, hint, sizeof hint));
   return PENDRES_INVALID_ARGUMENT;
 }
 
@@ -287,7 +287,7 @@ static void init_comment(FILE *out, const deck_key *key)
   add_unit(text, words);
   if (condition(key) != NULL) add(text, "; %s", condition(key));
   fprintf(out, "\n");
-  write_wrapped(out, "  ! ", text);
+  deck_write_wrapped(out, "  ! ", text);
 }
 
 static void init_key(FILE *out, const deck_key *key, int kind)

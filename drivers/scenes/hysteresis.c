@@ -72,9 +72,10 @@ static const char *step_end_names(int value)
 }
 
 static const scene_column of_steps[] = {
-  {SCENE_TYPED(SCENE_NUMBER, "winding", step_row, of.winding, "whole turns ...")},
+  {SCENE_TYPED(SCENE_NUMBER, "winding", step_row, of.winding,
+               "whole turns in step_period drive periods")},
   {SCENE_TYPED(SCENE_NUMBER, "period", step_row, of.period,
-               "... in so many drive periods, without a common factor")},
+               "drive periods of step_winding turns, without a common factor")},
   {SCENE_AS("mean_velocity", step_row, mean_velocity, "mean velocity of x on the step", "1")},
   {SCENE_AS("lower", step_row, of.lower, "least value at which the step was met", "1")},
   {SCENE_AS("upper", step_row, of.upper, "largest value at which the step was met", "1")},

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Write docs/results.md: every variable of files of results, as small runs of each kind have it.
+
+    results_list.py PROGRAM DECK.nml ... >docs/results.md
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import h5py
+
+HEAD = """# Results: the variables of files
+
+<!-- Written by `make results-reference` from files that the decks of tests/kinds make: what is said here
+     of a variable is what its attributes `long_name`, `units` and `comment` say. -->
+
+Every variable that a file may have, by its name, with the scenes that write it and the dimensions that it is
+over. Each that has an error has it beside it, as `NAME_error`. Parameters that the deck holds fixed are
+coordinates without dimension. `resonance --explain=loop_area` prints what stands here of a variable, and of
+those whose names begin with it.
+
+| result | of | over | what | unit |
+|---|---|---|---|---|
+"""
+
+
+def text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def attribute(of, name):
+    return text(of.attrs[name]) if name in of.attrs else ""
+
+
+def meaning(variable):
+    said = [attribute(variable, name) for name in ("long_name", "comment")]
+    if "flag_meanings" in variable.attrs:
+        said.append("values: " + attribute(variable, "flag_meanings").replace(" ", ", "))
+    return "; ".join(part for part in said if part)
+
+
+def read(path, known):
+    """Add the variables of a file to known: (name, meaning, dimensions, unit) -> kinds."""
+    with h5py.File(path, "r") as file:
+        kind = attribute(file, "scene")
+        fixed = attribute(file, "coordinates").split()
+        for name, variable in file.items():
+            plain = isinstance(variable, h5py.Dataset) and name not in fixed
+            if not plain or name.endswith("_error") or (kind, name) in known["seen"]:
+                continue
+            known["seen"].add((kind, name))
+            is_scale = attribute(variable, "CLASS") == "DIMENSION_SCALE"
+            over = () if is_scale else tuple(
+                os.path.basename(d[0].name) if len(d) else "" for d in variable.dims)
+            if is_scale and not meaning(variable):
+                continue
+            unit = attribute(variable, "units")
+            row = (name, meaning(variable), "" if unit == "1" else unit)
+            known["rows"].setdefault(row, {}).setdefault(over, []).append(kind)
+
+
+def main(program, decks):
+    known = {"seen": set(), "rows": {}}
+    with tempfile.TemporaryDirectory() as folder:
+        paths = []
+        for deck in decks:
+            path = os.path.join(folder, os.path.basename(deck)[:-4] + ".h5")
+            run = subprocess.run([program, "--quiet", "-o", path, deck], capture_output=True)
+            if run.returncode not in (0, 3):  # 3: some points failed
+                sys.exit(f"{deck}: {run.stderr.decode()}")
+            with h5py.File(path, "r") as file:
+                paths.append(("a1" in file, path))  # words of pendulums before those of others
+        for _, path in sorted(paths):
+            read(path, known)
+    print(HEAD, end="")
+    for (name, said, unit), places in sorted(known["rows"].items()):
+        over = sorted({", ".join(dimensions) for dimensions in places})
+        kinds = sorted({kind for some in places.values() for kind in some})
+        cells = (f"`{name}`", ", ".join(kinds), " or ".join(o for o in over if o), said, unit)
+        print("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2:])
