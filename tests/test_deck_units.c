@@ -157,6 +157,23 @@ static void junction(void **state)
   deck_free(&d);
 }
 
+/* What a ramp does is in the unit of what is swept, wherever that stands. */
+static void ramps(void **state)
+{
+  (void)state;
+  deck d = read_twice("&scene kind='hysteresis' /\n&hysteresis x=1 rate='3 mHz' /\n"
+                      "&units length='1 m' /\n&pendulum damping=0.1 drive_amplitude=0.2 /\n"
+                      "&sweep drive_frequency_range='0.3 Hz','0.6 Hz',4 /\n");
+  check_relative(d.ramp.rate, 3e-3 * 2 * PI / sqrt(9.80665), rounding);
+  deck_free(&d);
+  d = read_twice("&scene kind='hysteresis' /\n&units critical_current='2 uA' /\n"
+                 "&hysteresis x=1 protocol=0,'1 uA',100,'2 uA',300,'3 uA' /\n"
+                 "&pendulum damping=0.1 drive_amplitude=0.2 drive_frequency=1 /\n"
+                 "&sweep torque='1 uA','3 uA' /\n");
+  assert_true(d.ramp.protocol.number[3] == 1.0 && d.ramp.protocol.number[4] == 300.0);
+  deck_free(&d);
+}
+
 static void pendulum(void **state)
 {
   (void)state;
@@ -216,6 +233,9 @@ static const bad_deck bad[] = {
   { ORBIT "0.1 drive_period='-8 s' /\n&units natural_frequency=1 /", { "3:56 must be positive" } },
   { ORBIT "0.1 drive_period='1e400 s' /\n&units natural_frequency=1 /",
     { "3:56 is too large for a double" } },
+  { "&scene kind='hysteresis' /\n&hysteresis x=1 rate='3 s' /\n&units natural_frequency=1 /\n"
+    "&pendulum damping=0.1 drive_amplitude=0.2 /\n&sweep drive_frequency=1,2 /\n",
+    { "2:22 'rate' is in Hz or rad/s here" } },
   { "&scene kind='orbit' /\n&orbit x=1 periods='3 s' /\n"
     "&pendulum damping=0.1 drive_amplitude=1 drive_period=8 /", { "2:20 a whole number" } },
   { ORBIT "1 drive_period=8 /\n&units mass='1 m' length='1 m' /", { "4:13 'mass' is in kg here" } },
@@ -315,7 +335,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(conversions), cmocka_unit_test(resonator), cmocka_unit_test(other_forces),
     cmocka_unit_test(junction),    cmocka_unit_test(pendulum),  cmocka_unit_test(keys),
-    cmocka_unit_test(bad_decks),
+    cmocka_unit_test(ramps),       cmocka_unit_test(bad_decks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

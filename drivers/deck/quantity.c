@@ -61,6 +61,7 @@ static const struct {
   { "parameter", SWEPT }, { "cascade_limit", SWEPT }, { "jump_mean", SWEPT },
   { "jump_delay", SWEPT }, { "jump_deviation", SWEPT },
   { "step_lower", SWEPT }, { "step_upper", SWEPT }, { "step_width", SWEPT },
+  { "rate", SWEPT }, { "protocol", SWEPT },
 };
 
 static int fits(const char *name, size_t n, const char *row)
@@ -163,14 +164,22 @@ static deck_si si_of_quantity(const deck *d, quantity q, int told)
   }
 }
 
+/* What a deck sweeps, also while it is read and its axes have no values yet. */
+static deck_axis_id swept_of(const deck *d)
+{
+  deck_axis_id axis[DECK_AXES];
+  if (deck_axes(d, axis) > 0) return axis[0];
+  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++)
+    if (d->axis[i].listed_count + d->axis[i].range_count > 1) return (deck_axis_id)i;
+  return DECK_AXIS_COUNT;
+}
+
 /* Of a name whose quantity is that. */
 static deck_si si_of_name(const deck *d, const char *name, quantity q, int told)
 {
-  deck_axis_id axis[DECK_AXES] = { DECK_AXIS_COUNT };
   if (q == SWEPT) {
-    if (deck_axes(d, axis) < 1) return si(NAN, "", "");
-    name = deck_axis_name(axis[0]);
-    q = quantity_of(name);
+    name = deck_axis_name(swept_of(d));
+    q = name != NULL ? quantity_of(name) : NUMBER;
   }
   if (q != COEFFICIENT) return si_of_quantity(d, q, told);
   const char *digit = strpbrk(name, "12345");
@@ -182,7 +191,7 @@ const char *deck_unit_example(const deck_key *key)
   static const char *const example[] = {
     [POSITION] = "'2 nm'", [VELOCITY] = "'3 mm/s'", [RATE] = "'Q 5000'",
     [FREQUENCY] = "'1.2 MHz'", [TIME] = "'5 us'", [FORCE] = "'3 pN'", [TEMPERATURE] = "'300 K'",
-    [COEFFICIENT] = "'3 N/m^3'", [SWEPT] = NULL,
+    [COEFFICIENT] = "'3 N/m^3'", [SWEPT] = "'3 Hz'",
   };
   const int has_own = strcmp(key->group, "units") == 0;
   if (has_own || (key->type == DECK_SWEEP && key->axis == DECK_AXIS_TOLERANCE)) return NULL;
@@ -375,6 +384,7 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
   if (!parse_unit(b, v, name, p.unit, &from)) return 0;
   const deck_si seen = si_of_name(b->d, key->name, q, 1), plain = si_of_name(b->d, key->name, q, 0);
   const deck_si *in = &seen;
+  const int of_clock = strstr(seen.units, "Hz") != NULL;
   if (seen.units[0] == '\0') return refuse_any(b, v, name);
   if (!si_parse(seen.units, &to, bad)) return 0;
   if (!si_fits(&from, &to)) {
@@ -383,8 +393,8 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
   }
   /* The force of an angle is a torque or a current, as the scales tell. */
   const int open = q == FORCE && strcmp(in->units, "N m") == 0 && isnan(in->factor);
-  if ((!si_fits(&from, &to) && !open) || (q == FREQUENCY && from.power[SI_RAD] == 0))
-    return refuse_unit(b, v, name, q == FREQUENCY ? "Hz or rad/s" : seen.units, p.unit);
+  if ((!si_fits(&from, &to) && !open) || (of_clock && from.power[SI_RAD] == 0))
+    return refuse_unit(b, v, name, of_clock ? "Hz or rad/s" : seen.units, p.unit);
   if (isnan(in->factor)) return refuse_scale(b, v, name, p.unit);
   *out = si_convert(*out, &from, &to) / in->factor;
   return 1;

@@ -38,14 +38,15 @@ static int came_before(const deck_builder *b, const namelist_group *g, size_t i)
 }
 
 /* The order in which keys are read, wherever they stand: all depends on the kind of scene, scales
-   on the force, and numbers with units on the scales. */
-enum { STAGE_SCENE, STAGE_FORCE, STAGE_SCALES, STAGE_REST, STAGES };
+   on the force, numbers with units on the scales, and what a ramp does on what is swept. */
+enum { STAGE_SCENE, STAGE_FORCE, STAGE_SCALES, STAGE_REST, STAGE_RAMP, STAGES };
 
 /* The stage of a key; that of a group is that of a key which is none. */
 static int stage_of(const char *group, const char *name)
 {
   if (strcmp(group, "scene") == 0) return STAGE_SCENE;
   if (strcmp(group, "units") == 0) return STAGE_SCALES;
+  if (strcmp(name, "rate") == 0 || strcmp(name, "protocol") == 0) return STAGE_RAMP;
   if (strcmp(group, "pendulum") != 0) return STAGE_REST;
   if (strcmp(name, "force") == 0) return STAGE_FORCE;
   return strcmp(name, "force_coefficients") == 0 ? STAGE_SCALES : STAGE_REST;
