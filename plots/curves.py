@@ -407,12 +407,12 @@ def draw_jumps(ax, gaps, back, colour):
                                     "mutation_scale": 8})
 
 
-def write_steps(ax, h, x):
-    """Above each wide step of a junction its voltage, in drive frequencies, and its width if the
-    sweep has left it at both ends."""
-    names = ("winding", "period", "lower", "upper", "width")
+def write_steps(ax, h, x, unit):
+    """Above each wide step of a junction its number, the voltage in drive frequencies, and its width
+    if the sweep has left it at both ends. unit: of velocities in the picture."""
+    names = ("winding", "period", "mean_velocity", "lower", "upper", "width")
     factor = parameter_axis(h, 1.0, "torque")[0]
-    for p, q, first, last, width in zip(*(h["step_" + name] for name in names)):
+    for p, q, turns, first, last, width in zip(*(h["step_" + name] for name in names)):
         if (last - first) * factor < 0.04 * np.ptp(x):
             continue
         text = f"{p / q:g}" if p % q == 0 else f"{p}/{q}"
@@ -420,8 +420,19 @@ def write_steps(ax, h, x):
             text += f" ({width * factor:.4g})"
         wide = (last - first) * factor > 0.15 * np.ptp(x)
         at = first + (0.55 * (last - first) if wide else last - first)
-        ax.annotate(text, (at * factor, p / q), ha="right", va="bottom", xytext=(0, 2),
+        ax.annotate(text, (at * factor, turns * unit), ha="right", va="bottom", xytext=(0, 2),
                     textcoords="offset points", fontsize=plt.rcParams["legend.fontsize"])
+
+
+def velocity_axis(h):
+    """What mean velocities are multiplied by to be drawn, and the label: of a junction in a
+    laboratory's units volts, else drive frequencies, if that does not change."""
+    factor, unit = h.scale("mean_velocity")
+    if unit.endswith("V"):
+        return factor, f"voltage ({unit})"
+    if np.ndim(h["drive_frequency"]) == 0:
+        return 1 / h["drive_frequency"], "mean velocity /\ndrive frequency"
+    return factor, "mean velocity" + (f" ({unit})" if unit else "")
 
 
 def draw_hysteresis(h, path):
@@ -431,12 +442,11 @@ def draw_hysteresis(h, path):
     if "ramp_parameter" in h:
         return draw_ramp(h, name)
     x, label = parameter_axis(h, h[name], name)
-    velocity, turns = amplitude_axis(h, "mean_velocity", "mean velocity")
-    velocity = h["mean_velocity"] * velocity
-    runs = np.nanmax(np.abs(velocity), initial=0) > 0
+    turning = velocity_axis(h)
+    runs = np.nanmax(np.abs(h["mean_velocity"]), initial=0) > 0
     steps = runs and name == "torque"
-    factor, height = amplitude_axis(h, "amplitude", "amplitude $x_0$")
-    shown = h["mean_velocity"] / h["drive_frequency"] if steps else factor * h["amplitude"]
+    factor, height = turning if steps else amplitude_axis(h, "amplitude", "amplitude $x_0$")
+    shown = factor * h["mean_velocity" if steps else "amplitude"]
     fig, (top, below) = figure(h, 3.6, 2, 1, sharex=True, height_ratios=(2.4, 1))
     gradual = h["jump_gradual"] if "jump_gradual" in h else np.zeros(len(h["jump_parameter"]))
     ends = parameter_axis(h, h["jump_parameter"], name)[0]
@@ -454,13 +464,13 @@ def draw_hysteresis(h, path):
                 draw_jumps(ax, gaps, (way == 1) != falling, f"C{way}")
     if runs and not steps:
         right = top.twinx()
-        right.plot(x, velocity.T, lw=0.8, ls=":")
-        right.set_ylabel(turns + " (dotted)")
+        right.plot(x, turning[0] * h["mean_velocity"].T, lw=0.8, ls=":")
+        right.set_ylabel(turning[1] + " (dotted)")
     title = None
     if steps and "step_width" in h:
-        write_steps(top, h, x)
+        write_steps(top, h, x, factor)
         title = "numbers: step (its width)"
-    top.set_ylabel("mean velocity /\ndrive frequency" if steps else height)
+    top.set_ylabel(height)
     for end, way, slow in zip(ends, h["jump_direction"], gradual):
         if slow:  # nothing jumps: a tick at the axis
             top.axvline(end, ymax=0.04, color=f"C{way}", lw=0.8)

@@ -182,7 +182,8 @@ def parameter_axis(run, values, name):
     if name in ("drive_frequency", "drive_period"):
         return drive_axis(run, values, name)
     factor, unit = run.scale(name)
-    return np.asarray(values, dtype=float) * factor, words(name) + (f" ({unit})" if unit else "")
+    label = "current $I$" if name == "torque" and unit.endswith("A") else words(name)
+    return np.asarray(values, dtype=float) * factor, label + (f" ({unit})" if unit else "")
 
 
 def parameter_text(run, value, name):

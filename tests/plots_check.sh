@@ -46,6 +46,9 @@ deck sweep hysteresis "$p, damping = 0.15 / &sweep drive_frequency_range = 0.75,
   &hysteresis start = 'sa' /"
 deck junction hysteresis "&pendulum drive_amplitude = 9, damping = 0.3, drive_frequency = 3 /
   &sweep torque_range = 1.88, 1.94, 4 / &hysteresis x = 1.6 /"
+deck volts hysteresis "&units critical_current = '100 uA', resistance = '5 ohm',
+  capacitance = '0.1 pF' / &pendulum drive_amplitude = '250 uA', drive_frequency = '200 GHz' /
+  &sweep torque_range = '120 uA', '150 uA', 7 / &hysteresis x = 1.6, v = 1 /"
 deck doubling bifurcation_diagram '&pendulum damping = 0.5, drive_frequency = 0.6666666666666666 /
   &sweep drive_amplitude_range = 1.04, 1.07, 4 / &bifurcation_diagram x = 1.6, strobes = 5 /'
 deck points bifurcation_diagram '&pendulum damping = 0.5, drive_frequency = 0.6666666666666666 /

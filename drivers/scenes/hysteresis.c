@@ -136,16 +136,29 @@ static void print_end(FILE *out, pendres_step_end end, double value, double erro
   fprintf(out, "  %-24s", cell);
 }
 
-/* Only where there is one but the pendulum's rest. */
+/* How many steps were met over a wider interval. */
+static size_t wider(const scene_along_path *path, const pendres_step *than)
+{
+  size_t n = 0;
+  for (size_t i = 0; i < path->steps; i++) {
+    const pendres_step *s = &path->step[i];
+    n += s->upper - s->lower > than->upper - than->lower;
+  }
+  return n;
+}
+
+/* The widest ones; only where there is one but the pendulum's rest. */
 static void tabulate_steps(FILE *out, const scene_along_path *path)
 {
-  size_t turning = 0;
+  size_t turning = 0, told = 0;
   for (size_t i = 0; i < path->steps; i++) turning += path->step[i].winding != 0;
   if (turning == 0) return;
   fprintf(out, "\n%-9s %-25s %-25s %s\n", "step", "from torque", "to", "width");
-  for (size_t i = 0; i < path->steps && i < SCENE_TABLE_LINES; i++) {
+  for (size_t i = 0; i < path->steps && told < SCENE_TABLE_LINES; i++) {
     const pendres_step *s = &path->step[i];
     char name[30];
+    if (wider(path, s) >= SCENE_TABLE_LINES) continue;
+    told++;
     if (s->period == 1) snprintf(name, sizeof name, "%d", s->winding);
     else snprintf(name, sizeof name, "%d/%d", s->winding, s->period);
     fprintf(out, "%-8s", name);
@@ -154,21 +167,30 @@ static void tabulate_steps(FILE *out, const scene_along_path *path)
     if (isnan(s->width)) fputs("\n", out);
     else fprintf(out, "  %.12g +- %.0e\n", s->width, s->width_error);
   }
-  if (path->steps > SCENE_TABLE_LINES)
-    fprintf(out, "and %zu more\n", path->steps - SCENE_TABLE_LINES);
+  if (path->steps > told) fprintf(out, "and %zu narrower ones\n", path->steps - told);
 }
 
-static void tabulate(FILE *out, deck_axis_id axis, const scene_along_path *path)
+/* What a jump leads to: how often it turns in how many drive periods, or these alone. */
+static void print_orbit(FILE *out, const pendres_jump *j, int turns)
 {
-  fprintf(out, "%-5s %-9s %-28s %-11s %-11s %s\n", "way", "ends by", deck_axis_name(axis),
-          "from", "to", "period");
+  if (!turns) fprintf(out, "%d", j->to_period);
+  else if (j->to_period > 0) fprintf(out, "%d/%d", j->to_winding, j->to_period);
+  else fputs("-", out);
+}
+
+static void tabulate(FILE *out, const scene_run *run, const scene_along_path *path)
+{
+  const int turns = has_steps(run->deck, path);
+  fprintf(out, "%-5s %-9s %-28s %-11s %-11s %s\n", "way", "ends by", deck_axis_name(path->axis),
+          "from", "to", turns ? "turns/periods" : "period");
   for (size_t i = 0; i < path->jumps && i < SCENE_TABLE_LINES; i++) {
     const pendres_jump *j = &path->jump[i];
-    fprintf(out, "%-5s %-9s %.14g +- %.0e  %-11s %-11s %d%s%s\n", j->direction > 0 ? "up" : "down",
+    fprintf(out, "%-5s %-9s %.14g +- %.0e  %-11s %-11s ", j->direction > 0 ? "up" : "down",
             pendres_name_get(PENDRES_NAMES_JUMP, j->kind), j->value, j->value_error,
             pendres_name_get(PENDRES_NAMES_LABEL, j->from),
-            pendres_name_get(PENDRES_NAMES_LABEL, j->to), j->to_period,
-            j->gradual ? ", gradual" : "", j->certain ? "" : ", uncertain");
+            pendres_name_get(PENDRES_NAMES_LABEL, j->to));
+    print_orbit(out, j, turns);
+    fprintf(out, "%s%s\n", j->gradual ? ", gradual" : "", j->certain ? "" : ", uncertain");
   }
   if (scene_along_uncertain(path))
     fprintf(out, "uncertain: errors as small as rounding choose the state that it begins on\n");
@@ -185,7 +207,7 @@ static pendres_status run_scene(scene_run *run)
   compute(run, axis[0], &path);
   write(run, axis[0], &path);
   if (scene_prints(run)) {
-    tabulate(run->table, axis[0], &path);
+    tabulate(run->table, run, &path);
     if (has_steps(run->deck, &path)) tabulate_steps(run->table, &path);
   }
   scene_ramp_run(run, axis[0], &path);
