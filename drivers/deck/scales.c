@@ -178,6 +178,22 @@ static void check_model(deck_builder *b, int model)
   }
 }
 
+/* Scales and coefficients that follow have the range of those that are told. */
+static void check_size(deck_builder *b)
+{
+  const deck *d = b->d;
+  const double of[] = { d->units.natural_frequency, d->units.mass, d->units.length };
+  int good = 1, range = 0;
+  const deck_key *mass = &deck_table[deck_table_find("units", "mass", 0, &range)];
+  for (size_t i = 0; i < sizeof of / sizeof *of; i++)
+    good &= isnan(of[i]) || (of[i] > 0.0 && of[i] < mass->high);
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+    good &= fabs(d->pendulum.force_coefficients[k]) <= mass->high;
+  if (!good)
+    deck_complain_of_group(b, deck_given_of(b, "units", "mass")->group,
+                           "what follows from these scales must be below 1e100, as they are");
+}
+
 static int is_broken(const deck_builder *b)
 {
   for (size_t i = 0; i < deck_table_size; i++) {
@@ -206,6 +222,7 @@ void deck_scales_find(deck_builder *b)
   if (angle && !junction && !isnan(b->in_si[0]) && b->errors->count == errors)
     deck_complain(b, deck_given_of(b, "pendulum", "force_coefficients"), "force_coefficients",
                   "an inductance needs 'critical_current' in &units");
+  if (b->errors->count == errors) check_size(b);
   b->no_scales = b->errors->count > errors;
 }
 
