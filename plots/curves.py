@@ -117,8 +117,8 @@ def draw_response(h, path):
         top.plot(at, factor * h["resonance_amplitude"][i], "o", ms=5, mfc="none", color=f"C{i % 6}")
         below.plot(at, h["resonance_phase_lag"][i] / np.pi, "o", ms=5, mfc="none",
                    color=f"C{i % 6}", label=f"resonance, {at:.6g}")
-    top.set(ylabel=height)
-    top.set_ylim(bottom=0)
+    most = np.nanmax(amplitude, initial=0)
+    top.set(ylabel=height, ylim=(0, 1.05 * most if most > 0 else 1))
     below.set(xlabel=label, ylabel=r"phase lag $\phi/\pi$", ylim=(0, 1))
     top.legend(handlelength=1.2)
     if below.get_legend_handles_labels()[0]:
@@ -182,6 +182,9 @@ def draw_section(h, samples):
     return fig
 
 
+MOST_PERIODS = 20  # beside which the drive can be seen
+
+
 def draw_orbit(h, path):
     periods, drive = h["drive_phase"] / (2 * np.pi), h["drive"]
     factor, label = amplitude_axis(h, "x", "$x$")
@@ -195,8 +198,9 @@ def draw_orbit(h, path):
     scale = 0.5 * np.ptp(x) / np.ptp(drive) if np.ptp(drive) > 0 and np.ptp(x) > 0 else 1.0
     marks = dict(marker="o", ms=3) if len(x) < 16 else {}
     top.plot(periods, x, color=colour, label="$x$", **marks)
-    top.plot(periods, np.mean(x) + scale * drive, "--", color=FREE,
-             label=f"drive, magnified {scale:.1f} times", **marks)
+    if np.ptp(periods) <= MOST_PERIODS:
+        top.plot(periods, np.mean(x) + scale * drive, "--", color=FREE,
+                 label=f"drive, magnified {scale:.1f} times", **marks)
     top.set(xlabel="drive periods", ylabel=label, ylim=around(x))
     top.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0, ncol=2, frameon=False)
     if closed and h["winding"] != 0:  # the mean rotation encloses no area
@@ -339,6 +343,8 @@ def draw_switching(h, path):
         ax.errorbar(1 / t[some], rate[some], yerr=spread[:, some], fmt=marker, ms=4, mfc="none",
                     color=colour, label=text, capsize=2)
     ax.set(xlabel="$1/T$", ylabel="switching rate (per unit of time)", yscale="log")
+    if not ax.has_data():
+        ax.text(0.5, 0.5, "nothing switched", transform=ax.transAxes, ha="center")
     legend(ax)
     return fig
 

@@ -184,9 +184,12 @@ def draw_plane(h, rows):
         columns = column_of(name), column_of(rows)
         for what, style, text in (("fold", "-", "folds"),
                                   ("flip", ":", "doubling, symmetry breaking")):
-            for _, x, y in bifurcation_curves(h, what, *columns):
-                ax.plot(parameter_axis(h, x, name)[0], y, style, color="black", lw=0.9)
-            handles.append(Line2D([], [], ls=style, color="black", lw=0.9, label=text))
+            curves = list(bifurcation_curves(h, what, *columns))
+            for _, x, y in curves:
+                ax.plot(parameter_axis(h, x, name)[0], parameter_axis(h, y, rows)[0], style,
+                        color="black", lw=0.9)
+            if curves:
+                handles.append(Line2D([], [], ls=style, color="black", lw=0.9, label=text))
     ax.set(xlabel=below, ylabel=beside, xlim=around(across, 0.0), ylim=around(up, 0.0))
     legend(ax, handles, loc="upper left", bbox_to_anchor=(1.02, 1))
     return fig

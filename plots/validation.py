@@ -49,10 +49,10 @@ def draw_hard_cases(h, path):
     names, bound = strings(h["case_name"]), h["bound"]
     figures, naive = h["figure"], h["naive_figure"]
     unit = np.where(bound > 0, bound, 1)
-    least, most, rows = 1e-8, 1e8, 60
+    least, most, rows = 1e-8, 1e8, min(60, len(names))
     columns = -(-len(names) // rows)
     fig, axes = plt.subplots(1, columns, squeeze=False,
-                             figsize=h.options.size or (3.6 * columns, 8.0))
+                             figsize=h.options.size or (3.6 * columns, 1 + 0.117 * rows))
     for k, ax in enumerate(axes[0]):
         part = slice(k * rows, (k + 1) * rows)
         y = np.arange(len(names[part]))
@@ -67,5 +67,5 @@ def draw_hard_cases(h, path):
         ax.tick_params(axis="x", labelsize=6)
         ax.grid(axis="y", lw=0.3)
     fig.supxlabel("figure over its bound; at either end: that or beyond", fontsize=8)
-    axes[0][0].legend(loc="lower left", fontsize=6)
+    axes[0][0].legend(loc="best", fontsize=6)
     return fig
