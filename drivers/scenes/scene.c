@@ -159,7 +159,8 @@ static int open_unnamed(scene_run *run, size_t bytes)
              slash != NULL ? (int)(slash - output) + 1 : 0, output);
   const int file = mkstemp(path);
   int why = file < 0 || unlink(path) != 0 ? errno : 0;
-  if (why == 0) why = posix_fallocate(file, 0, (off_t)bytes);
+  /* A signal that asks a run to stop is heeded between tasks, not here. */
+  if (why == 0) do why = posix_fallocate(file, 0, (off_t)bytes); while (why == EINTR);
   if (why == 0) return file;
   (void)scene_fail(run, PENDRES_IO, "a temporary file, %s: %s", path, strerror(why));
   if (file >= 0) (void)close(file);
