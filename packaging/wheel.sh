@@ -64,7 +64,9 @@ source_of()
       -o Dir::State::Lists=$work/apt/lists"
     [ -e "$work/apt/updated" ] || $get update >"$work/update.log" 2>&1 || true
     : >"$work/apt/updated"
-    (cd "$work/sources" && quiet "source-$1" $get source "$1")
+    (cd "$work/sources" && quiet "source-$1" $get source "$1") || {
+      echo "wheel.sh: a folder that has the sources of $1 does as well:" \
+        "make wheel $(echo "$1" | tr a-z A-Z)_SOURCE=FOLDER" >&2; exit 1; }
   fi
   ls -d "$work/sources/$1"-*/
 }
