@@ -66,7 +66,10 @@
        .takes = "one parameter moves")                                                            \
   ITEM(LYAPUNOV_MAP, "lyapunov_map",                                                              \
        "largest Lyapunov exponent, period and winding over two parameters",                       \
-       .layout = DECK_MOVING, .least = 2, .most = 2, .takes = "a map has two axes")
+       .layout = DECK_MOVING, .least = 2, .most = 2, .takes = "a map has two axes")               \
+  ITEM(FIT, "fit",                                                                                \
+       "parameters of an oscillator and scales of an instrument from measured responses",         \
+       .most = 0)
 
 /* Hard cases by their names, in the order in which they are printed. */
 #define DECK_CASE_LIST(ITEM)                                                                      \
@@ -238,6 +241,22 @@ typedef struct deck {
     double volts_per_length;  /* positions are then in volts */
     double critical_current, resistance, capacitance;
   } units;
+
+  struct {                  /* of the scene fit: a file of text, and what is in it */
+    char file[DECK_PATH];
+    deck_names columns;     /* in words of the user: "3", "volts", "direction=4" */
+    char axis[DECK_NAME];   /* name of a parameter */
+    deck_names observables;
+    char direction[DECK_NAME];
+    double error, relative_error; /* standard errors where no column has them; 0: none */
+  } data;
+
+  struct {
+    deck_names free, fixed, bounds, prior; /* "NAME", "NAME VALUE", "NAME LOW HIGH", "NAME MEAN
+                                              ERROR" */
+    double huber, jump_error;
+    int64_t starts, iterations;
+  } fit;
 
   deck_names methods;       /* work_precision */
   char unit[DECK_NAME];

@@ -55,7 +55,7 @@ static void add_form(char *text, const deck_key *key)
     [DECK_NUMBERS] = "some numbers, each", [DECK_LIST] = "numbers, each", [DECK_SWEEP] = "numbers",
     [DECK_SWEEP_VALUE] = "a number",
   };
-  add(text, "%s", form[key->type]);
+  add(text, "%s", key->type == DECK_CHOICES && key->choices == NULL ? "strings" : form[key->type]);
   if (key->choices != NULL) add_choices(text, key);
   if (!is_number(key)) return;
   add(text, key->open ? " above " : " from ");

@@ -152,8 +152,12 @@ static int apply_names(deck_builder *b, const deck_key *key, const namelist_arra
     const namelist_value *v = array->item[i];
     char *name = names->name[names->count];
     int wrong = 0;
-    const int choice = read_choice(b, key, v, &wrong);
-    if (choice >= 0) strcpy(name, key->choices[choice]);
+    if (key->choices == NULL) {
+      wrong = !namelist_value_string(b->nl, v, key->name, name, sizeof *names->name, b->errors);
+    } else {
+      const int choice = read_choice(b, key, v, &wrong);
+      if (choice >= 0) strcpy(name, key->choices[choice]);
+    }
     for (size_t k = 0; !wrong && k < names->count; k++) {
       if (strcmp(names->name[k], name) != 0) continue;
       complain(b, v, key->name, "names this one twice");

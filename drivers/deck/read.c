@@ -237,6 +237,12 @@ void deck_free(deck *d)
     free(d->axis[i].listed);
   }
   free(d->methods.name);
+  free(d->data.columns.name);
+  free(d->data.observables.name);
+  free(d->fit.free.name);
+  free(d->fit.fixed.name);
+  free(d->fit.bounds.name);
+  free(d->fit.prior.name);
   free(d->cases.name);
   free(d->ramp.protocol.number);
   *d = (deck){ 0 };

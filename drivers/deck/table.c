@@ -15,6 +15,7 @@
 #include <math.h>
 #include <string.h>
 
+#include <pendres/fit.h>
 #include <pendres/switching.h>
 
 #define BIT(kind) (1u << DECK_##kind)
@@ -31,17 +32,18 @@
 #define HYSTERESIS BIT(HYSTERESIS)
 #define DIAGRAM BIT(BIFURCATION_DIAGRAM)
 #define MAP BIT(LYAPUNOV_MAP)
+#define FIT BIT(FIT)
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
-#define MODELS (POINT | CURVE | RESPONSE | ALONG | GRID) /* torque, forces, ... */
+#define MODELS (POINT | CURVE | RESPONSE | ALONG | GRID | FIT) /* torque, forces, ... */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters is an axis */
 #define ALONG (PATH | MAP)                         /* one or two of the parameters are axes */
 #define SETTLING (ALONG | CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES)
 #define MEMBERS (CURVE | RESPONSE | PHASE | BRANCHES)
-#define RESULTS (FREE | DRIVEN | ALONG)            /* scenes with one tolerance */
+#define RESULTS (FREE | DRIVEN | ALONG | FIT)      /* scenes with one tolerance */
 
 #define FIELD(f) .offset = offsetof(deck, f), .size = sizeof(((deck *)0)->f)
 #define REAL(g, n, f) .group = g, .name = n, .type = DECK_REAL, FIELD(f)
@@ -115,6 +117,24 @@ static const char *const forces[] = { /* as in pendulum.h */
 };
 static const char *const ends[] = { "attractor", "well", NULL }; /* as pendres_basin_end */
 static const char *const units[] = { "ensemble", "sweep", NULL };
+/* What fits know, see <pendres/fit.h>. */
+static const char *const observables[] = {
+#define OBSERVABLE_NAME(code, name) name,
+  PENDRES_FIT_OBSERVABLE_LIST(OBSERVABLE_NAME)
+#undef OBSERVABLE_NAME
+  NULL
+};
+#define FOLLOWED "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2", "a3", \
+                 "a4", "a5"
+static const char *const swept[] = { "drive_frequency", FOLLOWED, NULL };
+static const char *const quantities[] = {
+  FOLLOWED,
+#define SCALE_NAME(code, name, neutral) name,
+  PENDRES_FIT_SCALE_LIST(SCALE_NAME)
+#undef SCALE_NAME
+  NULL
+};
+static const char *const directions[] = { "file", "up", "down", NULL };
 
 const deck_key deck_table[] = {
   /* clang-format off */
@@ -137,6 +157,11 @@ const deck_key deck_table[] = {
     SAYS("omega0", "friction coefficient gamma; a pendulum's quality factor Q is 1/gamma") },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE,
     .number = NAN, EXAMPLE("0.12") },
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), IN(FIT), RANGE(-BIG, BIG),
+    .number = NAN },
+  { REAL("pendulum", "damping", pendulum.damping), IN(FIT), POSITIVE, .number = NAN },
+  { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(FIT), FREQUENCY,
+    .number = NAN },
   { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(PATH), NOT_NEGATIVE,
     EXAMPLE("0.2") },
   { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(MAP), NOT_NEGATIVE },
@@ -314,6 +339,53 @@ const deck_key deck_table[] = {
     SAYS(NULL, "drive periods of an average; 0: 512. What is not decided then is followed for "
          "longer") },
 
+  { STRING("data", "file", data.file), NEEDED_IN(FIT), EXAMPLE("'fit.csv'"),
+    SAYS(NULL, "text file of the data, a line a datum: numbers with commas, semicolons, tabs or "
+         "blanks between them; a line of names may come first; # and ! begin comments. The path is "
+         "from the deck's folder") },
+  { CHOICES("data", "columns", data.columns), IN(FIT),
+    SAYS(NULL, "columns of the file by name or number: the axis, the observables, then their "
+         "standard errors (all or none), then the direction (1, -1, up, down); ROLE=COLUMN says "
+         "what a column is in any place, as 'drive_amplitude=4' for a parameter that differs "
+         "between sweeps. Without it the names in the file's first line are taken for roles: those "
+         "of axis and observables, OBSERVABLE_error, direction, and names of parameters") },
+  { CHOICE("data", "axis", data.axis), IN(FIT), .choices = swept, .text = "drive_frequency",
+    SAYS(NULL, "parameter that was swept") },
+  { CHOICES("data", "observable", data.observables), IN(FIT), .choices = observables,
+    EXAMPLE("'amplitude'"),
+    SAYS(NULL, "what was measured, in the order of the columns; without it 'amplitude'") },
+  { CHOICE("data", "direction", data.direction), IN(FIT), .choices = directions, .text = "file",
+    SAYS(NULL, "which way the axis went where no column says it: as the lines of the file do, or "
+         "up or down throughout") },
+  { REAL("data", "error", data.error), IN(FIT), NOT_NEGATIVE, .number = 0,
+    SAYS("unit of the data", "standard error of each datum where no column has it") },
+  { REAL("data", "relative_error", data.relative_error), IN(FIT), NOT_NEGATIVE, .number = 0,
+    SAYS("1", "standard error as a share of the datum, added to 'error' in squares; without "
+         "either, errors follow from the scatter about the fit") },
+
+  { CHOICES("fit", "free", fit.free), NEEDED_IN(FIT), .choices = quantities,
+    EXAMPLE("'damping', 'drive_amplitude', 'frequency_scale'"),
+    SAYS(NULL, "quantities that are sought: parameters, whose values in &pendulum are guesses, and "
+         "scales of the instrument (docs/fit.md). What has no guess is guessed from the data") },
+  { CHOICES("fit", "fixed", fit.fixed), IN(FIT),
+    SAYS(NULL, "quantities with other values than &pendulum has, as 'amplitude_scale 0.2'; without "
+         "it scales are 1, offset and backgrounds 0") },
+  { CHOICES("fit", "bounds", fit.bounds), IN(FIT),
+    SAYS(NULL, "bounds of what is free, as 'damping 0.01 0.1'") },
+  { CHOICES("fit", "prior", fit.prior), IN(FIT),
+    SAYS(NULL, "what is known of free quantities beside the data, a mean and its standard error, as "
+         "'a3 -0.16 0.01'") },
+  { REAL("fit", "huber", fit.huber), IN(FIT), NOT_NEGATIVE, .number = 0,
+    SAYS("1", "standard errors beyond which a residual counts by its size instead of its square, "
+         "against outliers; 0: none does") },
+  { REAL("fit", "jump_error", fit.jump_error), IN(FIT), NOT_NEGATIVE, .number = 0,
+    SAYS("unit of the data", "standard error of the axis at which jumps were seen, beside the "
+         "spacing of the data: noise makes states jump early") },
+  { INTEGER("fit", "starts", fit.starts), IN(FIT), RANGE(1, 100), .number = 6,
+    SAYS(NULL, "most guesses that are tried, until one fits well") },
+  { INTEGER("fit", "iterations", fit.iterations), IN(FIT), RANGE(1, 10000), .number = 60,
+    SAYS(NULL, "most steps from each guess") },
+
   { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0,
     SAYS(NULL, "integrate only starts near a boundary of basins, fill the others in, and check a "
          "random sample of these") },
@@ -398,61 +470,3 @@ const deck_key deck_table[] = {
 const size_t deck_table_size = sizeof deck_table / sizeof *deck_table;
 
 _Static_assert(sizeof deck_table / sizeof *deck_table <= DECK_MAX_KEYS, "raise DECK_MAX_KEYS");
-
-int deck_table_has_range(const deck_key *key)
-{
-  /* Tolerances are given as a list, since they are rarely evenly spaced. */
-  return key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
-}
-
-int deck_table_matches(const deck_key *key, const char *name, int *range)
-{
-  const size_t n = strlen(key->name);
-  if (strncmp(key->name, name, n) != 0) return 0;
-  *range = name[n] != '\0';
-  return !*range || (deck_table_has_range(key) && strcmp(name + n, "_range") == 0);
-}
-
-size_t deck_table_find(const char *group, const char *name, unsigned scenes, int *range)
-{
-  for (size_t i = 0; i < deck_table_size; i++) {
-    const deck_key *key = &deck_table[i];
-    if (strcmp(key->group, group) != 0 || (scenes != 0 && (key->scenes & scenes) == 0)) continue;
-    if (deck_table_matches(key, name, range)) return i;
-  }
-  return deck_table_size;
-}
-
-const deck_key *deck_table_words(const deck_key *key)
-{
-  const deck_key *other = NULL;
-  if (key->meaning != NULL) return key;
-  for (size_t i = 0; i < deck_table_size; i++) {
-    const deck_key *k = &deck_table[i];
-    if (k->meaning == NULL || strcmp(k->name, key->name) != 0) continue;
-    if (strcmp(k->group, key->group) == 0) return k;
-    if (other == NULL) other = k;
-  }
-  return other;
-}
-
-int64_t deck_spectrum_least(const deck *d)
-{
-  const int64_t samples = d->orbit.samples;
-  return samples == 1 ? 4 : samples == 2 || samples % 2 != 0 ? 2 : 1;
-}
-
-const deck_kind_info *deck_kind_of(deck_kind kind)
-{
-  static const deck_kind_info info[] = {
-#define KIND_INFO(code, name, words, ...) {name, words, __VA_ARGS__},
-    DECK_KIND_LIST(KIND_INFO)
-#undef KIND_INFO
-  };
-  return (unsigned)kind < DECK_KIND_COUNT ? &info[kind] : NULL;
-}
-
-const char *deck_kind_name(deck_kind kind)
-{
-  return (unsigned)kind < DECK_KIND_COUNT ? kinds[kind] : NULL;
-}

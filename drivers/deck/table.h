@@ -13,7 +13,7 @@ typedef enum deck_type {
   DECK_LOGICAL,
   DECK_STRING,
   DECK_CHOICE,     /* a string out of a list */
-  DECK_CHOICES,    /* several of them */
+  DECK_CHOICES,    /* several of them or, without a list, any strings */
   DECK_BOUNDS,     /* two ascending numbers */
   DECK_NUMBERS,    /* as many numbers as the field holds, zero where none is given */
   DECK_LIST,       /* any number of numbers */
@@ -74,7 +74,7 @@ typedef struct deck_key {
                                   NULL: its default, as a comment */
 } deck_key;
 
-enum { DECK_MAX_KEYS = 160 };
+enum { DECK_MAX_KEYS = 192 };
 
 extern const deck_key deck_table[];
 extern const size_t deck_table_size;

@@ -27,7 +27,8 @@
   X(hard_cases)            \
   X(hysteresis)            \
   X(bifurcation_diagram)   \
-  X(lyapunov_map)
+  X(lyapunov_map)          \
+  X(fit)
 
 #define DECLARE(name) extern const scene_kind scene_##name;
 SCENES(DECLARE)

@@ -45,6 +45,7 @@
 #include <pendres/langevin.h>
 #include <pendres/switching.h>
 #include <pendres/ramp.h>
+#include <pendres/fit.h>
 #include <pendres/reference.h>
 #include <pendres/store.h>
 

@@ -1,0 +1,386 @@
+/*
+ * fit_data.c -- data of a fit from a text file; see fit_data.h.
+ *
+ * A line is a datum: cells between commas, semicolons or tabs, or else blanks. A first line with a
+ * cell that is no number names the columns. What the columns are is told by the deck, or by these
+ * names.
+ */
+#define _POSIX_C_SOURCE 200809L /* getline, strdup */
+#include "scenes/fit_data.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+enum { MOST_COLUMNS = 64, CELL = 128, NONE = -1 };
+
+/* A file while it is read. */
+typedef struct reader {
+  scene_run *run;
+  const deck *d;
+  fit_data *out;
+  char separator;                 /* ' ': blanks */
+  size_t names, line;
+  char name[MOST_COLUMNS][CELL];  /* of columns, "" where the file has none */
+  /* Columns of what is needed, from 0 on. */
+  int axis, direction, other, observable[PENDRES_FIT_OBSERVABLE_COUNT];
+  int error[PENDRES_FIT_OBSERVABLE_COUNT];
+  size_t observables, room;
+  pendres_fit_observable kind[PENDRES_FIT_OBSERVABLE_COUNT];
+} reader;
+
+#define FAIL(r, ...) (void)scene_fail((r)->run, PENDRES_INVALID_ARGUMENT, __VA_ARGS__)
+
+/* ---- lines and cells ----------------------------------------------------------------------- */
+
+/* The cells of a line, in place; their number. */
+static size_t split(char *text, char separator, char *cell[MOST_COLUMNS])
+{
+  size_t n = 0;
+  char *at = text;
+  while (n < MOST_COLUMNS) {
+    at += strspn(at, " \t\r" + (separator == '\t' ? 2 : 0));
+    if (separator == ' ' && *at == '\0') break;
+    char *end = at + strcspn(at, separator == ' ' ? " \t" : (char[]){separator, '\0'});
+    const int last = *end == '\0';
+    *end = '\0';
+    for (char *tail = end; tail > at && strchr(" \t\r", tail[-1]) != NULL;) *--tail = '\0';
+    /* Names may stand in quotes. */
+    const size_t length = strlen(at);
+    if (length > 1 && at[0] == '"' && at[length - 1] == '"') {
+      at[length - 1] = '\0';
+      at++;
+    }
+    cell[n++] = at;
+    if (last) break;
+    at = end + 1;
+  }
+  return n;
+}
+
+static int number_of(const char *cell, double *out)
+{
+  char *end;
+  *out = strtod(cell, &end);
+  return end != cell && *end == '\0';
+}
+
+/* What separates cells of a line. */
+static char separator_of(const char *line)
+{
+  static const char known[] = ";\t,";
+  for (size_t i = 0; known[i] != '\0'; i++)
+    if (strchr(line, known[i]) != NULL) return known[i];
+  return ' ';
+}
+
+/* ---- columns ------------------------------------------------------------------------------- */
+
+/* The column of a name or a number, told by the deck; NONE, and a failure, if there is none. */
+static int column_of(const reader *r, const char *word)
+{
+  double number;
+  char list[300] = "";
+  for (size_t i = 0; i < r->names; i++)
+    if (r->name[i][0] != '\0' && strcmp(r->name[i], word) == 0) return (int)i;
+  if (number_of(word, &number) && number == floor(number) && number >= 1.0 &&
+      number <= (double)r->names)
+    return (int)number - 1;
+  for (size_t i = 0; i < r->names; i++)
+    snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
+             r->name[i][0] != '\0' ? r->name[i] : "(no name)");
+  FAIL(r, "%s:%zu: there is no column '%.60s' among the %zu that the file has (%s): give names "
+       "or numbers from 1 on in data.columns", r->out->path, r->line, word, r->names, list);
+  return NONE;
+}
+
+/* The parameter that differs between sweeps. */
+static int is_parameter(const reader *r, const char *role, pendres_parameter *p)
+{
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
+    if (strcmp(pendres_parameter_of((pendres_parameter)k)->name, role) == 0 &&
+        (pendres_parameter)k != r->out->of.axis) {
+      *p = (pendres_parameter)k;
+      return 1;
+    }
+  return 0;
+}
+
+/* Take a column in a role by name; 0: it is none. */
+static int take_role(reader *r, const char *role, int column)
+{
+  pendres_parameter p;
+  if (strcmp(role, "direction") == 0) {
+    r->direction = column;
+    return 1;
+  }
+  if (strcmp(role, "axis") == 0 || strcmp(role, r->d->data.axis) == 0) {
+    r->axis = column;
+    return 1;
+  }
+  for (size_t i = 0; i < r->observables; i++) {
+    const char *name = pendres_fit_observable_name((int)r->kind[i]);
+    const size_t n = strlen(name);
+    if (strncmp(role, name, n) != 0) continue;
+    if (role[n] == '\0') r->observable[i] = column;
+    else if (strcmp(role + n, "_error") == 0) r->error[i] = column;
+    else continue;
+    return 1;
+  }
+  if (strcmp(role, "error") == 0 && r->observables == 1) {
+    r->error[0] = column;
+    return 1;
+  }
+  if (!is_parameter(r, role, &p)) return 0;
+  r->out->of.other = p;
+  r->other = column;
+  return 1;
+}
+
+/* Columns that stand without a role, in their order: axis, observables, their errors, direction. */
+static void take_in_order(reader *r, size_t n, const int *column)
+{
+  const size_t m = r->observables;
+  size_t k = 0;
+  if (r->axis == NONE && k < n) r->axis = column[k++];
+  for (size_t i = 0; i < m && k < n; i++)
+    if (r->observable[i] == NONE) r->observable[i] = column[k++];
+  /* One more than there are observables: the last is the direction. */
+  const int errors = n - k >= m && r->error[0] == NONE;
+  for (size_t i = 0; i < m && errors; i++) r->error[i] = column[k++];
+  if (k < n && r->direction == NONE) r->direction = column[k++];
+  if (k < n)
+    FAIL(r, "data.columns has %zu columns more than there are roles for: axis, %zu observable%s, "
+         "%s errors, direction; say what the others are, as 'drive_amplitude=%d'", n - k, m,
+         m == 1 ? "" : "s", m == 1 ? "its" : "their", column[k] + 1);
+}
+
+static void take_told(reader *r)
+{
+  const deck_names *told = &r->d->data.columns;
+  int column[MOST_COLUMNS];
+  size_t n = 0;
+  for (size_t i = 0; i < told->count && scene_going(r->run); i++) {
+    char word[DECK_NAME];
+    snprintf(word, sizeof word, "%s", told->name[i]);
+    char *equals = strchr(word, '=');
+    if (equals != NULL) *equals = '\0';
+    const int at = column_of(r, equals != NULL ? equals + 1 : word);
+    if (at == NONE) return;
+    if (equals != NULL && !take_role(r, word, at))
+      FAIL(r, "data.columns: '%s' is no role: roles are axis, the observables, these with _error, "
+           "direction, and a parameter", word);
+    /* A name that is a role in itself says more than its place. */
+    if (equals == NULL && !(r->name[at][0] != '\0' && (strcmp(r->name[at], "direction") == 0) &&
+                            take_role(r, r->name[at], at)) &&
+        n < MOST_COLUMNS)
+      column[n++] = at;
+  }
+  if (scene_going(r->run)) take_in_order(r, n, column);
+}
+
+static void find_columns(reader *r)
+{
+  if (r->d->data.columns.count > 0) {
+    take_told(r);
+  } else {
+    int named = 0;
+    for (size_t i = 0; i < r->names; i++)
+      named += r->name[i][0] != '\0' && take_role(r, r->name[i], (int)i);
+    const int first[MOST_COLUMNS] = {0, 1, 2, 3};
+    if (named == 0) take_in_order(r, r->names < 4 ? r->names : 4, first);
+  }
+  if (!scene_going(r->run)) return;
+  const char *missing = r->axis == NONE ? r->d->data.axis : NULL;
+  for (size_t i = 0; i < r->observables; i++)
+    if (r->observable[i] == NONE && missing == NULL)
+      missing = pendres_fit_observable_name((int)r->kind[i]);
+  if (missing != NULL)
+    FAIL(r, "%s:%zu: no column of '%s' is known: name it in the first line, or tell the columns in "
+         "data.columns", r->out->path, r->line, missing);
+}
+
+/* The first line that is no comment: names, or the first data. Returns whether it has names. */
+static int read_head(reader *r, char *line)
+{
+  char *cell[MOST_COLUMNS];
+  double unused;
+  int names = 0;
+  r->separator = separator_of(line);
+  r->names = split(line, r->separator, cell);
+  for (size_t i = 0; i < r->names; i++) {
+    const int word = !number_of(cell[i], &unused);
+    names |= word && strcmp(cell[i], "up") != 0 && strcmp(cell[i], "down") != 0;
+  }
+  for (size_t i = 0; i < r->names && names; i++)
+    snprintf(r->name[i], CELL, "%.*s", CELL - 1, cell[i]);
+  find_columns(r);
+  return names;
+}
+
+/* ---- data ---------------------------------------------------------------------------------- */
+
+static double read_number(const reader *r, size_t n, char *const *cell, int column,
+                          const char *what)
+{
+  double x = NAN;
+  if (!scene_going(r->run)) return NAN;
+  if (column >= (int)n)
+    FAIL(r, "%s:%zu: the line has %zu columns, and column %d is to be the %s: complete or remove "
+         "the line", r->out->path, r->line, n, column + 1, what);
+  else if (!number_of(cell[column], &x))
+    FAIL(r, "%s:%zu: '%.60s' in column %d is no number, and is to be the %s%s", r->out->path,
+         r->line, cell[column], column + 1, what,
+         strchr(cell[column], ',') != NULL ? ": decimals have a point" : ": correct or remove it");
+  else if (!isfinite(x))
+    FAIL(r, "%s:%zu: the %s in column %d is not finite: remove the line, or make it a comment "
+         "by #", r->out->path, r->line, what, column + 1);
+  return x;
+}
+
+static int read_direction(const reader *r, size_t n, char *const *cell)
+{
+  if (r->direction == NONE) return 0;
+  if (r->direction < (int)n && strcmp(cell[r->direction], "up") == 0) return 1;
+  if (r->direction < (int)n && strcmp(cell[r->direction], "down") == 0) return -1;
+  const double x = read_number(r, n, cell, r->direction, "direction (1, -1, up or down)");
+  if (scene_going(r->run) && x == 0.0)
+    FAIL(r, "%s:%zu: a direction is 1 or up, -1 or down, not 0", r->out->path, r->line);
+  return x > 0.0 ? 1 : -1;
+}
+
+/* Room for one more line's data. */
+static int make_room(reader *r)
+{
+  fit_data *out = r->out;
+  if (out->of.n + r->observables <= r->room) return 1;
+  r->room = 2 * r->room + 256;
+  pendres_fit_datum *more = scene_array(r->run, r->room, sizeof *more);
+  if (more == NULL) return 0;
+  if (out->of.n > 0) memcpy(more, out->datum, out->of.n * sizeof *more);
+  out->datum = more;
+  return 1;
+}
+
+static void read_line(reader *r, char *line)
+{
+  const deck *d = r->d;
+  char *cell[MOST_COLUMNS];
+  const size_t n = split(line, r->separator, cell);
+  pendres_fit_datum one = {.axis = read_number(r, n, cell, r->axis, "axis")};
+  one.direction = read_direction(r, n, cell);
+  if (r->other != NONE) one.other = read_number(r, n, cell, r->other, "parameter of the sweep");
+  for (size_t i = 0; i < r->observables && scene_going(r->run); i++) {
+    one.observable = r->kind[i];
+    one.observed = read_number(r, n, cell, r->observable[i],
+                               pendres_fit_observable_name((int)r->kind[i]));
+    one.error = r->error[i] != NONE
+                  ? read_number(r, n, cell, r->error[i], "standard error")
+                  : hypot(d->data.error, d->data.relative_error * one.observed);
+    if (r->error[i] != NONE && scene_going(r->run) && !(one.error > 0.0))
+      FAIL(r, "%s:%zu: the standard error must be above 0: give all data one, or leave the column "
+           "out", r->out->path, r->line);
+    if (scene_going(r->run) && make_room(r)) r->out->datum[r->out->of.n++] = one;
+  }
+}
+
+/* Without a column the order of the lines tells the direction, sweep by sweep: that to the next
+   line, for the last one of a sweep that from the line before. */
+static void set_directions(reader *r)
+{
+  fit_data *out = r->out;
+  const size_t m = r->observables, lines = out->of.n / m;
+  const char *told = r->d->data.direction;
+  for (size_t i = 0; i < lines && r->direction == NONE; i++) {
+    const pendres_fit_datum *here = &out->datum[i * m];
+    const pendres_fit_datum *next = i + 1 < lines ? here + m : NULL;
+    const pendres_fit_datum *last = i > 0 ? here - m : NULL;
+    int way = 1;
+    if (last != NULL && last->other == here->other && last->axis != here->axis)
+      way = here->axis > last->axis ? 1 : -1;
+    else if (next != NULL && next->other == here->other)
+      way = next->axis >= here->axis ? 1 : -1;
+    if (strcmp(told, "up") == 0) way = 1;
+    if (strcmp(told, "down") == 0) way = -1;
+    for (size_t k = 0; k < m; k++) out->datum[i * m + k].direction = way;
+  }
+}
+
+/* ---- the file ------------------------------------------------------------------------------ */
+
+/* From the deck's folder, unless the path begins at the root. */
+static FILE *open_file(reader *r)
+{
+  const char *file = r->d->data.file, *slash = strrchr(r->d->name, '/');
+  const int folder = file[0] != '/' && slash != NULL ? (int)(slash - r->d->name) + 1 : 0;
+  const int length =
+    snprintf(r->out->path, sizeof r->out->path, "%.*s%s", folder, r->d->name, file);
+  if (length < 0 || (size_t)length >= sizeof r->out->path) {
+    FAIL(r, "data.file: the path is too long");
+    return NULL;
+  }
+  FILE *in = fopen(r->out->path, "r");
+  if (in == NULL)
+    FAIL(r, "%s: %s: data.file is looked for from the deck's folder", r->out->path,
+         strerror(errno));
+  return in;
+}
+
+static void read_lines(reader *r, FILE *in)
+{
+  char *line = NULL;
+  size_t size = 0;
+  ssize_t length;
+  int head = 0;
+  while (scene_going(r->run) && (length = getline(&line, &size, in)) >= 0) {
+    r->line++;
+    if (strlen(line) != (size_t)length) {
+      FAIL(r, "%s:%zu: a zero byte: data are read as text", r->out->path, r->line);
+      break;
+    }
+    char *from = r->line == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0 ? line + 3 : line;
+    from[strcspn(from, "#!\n")] = '\0';
+    if (from[strspn(from, " \t\r")] == '\0') continue;
+    if (!head) {
+      char *copy = strdup(from);
+      if (copy == NULL) {
+        (void)scene_fail(r->run, PENDRES_OUT_OF_MEMORY, "out of memory for data");
+        break;
+      }
+      head = 1;
+      const int names = read_head(r, copy);
+      free(copy);
+      if (names) continue;
+    }
+    if (scene_going(r->run)) read_line(r, from);
+  }
+  if (ferror(in)) (void)scene_fail(r->run, PENDRES_IO, "%s: %s", r->out->path, strerror(errno));
+  free(line);
+}
+
+void fit_data_read(scene_run *run, fit_data *out)
+{
+  const deck *d = run->deck;
+  reader r = {.run = run, .d = d, .out = out, .axis = NONE, .direction = NONE, .other = NONE};
+  *out = (fit_data){.of = {.other = PENDRES_PARAMETER_COUNT}};
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
+    if (strcmp(pendres_parameter_of((pendres_parameter)k)->name, d->data.axis) == 0)
+      out->of.axis = (pendres_parameter)k;
+  for (int k = 0; k < PENDRES_FIT_OBSERVABLE_COUNT; k++) r.observable[k] = r.error[k] = NONE;
+  for (size_t i = 0; i < d->data.observables.count; i++)
+    for (int k = 0; k < PENDRES_FIT_OBSERVABLE_COUNT; k++)
+      if (strcmp(d->data.observables.name[i], pendres_fit_observable_name(k)) == 0)
+        r.kind[r.observables++] = (pendres_fit_observable)k;
+  if (r.observables == 0) r.kind[r.observables++] = PENDRES_FIT_AMPLITUDE;
+  FILE *in = open_file(&r);
+  if (in == NULL) return;
+  read_lines(&r, in);
+  (void)fclose(in);
+  if (scene_going(run) && out->of.n == 0)
+    FAIL(&r, "%s: there are no data in the file", out->path);
+  if (!scene_going(run)) return;
+  set_directions(&r);
+  out->of.datum = out->datum;
+}

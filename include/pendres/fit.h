@@ -1,0 +1,216 @@
+/**
+ * @file fit.h
+ * @brief Parameters of an oscillator from measured responses.
+ *
+ * Owns: the fit of a model's responses to data that were taken while one parameter was swept, up,
+ * down, or both, at one or several values of another parameter: values of damping, drive, force and
+ * of the scales of an instrument, with their covariance.
+ *
+ * The model is the orbit of one drive period that the oscillator is on: the curve of orbits is
+ * followed along the axis, through its folds, and at a fold the state jumps to the next stable part
+ * of the curve. Derivatives by the unknowns come from the equations of sensitivity along the curve;
+ * no differences are taken. Where the model jumps, and where the data do, is compared as well:
+ * docs/fit.md describes how a datum between the two counts.
+ *
+ * Method: least squares by Levenberg and Marquardt (GSL's gsl_multifit_nlinear), from several
+ * starts. Source: Nocedal and Wright, Numerical Optimization, chapter 10; Moré, Lecture Notes in
+ * Mathematics 630 (1978) 105; for the guesses the balance of the first harmonic: Nayfeh and Mook,
+ * Nonlinear Oscillations, chapter 4.
+ */
+#ifndef PENDRES_FIT_H
+#define PENDRES_FIT_H
+
+#include <stddef.h>
+
+#include <pendres/context.h>
+#include <pendres/orbit.h>
+#include <pendres/parameter.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** What may be measured: X(code, name). Lengths are in the instrument's unit, times the scale. */
+#define PENDRES_FIT_OBSERVABLE_LIST(X)                     \
+  X(AMPLITUDE, "amplitude")                                \
+  X(RMS, "rms")                                            \
+  X(FIRST_HARMONIC, "first_harmonic_amplitude")            \
+  X(PHASE_LAG, "phase_lag")                                \
+  X(IN_PHASE, "in_phase")                                  \
+  X(QUADRATURE, "quadrature")                              \
+  X(LOOP_AREA, "loop_area")
+
+/**
+ * An observable. AMPLITUDE: half the peak-to-peak; RMS: the root mean square of the distance from
+ * the mean; FIRST_HARMONIC: its amplitude; PHASE_LAG: by which the first harmonic lags behind the
+ * drive, in rad; IN_PHASE and QUADRATURE: R cos(lag) and R sin(lag) of it; LOOP_AREA: work of the
+ * drive a cycle. PENDRES_FIT_OBSERVABLE_COUNT: how many there are.
+ */
+typedef enum pendres_fit_observable {
+#define PENDRES_FIT_OBSERVABLE_CODE(code, name) PENDRES_FIT_##code,
+  PENDRES_FIT_OBSERVABLE_LIST(PENDRES_FIT_OBSERVABLE_CODE)
+#undef PENDRES_FIT_OBSERVABLE_CODE
+  PENDRES_FIT_OBSERVABLE_COUNT /**< how many there are; not an observable */
+} pendres_fit_observable;
+
+/** Scales of an instrument by name: X(code, name, neutral value). */
+#define PENDRES_FIT_SCALE_LIST(X)                           \
+  X(FREQUENCY_SCALE, "frequency_scale", 1.0)                \
+  X(DRIVE_SCALE, "drive_scale", 1.0)                        \
+  X(AMPLITUDE_SCALE, "amplitude_scale", 1.0)                \
+  X(OFFSET, "offset", 0.0)                                  \
+  X(PHASE_OFFSET, "phase_offset", 0.0)                      \
+  X(BACKGROUND_IN_PHASE, "background_in_phase", 0.0)        \
+  X(BACKGROUND_QUADRATURE, "background_quadrature", 0.0)
+
+/**
+ * What a fit may find: the parameters by their numbers, pendres_parameter below
+ * PENDRES_PARAMETER_FOLLOWED, and from there on the scales. FREQUENCY_SCALE: a frequency of the
+ * data over that of the model, as the frequency in Hz of small oscillations where the model's is 1;
+ * DRIVE_SCALE: the model's drive amplitude over the data's; AMPLITUDE_SCALE: the instrument's
+ * reading over the model's length (amplitude, rms, first harmonic, quadratures); OFFSET: added to
+ * amplitudes and rms; PHASE_OFFSET: added to lags, also of quadratures; BACKGROUND_...: added to
+ * the quadratures. PENDRES_FIT_QUANTITY_COUNT: how many there are.
+ */
+typedef enum pendres_fit_quantity {
+  PENDRES_FIT_PARAMETER_LAST = PENDRES_PARAMETER_FOLLOWED - 1, /**< the last parameter */
+#define PENDRES_FIT_SCALE_CODE(code, name, neutral) PENDRES_FIT_##code,
+  PENDRES_FIT_SCALE_LIST(PENDRES_FIT_SCALE_CODE)
+#undef PENDRES_FIT_SCALE_CODE
+  PENDRES_FIT_QUANTITY_COUNT /**< how many there are; not a quantity */
+} pendres_fit_quantity;
+
+/** Name of a quantity, as in decks; NULL out of range. Thread safe. */
+const char *pendres_fit_quantity_name(int quantity);
+/** Name of an observable; NULL out of range. Thread safe. */
+const char *pendres_fit_observable_name(int observable);
+
+/** A quantity whose value is sought, or one that has a value other than the pendulum's. */
+typedef struct pendres_fit_unknown {
+  int quantity;       /**< which one; see pendres_fit_quantity */
+  int fixed;          /**< nonzero: `guess` is its value */
+  double guess;       /**< where to begin; NaN: from the data (amplitudes, rms, quadratures or loop
+                           areas tell damping, drive, a1, a3 and scales; of others it is 0) */
+  double low, high;   /**< bounds; both 0: none */
+  double prior, prior_error; /**< a Gaussian prior, its mean and standard deviation; 0: none */
+} pendres_fit_unknown;
+
+/** A number that was measured. */
+typedef struct pendres_fit_datum {
+  pendres_fit_observable observable; /**< what it is of */
+  int direction;      /**< 1: while the axis grew, -1: fell */
+  double axis;        /**< value of the swept parameter, in the data's unit */
+  double other;       /**< value of the other parameter; not read if there is none */
+  double observed;    /**< the number */
+  double error;       /**< its standard error; 0 in all data: not known, and found from the fit */
+} pendres_fit_datum;
+
+/** All of them. */
+typedef struct pendres_fit_data {
+  size_t n;                       /**< how many */
+  const pendres_fit_datum *datum; /**< [n], in any order; not kept */
+  pendres_parameter axis;         /**< the parameter that was swept, below
+                                       PENDRES_PARAMETER_FOLLOWED */
+  pendres_parameter other;        /**< one that differs between sweeps; PENDRES_PARAMETER_COUNT:
+                                       none */
+} pendres_fit_data;
+
+/** What is fitted. */
+typedef struct pendres_fit_model {
+  pendres_pendulum pendulum; /**< its force, and the parameters that are neither unknowns nor vary
+                                  with the data; the others are not read */
+  size_t unknowns;           /**< how many, free and fixed */
+  const pendres_fit_unknown *unknown; /**< [unknowns], each quantity once, at least one of them
+                                           free; not kept */
+} pendres_fit_model;
+
+/** How to fit. Zero in a field: default. */
+typedef struct pendres_fit_options {
+  size_t size;       /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
+  double huber;      /**< standard errors beyond which a residual counts linearly; 0: none does */
+  double jump_error; /**< standard error of the axis at a jump beside the spacing of the data, as
+                          noise makes states jump early; in the data's unit */
+  int starts;        /**< most starts that are tried; 6 */
+  int iterations;    /**< most steps from each of them; 60 */
+} pendres_fit_options;
+
+/** What a fit says of a datum. */
+typedef struct pendres_fit_point {
+  double modelled;       /**< the model's value, in the data's unit */
+  double modelled_error; /**< its standard error, from the covariance */
+  double residual;       /**< observed less modelled (of lags the nearest) */
+  double error;          /**< standard error of the datum that was used */
+  int part;              /**< number of jumps that the oscillator has made before */
+  int beyond;            /**< 1: the model's state ends before the datum, and the value is that at
+                              its end */
+  pendres_orbit_guess orbit; /**< where the orbit of the model is */
+} pendres_fit_point;
+
+/** A jump of the model. */
+typedef struct pendres_fit_jump {
+  double value;          /**< of the axis at which the model's state ends, in the data's unit */
+  double value_error;    /**< its standard error */
+  double measured[2];    /**< the data jump between these; NaN: beyond the data */
+  int direction;         /**< 1: the axis grows, -1: it falls */
+  double other;          /**< value of the other parameter; NaN: there is none */
+} pendres_fit_jump;
+
+/** The numbers of a fit. */
+typedef struct pendres_fit_summary {
+  size_t unknowns;       /**< free ones */
+  size_t data;           /**< how many data there are */
+  double chi_square;     /**< of data, jumps between data, and priors */
+  double degrees_of_freedom; /**< their number less that of the unknowns */
+  double probability;    /**< of a larger chi_square by chance; NaN where errors are not known */
+  double remaining;      /**< by how much chi_square may still fall, by the last derivatives */
+  int converged;         /**< 1: by less than a thousandth */
+  int determined;        /**< 0: the data leave a combination of the unknowns open */
+  int iterations;        /**< steps, of all starts together */
+  int evaluations;       /**< sets of parameters at which the model was computed */
+} pendres_fit_summary;
+
+/** Opaque: a fit. */
+typedef struct pendres_fit pendres_fit;
+
+/**
+ * Fit a model to data.
+ *
+ * @param ctx      belongs to one thread at a time
+ * @param data     read, not kept
+ * @param model    read, not kept
+ * @param options  NULL: defaults
+ * @param out      to be freed by pendres_fit_free(); NULL on failure, except for
+ *                 PENDRES_NOT_CONVERGED, with which it has the best values so far
+ * @return PENDRES_INVALID_ARGUMENT with a message (fewer data than unknowns, a value that is no
+ *         number, an unknown that the data cannot have), PENDRES_NOT_CONVERGED, or failures of the
+ *         integration. Thread safety: as for the context.
+ */
+pendres_status pendres_fit_find(pendres_context *ctx, const pendres_fit_data *data,
+                                const pendres_fit_model *model,
+                                const pendres_fit_options *options, pendres_fit **out);
+/** Free a fit; NULL is allowed. */
+void pendres_fit_free(pendres_fit *fit);
+
+/** The numbers; all 0 for NULL. */
+pendres_fit_summary pendres_fit_summary_get(const pendres_fit *fit);
+/** Value of an unknown by its number among all unknowns of the call; NaN out of range. */
+double pendres_fit_value(const pendres_fit *fit, size_t unknown);
+/** Covariance of two of them; the square of an error where both are one; 0 of fixed ones; INFINITY
+    where the data do not determine it. NaN out of range. */
+double pendres_fit_covariance(const pendres_fit *fit, size_t first, size_t second);
+/** Datum number i in the order of the call, owned by the fit; NULL out of range. */
+const pendres_fit_point *pendres_fit_point_get(const pendres_fit *fit, size_t i);
+/** How many jumps there are. */
+size_t pendres_fit_jump_count(const pendres_fit *fit);
+/** Jump number i, owned by the fit; NULL out of range. */
+const pendres_fit_jump *pendres_fit_jump_get(const pendres_fit *fit, size_t i);
+/** Sentences about what the numbers do not show, as what the data leave open: number i, owned by
+    the fit; NULL beyond the last. */
+const char *pendres_fit_note_get(const pendres_fit *fit, size_t i);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

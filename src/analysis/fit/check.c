@@ -1,0 +1,91 @@
+/* check.c -- whether arguments can be fitted; see call.h. */
+#include "analysis/fit/call.h"
+
+#include <math.h>
+
+#include "base/sized.h"
+
+static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_datum *one)
+{
+  if ((unsigned)one->observable >= FIT_BASES) return "a datum is of no observable that there is";
+  if (one->direction != 1 && one->direction != -1) return "the direction of a datum is 1 or -1";
+  if (!isfinite(one->axis) || !isfinite(one->observed)) return "a datum is no finite number";
+  if (!isfinite(one->error) || one->error < 0.0)
+    return "a standard error is no finite number from 0 on";
+  if (pendres_parameter_of(d->axis)->positive && !(one->axis > 0.0))
+    return "the swept parameter must be positive";
+  if (d->other == PENDRES_PARAMETER_COUNT) return NULL;
+  if (!isfinite(one->other)) return "the other parameter of a datum is no finite number";
+  if (pendres_parameter_of(d->other)->positive && !(one->other > 0.0))
+    return "the other parameter of a datum must be positive";
+  return NULL;
+}
+
+static const char *refuses_data(const pendres_fit_data *d)
+{
+  size_t known = 0;
+  if ((unsigned)d->axis >= PENDRES_PARAMETER_FOLLOWED) return "the axis is no parameter of orbits";
+  if (d->other != PENDRES_PARAMETER_COUNT && (unsigned)d->other >= PENDRES_PARAMETER_FOLLOWED)
+    return "the other parameter is no parameter of orbits";
+  if (d->axis == d->other) return "the axis and the other parameter are the same";
+  if (d->n > 0 && d->datum == NULL) return "there are no data";
+  for (size_t i = 0; i < d->n; i++) {
+    const char *why = refuses_datum(d, &d->datum[i]);
+    if (why != NULL) return why;
+    known += d->datum[i].error > 0.0;
+  }
+  if (known != 0 && known != d->n) return "some data have a standard error and others have none";
+  return NULL;
+}
+
+static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_unknown *u)
+{
+  const int q = u->quantity;
+  if (q < 0 || q >= FIT_QUANTITIES) return "an unknown is no quantity that there is";
+  if (q == (int)c->data->axis || q == (int)c->data->other)
+    return "an unknown is given by the data: scales of them may be unknown instead";
+  const int drives = c->data->axis == PENDRES_DRIVE_AMPLITUDE ||
+                     c->data->other == PENDRES_DRIVE_AMPLITUDE;
+  if (q == PENDRES_FIT_DRIVE_SCALE && !drives)
+    return "drive_scale is of drives that the data give, and they give none";
+  const int clocks = c->data->axis == PENDRES_DRIVE_FREQUENCY ||
+                     c->data->other == PENDRES_DRIVE_FREQUENCY;
+  if (q == PENDRES_FIT_FREQUENCY_SCALE && !clocks)
+    return "frequency_scale is of frequencies that the data give, and they give none";
+  const int coefficient = q < PENDRES_PARAMETER_FOLLOWED
+                            ? pendres_parameter_of((pendres_parameter)q)->coefficient : 0;
+  if (coefficient > pendres_model_of(c->model->pendulum.force)->coefficients)
+    return "an unknown is a coefficient that the force does not have";
+  if (u->fixed && !isfinite(u->guess)) return "a fixed unknown has no finite value";
+  if (isinf(u->guess) || !isfinite(u->low) || !isfinite(u->high) || u->low > u->high)
+    return "a guess or bounds of an unknown are no numbers, or do not ascend";
+  if (!isfinite(u->prior) || !(u->prior_error >= 0.0) || !isfinite(u->prior_error))
+    return "the prior of an unknown is no number";
+  return NULL;
+}
+
+pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c)
+{
+  size_t open = 0;
+  const char *why = pendres_model_of(c->model->pendulum.force) == NULL ? "the pendulum has no force" : NULL;
+  if (why == NULL) why = refuses_data(c->data);
+  if (why == NULL && PENDRES_SIZED_REFUSES(&c->options) != NULL)
+    why = PENDRES_SIZED_REFUSES(&c->options);
+  if (why == NULL && !(c->options.huber >= 0.0 && c->options.jump_error >= 0.0 &&
+                       c->options.starts >= 0 && c->options.iterations >= 0))
+    why = "an option is negative or no number";
+  for (size_t i = 0; i < c->model->unknowns && why == NULL; i++) {
+    why = refuses_unknown(c, &c->model->unknown[i]);
+    open += !c->model->unknown[i].fixed;
+    for (size_t k = 0; k < i && why == NULL; k++)
+      if (c->model->unknown[k].quantity == c->model->unknown[i].quantity) why = "an unknown is given twice";
+  }
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
+  if (open == 0)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "nothing is free to be fitted");
+  if (c->data->n <= open)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "%zu data do not determine %zu unknowns: take more data or fix some",
+                                c->data->n, open);
+  return PENDRES_OK;
+}

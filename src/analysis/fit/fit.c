@@ -1,0 +1,336 @@
+/* fit.c -- parameters from measured responses; see fit.h. */
+#include "analysis/fit/call.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/door.h"
+
+/* ---- before the fit ---- */
+
+static void set_start(pendres_fit_call *c)
+{
+  static const double neutral[] = {
+#define SCALE_NEUTRAL(code, name, value) value,
+    PENDRES_FIT_SCALE_LIST(SCALE_NEUTRAL)
+#undef SCALE_NEUTRAL
+  };
+  for (int q = 0; q < FIT_QUANTITIES; q++)
+    c->start[q] = q < PENDRES_PARAMETER_FOLLOWED
+                    ? pendres_parameter_get((pendres_parameter)q, &c->model->pendulum)
+                    : neutral[q - PENDRES_PARAMETER_FOLLOWED];
+  for (int q = 0; q < FIT_QUANTITIES; q++)
+    if (isnan(c->start[q]) || q == (int)c->data->axis || q == (int)c->data->other) c->start[q] = 0.0;
+  for (size_t i = 0; i < c->model->unknowns; i++) c->start[c->model->unknown[i].quantity] = c->model->unknown[i].guess;
+}
+
+/* The blocks with the fewest rows that give the derivatives. */
+static void set_parameters(const pendres_fit_call *c, fit_model *m)
+{
+  int wanted[PENDRES_PARAMETER_FOLLOWED] = {0}, last = 0;
+  wanted[m->axis] = 1;
+  if (m->other != PENDRES_PARAMETER_COUNT) wanted[m->other] = 1;
+  for (size_t i = 0; i < c->model->unknowns; i++)
+    if (!c->model->unknown[i].fixed && c->model->unknown[i].quantity < PENDRES_PARAMETER_FOLLOWED)
+      wanted[c->model->unknown[i].quantity] = 1;
+  for (int q = 0; q < PENDRES_PARAMETER_FOLLOWED; q++) {
+    if (!wanted[q]) continue;
+    m->parameter[m->parameters++] = q;
+    last = q;
+  }
+  m->flow = last <= (int)PENDRES_DRIVE_AMPLITUDE        ? PENDRES_FLOW_SENSITIVITY
+            : last <= (int)PENDRES_PARAMETRIC_AMPLITUDE ? PENDRES_FLOW_DRIVES
+                                                        : PENDRES_FLOW_ALL;
+}
+
+/* A pendulum with these values and the data's middle, by which units are chosen. */
+static pendres_pendulum typical(const pendres_fit_call *c, const fit_model *m, const fit_values v)
+{
+  pendres_pendulum p = c->model->pendulum;
+  for (int q = 0; q < PENDRES_PARAMETER_FOLLOWED; q++)
+    pendres_parameter_set((pendres_parameter)q, v[q], &p);
+  const fit_curve *last = &m->curve[m->curves - 1];
+  pendres_parameter_set(m->axis, pendres_fit_in(m, m->axis, v, 0.5 * (last->from + last->to)), &p);
+  if (m->other != PENDRES_PARAMETER_COUNT)
+    pendres_parameter_set(m->other, pendres_fit_in(m, m->other, v, last->other), &p);
+  p.temperature = 0.0;
+  return p;
+}
+
+static void set_units(fit_model *m, const pendres_units *u)
+{
+  for (int q = 0; q < PENDRES_PARAMETER_FOLLOWED; q++)
+    m->unit[q] = pendres_units_of_parameter(u, (pendres_parameter)q);
+  m->unit[PENDRES_FIT_FREQUENCY_SCALE] = u->time;
+  m->unit[PENDRES_FIT_DRIVE_SCALE] = m->unit[PENDRES_DRIVE_AMPLITUDE];
+  m->unit[PENDRES_FIT_AMPLITUDE_SCALE] = 1.0 / u->length;
+  m->area = u->length * u->length / (u->time * u->time);
+}
+
+static void scale_values(const fit_model *m, const fit_values v, fit_values out)
+{
+  for (int q = 0; q < FIT_QUANTITIES; q++) out[q] = v[q] / m->unit[q];
+}
+
+/* ---- errors that are not known ---- */
+
+static int ascending(const void *a, const void *b)
+{
+  const double p = *(const double *)a, q = *(const double *)b;
+  return (p > q) - (p < q);
+}
+
+/* The scatter of an observable: the median of second differences of neighbours, which a smooth
+   response hardly has, and jumps do not change. */
+static double scatter_of(const fit_model *m, pendres_fit_observable o, double *work)
+{
+  size_t n = 0;
+  double largest = 0.0;
+  for (size_t k = 0; k < m->tracks; k++) {
+    double last[2] = {NAN, NAN};
+    for (size_t i = m->track[k].first; i < m->track[k].first + m->track[k].count; i++)
+      for (size_t j = m->station[i].first; j < m->station[i].first + m->station[i].count; j++) {
+        const pendres_fit_datum *d = &m->datum[m->order[j]];
+        if (d->observable != o) continue;
+        const double second = d->observed - 2.0 * last[1] + last[0];
+        if (!isnan(second)) work[n++] = fabs(second);
+        last[0] = last[1];
+        last[1] = d->observed;
+        largest = fmax(largest, fabs(d->observed));
+      }
+  }
+  qsort(work, n, sizeof *work, ascending);
+  const double median = n > 0 ? work[n / 2] / (0.6745 * sqrt(6.0)) : 0.0;
+  return fmax(median, 1e-6 * largest + 1e-300);
+}
+
+static void set_errors(const pendres_fit_call *c, const fit_model *m, double *error, double *work)
+{
+  double scatter[FIT_BASES] = {0.0};
+  for (int o = 0; o < FIT_BASES && !c->errors_known; o++)
+    if (m->measured[o]) scatter[o] = scatter_of(m, (pendres_fit_observable)o, work);
+  for (size_t i = 0; i < m->data; i++)
+    error[i] = c->errors_known ? m->datum[i].error : scatter[m->datum[i].observable];
+}
+
+/* ---- the fit ---- */
+
+static pendres_status take_room(fit_problem *p, fit_result *best, fit_result *now, size_t unknowns,
+                                pendres_room *room)
+{
+  const size_t rows = pendres_fit_rows(p->m) + unknowns, n = unknowns;
+  p->unknowns = unknowns;
+  p->free = pendres_room_take(room, n, sizeof *p->free);
+  p->x = pendres_room_take(room, n, sizeof *p->x);
+  p->rows.rows = rows;
+  p->rows.residual = pendres_room_take(room, rows, sizeof *p->rows.residual);
+  p->rows.slope = pendres_room_take(room, rows, sizeof *p->rows.slope);
+  p->rows.used = pendres_room_take(room, p->m->tracks * FIT_STAGES, sizeof *p->rows.used);
+  p->rows.from = pendres_room_take(room, p->m->stations + 1, sizeof *p->rows.from);
+  fit_result *both[] = {best, now};
+  for (int k = 0; k < 2; k++) {
+    both[k]->covariance = pendres_room_take(room, n * n, sizeof *both[k]->covariance);
+    both[k]->open = pendres_room_take(room, n, sizeof *both[k]->open);
+    both[k]->at_bound = pendres_room_take(room, n, sizeof *both[k]->at_bound);
+  }
+  return room->status;
+}
+
+static void set_free(const pendres_fit_call *c, fit_problem *p)
+{
+  size_t k = 0;
+  for (size_t i = 0; i < c->model->unknowns; i++) {
+    const pendres_fit_unknown *u = &c->model->unknown[i];
+    const double unit = p->m->unit[u->quantity];
+    if (u->fixed) continue;
+    p->free[k++] = (fit_free){.of = u, .quantity = u->quantity, .low = u->low / unit,
+                              .high = u->high / unit, .prior = u->prior / unit,
+                              .prior_error = u->prior_error / unit};
+  }
+}
+
+static int is_better(const fit_result *a, const fit_result *b)
+{
+  if (!b->computed || !a->computed) return a->computed;
+  return a->chi_square < b->chi_square;
+}
+
+/* Put the starts into the order of their chi-square: guesses know nothing of jumps. Those without a
+   model come last. */
+static pendres_status order_starts(fit_problem *p, int starts, fit_values *start)
+{
+  double chi[FIT_GUESSES + 1];
+  for (int k = 0; k < starts; k++) {
+    fit_values v, at;
+    memcpy(at, start[k], sizeof at);
+    scale_values(p->m, at, v);
+    p->m->usual_steps = 0;
+    p->known = 0;
+    for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
+    double sum = INFINITY;
+    if (pendres_fit_evaluate(p, v)) {
+      sum = 0.0;
+      for (size_t i = 0; i < pendres_fit_all_rows(p); i++)
+        sum += p->rows.residual[i] * p->rows.residual[i];
+    }
+    if (p->status != PENDRES_OK) return p->status;
+    int to = k;
+    for (; to > 0 && chi[to - 1] > sum; to--) {
+      chi[to] = chi[to - 1];
+      memcpy(start[to], start[to - 1], sizeof(fit_values));
+    }
+    chi[to] = sum;
+    memcpy(start[to], at, sizeof at);
+  }
+  return PENDRES_OK;
+}
+
+static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int starts, fit_values *start,
+                                 fit_result *best, fit_result *now)
+{
+  pendres_status status = PENDRES_OK;
+  for (int k = 0; k < starts && status == PENDRES_OK; k++) {
+    scale_values(p->m, start[k], now->v);
+    for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
+    p->m->usual_steps = 0;
+    status = pendres_fit_solve(p, c->options.iterations, now);
+    if (status == PENDRES_OK && is_better(now, best)) {
+      const fit_result other = *best;
+      *best = *now;
+      *now = other;
+    }
+    const int good = best->computed && best->converged &&
+                     (!c->errors_known || pendres_fit_probability(best) > fit_good_enough);
+    if (good) break;
+  }
+  return status;
+}
+
+/* Errors that make chi-square what is expected, and the fit with these: jumps and data then have
+   their weights. */
+static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, double *error, fit_result *best)
+{
+  pendres_status status = PENDRES_OK;
+  for (int round = 0; round < 2 && status == PENDRES_OK && best->computed; round++) {
+    const double factor = sqrt(fmax(best->chi_square, 1e-300) / fmax(best->freedom, 1.0));
+    for (size_t i = 0; i < p->m->data; i++) error[i] *= factor;
+    p->known = 0;
+    status = pendres_fit_solve(p, c->options.iterations, best);
+  }
+  return status;
+}
+
+/* ---- the call ---- */
+
+/* Starts in the caller's units: the deck's own, where it has all values, then those from the data.
+   Returns how many. */
+static int find_starts(const pendres_fit_call *c, const fit_model *m, fit_values start[FIT_GUESSES + 1])
+{
+  int count = 0, whole = 1;
+  fit_values open;
+  memcpy(open, c->start, sizeof open);
+  for (size_t i = 0; i < c->model->unknowns; i++) {
+    const pendres_fit_unknown *u = &c->model->unknown[i];
+    if (u->fixed) continue;
+    whole &= !isnan(u->guess);
+    /* A prior is a guess as well, and what has bounds begins in their middle. */
+    if (isnan(u->guess) && u->prior_error > 0.0) open[u->quantity] = u->prior;
+  }
+  if (whole) {
+    memcpy(start[count++], c->start, sizeof(fit_values));
+    for (size_t i = 0; i < c->model->unknowns; i++)
+      if (!c->model->unknown[i].fixed && c->model->unknown[i].prior_error <= 0.0 &&
+          c->model->unknown[i].quantity != PENDRES_FIT_OFFSET)
+        open[c->model->unknown[i].quantity] = NAN;
+  }
+  count += pendres_fit_guess(m, open, start + count);
+  for (int k = 0; k < count; k++)
+    for (int q = 0; q < FIT_QUANTITIES; q++)
+      if (isnan(start[k][q])) start[k][q] = 0.0;
+  return count;
+}
+
+static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c, fit_model *m,
+                                 pendres_room *room, int starts, fit_values *start)
+{
+  size_t open = 0;
+  for (size_t i = 0; i < c->model->unknowns; i++) open += !c->model->unknown[i].fixed;
+  fit_problem p = {.m = m, .terms = {.jump_error = c->options.jump_error,
+                                     .huber = c->options.huber}};
+  fit_result best = {.computed = 0}, now = {.computed = 0};
+  double *error = pendres_room_take(room, m->data, sizeof *error);
+  double *work = pendres_room_take(room, m->data, sizeof *work);
+  pendres_status status = take_room(&p, &best, &now, open, room);
+  if (status != PENDRES_OK) return status;
+  p.terms.error = error;
+  set_errors(c, m, error, work);
+  set_free(c, &p);
+  const int most = c->options.starts > 0 ? c->options.starts : FIT_STARTS;
+  if (starts > 1) status = order_starts(&p, starts, start);
+  if (status == PENDRES_OK)
+    status = try_starts(c, &p, starts < most ? starts : most, start, &best, &now);
+  if (status == PENDRES_OK && !c->errors_known) status = find_errors(c, &p, error, &best);
+  if (status != PENDRES_OK) return status;
+  if (!best.computed)
+    return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
+                                "the model could not be computed from any start%s%s: give guesses "
+                                "of the unknowns", m->lost != NULL ? "; the last: " : "",
+                                m->lost != NULL ? m->lost : "");
+  for (size_t i = 0; i < m->curves; i++) m->curve[i].ready = 0;
+  p.known = 0;
+  status = pendres_fit_conclude(&p, &best);
+  if (status != PENDRES_OK) return status;
+  status = pendres_fit_result(c, &p, &best);
+  if (status == PENDRES_NOT_CONVERGED)
+    (void)pendres_context_fail(ctx, status, "the fit has not converged; the values are the best");
+  return status;
+}
+
+static pendres_status fit(pendres_context *ctx, pendres_fit_call *c)
+{
+  fit_model m = {.ctx = ctx, .base = c->model->pendulum};
+  fit_values start[FIT_GUESSES + 1];
+  pendres_room room = pendres_room_open(ctx, "a fit");
+  pendres_status status = pendres_fit_check(ctx, c);
+  if (status != PENDRES_OK) return status;
+  c->errors_known = c->data->datum[0].error > 0.0;
+  if (c->options.iterations == 0) c->options.iterations = FIT_ITERATIONS;
+  for (int q = 0; q < FIT_QUANTITIES; q++) m.unit[q] = 1.0;
+  m.area = 1.0;
+  set_start(c);
+  status = pendres_fit_model_begin(&m, &room, c->data);
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
+  set_parameters(c, &m);
+  const int starts = find_starts(c, &m, start);
+  if (starts == 0)
+    return pendres_room_close(
+      &room, pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                  "these data tell no guess of the unknowns: give their values"));
+  const pendres_pendulum p = typical(c, &m, start[0]);
+  const char *why = NULL;
+  if (pendres_pendulum_check(&p, &why) != PENDRES_OK)
+    return pendres_room_close(
+      &room, pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the first guess: %s", why));
+  pendres_door d = pendres_door_open(ctx, &p);
+  set_units(&m, &d.scales.unit);
+  PENDRES_DOOR_CALL(&d, fit_within(ctx, c, &m, &room, starts, start));
+  status = d.status;
+  if (*c->out != NULL)
+    for (size_t i = 0; i < m.data; i++)
+      pendres_units_out(&d.scales, &pendres_dim_guess, 1, &(*c->out)->point[i].orbit);
+  const pendres_status closed = pendres_door_close(&d);
+  return pendres_room_close(&room, status != PENDRES_OK ? status : closed);
+}
+
+pendres_status pendres_fit_find(pendres_context *ctx, const pendres_fit_data *data,
+                                const pendres_fit_model *model,
+                                const pendres_fit_options *options, pendres_fit **out)
+{
+  if (out != NULL) *out = NULL;
+  pendres_fit_call c = {.data = data, .model = model, .out = out};
+  if (data == NULL || model == NULL || out == NULL || (model->unknown == NULL && model->unknowns > 0))
+    return PENDRES_CONTEXT_CALL(ctx, PENDRES_CONTEXT_NULL(ctx, "data, model, unknowns and out"));
+  if (options != NULL) c.options = *options;
+  return PENDRES_CONTEXT_CALL(ctx, fit(ctx, &c));
+}

@@ -1,0 +1,190 @@
+/*
+ * internal.h -- what the parts of a fit share: the model with its data, curves, and orbits at data.
+ *
+ * All is in canonical units but the data themselves, whose scales are unknowns: values of the
+ * quantities are divided by model.unit.
+ */
+#ifndef PENDRES_FIT_INTERNAL_H
+#define PENDRES_FIT_INTERNAL_H
+
+#include <pendres/fit.h>
+
+#include "analysis/fit/numbers.h"
+#include "continuation/follow.h"
+#include "engine/context_internal.h"
+#include "engine/room.h"
+
+enum {
+  FIT_QUANTITIES = PENDRES_FIT_QUANTITY_COUNT,
+  FIT_BASES = PENDRES_FIT_OBSERVABLE_COUNT,
+  FIT_PLACES = 3 /* y, w and the axis */
+};
+
+/* Values of all quantities. */
+typedef double fit_values[FIT_QUANTITIES];
+
+/* An orbit that is to be found and measured: across a border in the scaled (y, w, axis), which for
+   orbits at given parameters is the axis itself, and for those at folds the curve's tangent. */
+typedef struct fit_lane {
+  pendres_u u;
+  double border[FIT_PLACES];
+  int found, stable;
+  double moved; /* by the last step of Newton's method */
+  double base[FIT_BASES]; /* the observables, in canonical units */
+  double slope[FIT_BASES][PENDRES_PARAMETER_FOLLOWED]; /* along the curve; of the fit's parameters */
+  double axis_slope[PENDRES_PARAMETER_FOLLOWED];       /* of the axis, within the border's plane */
+} fit_lane;
+
+/* A fold: where it lies on its curve, and its orbit. */
+typedef struct fit_fold {
+  size_t after; /* between this node and the next */
+  double part;  /* at this share of the arc */
+  double tangent[FIT_PLACES];
+  pendres_u u;
+  size_t lane;
+} fit_fold;
+
+/* A piece of a curve along which the axis goes one way: nodes first to last, and a fold before and
+   behind it (-1: the curve ends). */
+typedef struct fit_piece {
+  size_t first, last;
+  int way; /* of the axis, 1 or -1 */
+  int stable;
+  int fold[2];
+  double low, high; /* of the axis */
+} fit_piece;
+
+/* The orbits over the axis at one value of the other parameter. */
+typedef struct fit_curve {
+  double other; /* in the data's unit */
+  double from, to, span; /* of the axis in the data's unit; the span is that of the margins */
+  pendres_followed kind;
+  size_t nodes;
+  pendres_curve_node *node; /* [FIT_NODES] */
+  int ready;                /* they are those of some values */
+  size_t folds, pieces;
+  fit_fold fold[FIT_FOLDS];
+  fit_piece piece[FIT_FOLDS + 1];
+} fit_curve;
+
+/* Data of one sweep at one value of the axis: numbers first to first + count of the order. */
+typedef struct fit_station {
+  double axis;
+  size_t first, count;
+  long lane[FIT_STAGES]; /* of the orbits on the stages; -1: none */
+  int beyond[FIT_STAGES];
+  int stage; /* on which the data are taken to be */
+} fit_station;
+
+/* A sweep one way over a curve. */
+typedef struct fit_track {
+  size_t curve;
+  int direction;
+  size_t first, count; /* stations, in the order of the sweep */
+  int stages;
+  int piece[FIT_STAGES];
+} fit_track;
+
+typedef struct fit_model {
+  pendres_context *ctx;
+  pendres_pendulum base; /* what is neither unknown nor varies */
+  pendres_parameter axis, other;
+  double unit[FIT_QUANTITIES], area; /* area: that of loop areas */
+  size_t data;
+  const pendres_fit_datum *datum;
+  size_t *order;
+  size_t curves, tracks, stations;
+  fit_curve *curve;
+  fit_track *track;
+  fit_station *station;
+  int measured[FIT_BASES];
+  /* Parameters by which derivatives are wanted, and the blocks that give them. */
+  int parameters, parameter[PENDRES_PARAMETER_FOLLOWED];
+  pendres_flow_kind flow;
+  size_t lanes, room;
+  int usual_steps; /* a period, at the values that a start began with; 0: not known yet */
+  fit_lane *lane;
+  const char *lost; /* why the model could not be computed at the last values */
+} fit_model;
+
+/* ---- model.c: what values mean ---- */
+
+/* Sort the data into curves, tracks and stations. */
+pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
+                                       const pendres_fit_data *data);
+
+/* The axis' or the other parameter's value in canonical units, and back. */
+double pendres_fit_in(const fit_model *m, pendres_parameter p, const fit_values v, double raw);
+double pendres_fit_out(const fit_model *m, pendres_parameter p, const fit_values v, double value);
+
+/* The point of a curve's pendulum at a value of the axis, without its state. */
+void pendres_fit_point_at(const fit_model *m, const fit_curve *c, const fit_values v, double axis,
+                          pendres_u u);
+
+/* Value of an observable at a lane, and its derivatives by the quantities. bound: the axis is not
+   free, so that it moves with its scale. */
+double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lane *l,
+                           pendres_fit_observable o, int bound, fit_values slope);
+
+/* Value of the axis at a fold in the data's unit, and its derivatives. */
+double pendres_fit_fold_at(const fit_model *m, const fit_values v, const fit_lane *l,
+                           fit_values slope);
+
+/* ---- curves.c ---- */
+
+/* Bring all curves to these values; PENDRES_NOT_CONVERGED, with m->lost, where that fails. */
+pendres_status pendres_fit_curves(fit_model *m, const fit_values v);
+
+/* A point of a piece at a value of the axis. */
+void pendres_fit_between(const fit_model *m, const fit_curve *c, const fit_piece *piece,
+                         double axis, pendres_u u);
+
+/* Place of the axis in points. */
+static inline int pendres_fit_place(const fit_model *m)
+{
+  return PENDRES_U_OMEGA + (int)m->axis;
+}
+
+/* ---- orbits.c ---- */
+
+/* Find and measure n orbits with these steps a period; those that fail are not found. */
+pendres_status pendres_fit_orbits(const fit_model *m, int steps, size_t n, fit_lane *lanes);
+
+/* ---- stages.c ---- */
+
+/* What residuals are made with. */
+typedef struct fit_terms {
+  const double *error; /* [data] */
+  double jump_error, huber;
+} fit_terms;
+
+/* Residuals in units of the errors, and their derivatives by the quantities: a row each datum, then
+   FIT_STAGES - 1 rows each track for its jumps. */
+typedef struct fit_rows {
+  size_t rows;
+  double *residual;
+  fit_values *slope;
+  int *used; /* [jumps] 1: the data jump between two of them, 2: beyond them */
+  signed char (*from)[FIT_STAGES]; /* [data + 1] for the assignment */
+} fit_rows;
+
+static inline size_t pendres_fit_rows(const fit_model *m)
+{
+  return m->data + m->tracks * (FIT_STAGES - 1);
+}
+
+/* The stages of all tracks, and orbits at all stations. */
+pendres_status pendres_fit_stages(fit_model *m, const fit_values v);
+
+/* Decide on which stages data are, and make the residuals; raw ones, without Huber's loss. */
+void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *t, fit_rows *rows);
+
+/* ---- guess.c ---- */
+
+enum { FIT_GUESSES = 8 };
+
+/* Values to begin with, best first: quantities that are NaN in v come from the data. Returns how
+   many there are. */
+int pendres_fit_guess(const fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
+
+#endif

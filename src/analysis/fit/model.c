@@ -1,0 +1,229 @@
+/* model.c -- what data and values of quantities mean; see internal.h. */
+#include "analysis/fit/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/angles.h"
+
+static const char *const observables[] = {
+#define OBSERVABLE_NAME(code, name) name,
+  PENDRES_FIT_OBSERVABLE_LIST(OBSERVABLE_NAME)
+#undef OBSERVABLE_NAME
+};
+
+static const char *const scales[] = {
+#define SCALE_NAME(code, name, neutral) name,
+  PENDRES_FIT_SCALE_LIST(SCALE_NAME)
+#undef SCALE_NAME
+};
+
+const char *pendres_fit_observable_name(int observable)
+{
+  return observable >= 0 && observable < FIT_BASES ? observables[observable] : NULL;
+}
+
+const char *pendres_fit_quantity_name(int quantity)
+{
+  if (quantity < 0 || quantity >= FIT_QUANTITIES) return NULL;
+  return quantity < PENDRES_PARAMETER_FOLLOWED
+           ? pendres_parameter_of((pendres_parameter)quantity)->name
+           : scales[quantity - PENDRES_PARAMETER_FOLLOWED];
+}
+
+/* ---- values ---- */
+
+/* The scale of a parameter in the data; -1: it has none. */
+static int scale_of(pendres_parameter p)
+{
+  return p == PENDRES_DRIVE_FREQUENCY   ? (int)PENDRES_FIT_FREQUENCY_SCALE
+         : p == PENDRES_DRIVE_AMPLITUDE ? (int)PENDRES_FIT_DRIVE_SCALE
+                                        : -1;
+}
+
+double pendres_fit_in(const fit_model *m, pendres_parameter p, const fit_values v, double raw)
+{
+  const int scale = scale_of(p);
+  if (scale < 0) return raw / m->unit[p];
+  return p == PENDRES_DRIVE_FREQUENCY ? raw / v[scale] : raw * v[scale];
+}
+
+double pendres_fit_out(const fit_model *m, pendres_parameter p, const fit_values v, double value)
+{
+  const int scale = scale_of(p);
+  if (scale < 0) return value * m->unit[p];
+  return p == PENDRES_DRIVE_FREQUENCY ? value * v[scale] : value / v[scale];
+}
+
+void pendres_fit_point_at(const fit_model *m, const fit_curve *c, const fit_values v, double axis,
+                          pendres_u u)
+{
+  u[PENDRES_U_Y] = u[PENDRES_U_W] = 0.0;
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++) u[PENDRES_U_OMEGA + k] = v[k];
+  if (m->other != PENDRES_PARAMETER_COUNT)
+    u[PENDRES_U_OMEGA + (int)m->other] = pendres_fit_in(m, m->other, v, c->other);
+  u[pendres_fit_place(m)] = axis;
+}
+
+/* How the observable follows from the bases: value, and derivatives by bases and scales. */
+static double read(const fit_model *m, const fit_values v, const fit_lane *l,
+                   pendres_fit_observable o, double by_base[FIT_BASES], fit_values slope)
+{
+  const double scale = v[PENDRES_FIT_AMPLITUDE_SCALE], lag = v[PENDRES_FIT_PHASE_OFFSET];
+  const double *b = l->base;
+  memset(by_base, 0, FIT_BASES * sizeof *by_base);
+  memset(slope, 0, sizeof(fit_values));
+  switch (o) {
+  case PENDRES_FIT_PHASE_LAG:
+    by_base[o] = slope[PENDRES_FIT_PHASE_OFFSET] = 1.0;
+    return b[o] + lag;
+  case PENDRES_FIT_LOOP_AREA:
+    by_base[o] = m->area;
+    return m->area * b[o];
+  case PENDRES_FIT_IN_PHASE:
+  case PENDRES_FIT_QUADRATURE: {
+    const int second = o == PENDRES_FIT_QUADRATURE;
+    const double x = b[PENDRES_FIT_IN_PHASE], y = b[PENDRES_FIT_QUADRATURE];
+    const double turned[2] = {x * cos(lag) - y * sin(lag), x * sin(lag) + y * cos(lag)};
+    by_base[PENDRES_FIT_IN_PHASE] = scale * (second ? sin(lag) : cos(lag));
+    by_base[PENDRES_FIT_QUADRATURE] = scale * (second ? cos(lag) : -sin(lag));
+    slope[PENDRES_FIT_AMPLITUDE_SCALE] = turned[second];
+    slope[PENDRES_FIT_PHASE_OFFSET] = scale * (second ? turned[0] : -turned[1]);
+    const int back = second ? PENDRES_FIT_BACKGROUND_QUADRATURE : PENDRES_FIT_BACKGROUND_IN_PHASE;
+    slope[back] = 1.0;
+    return scale * turned[second] + v[back];
+  }
+  default:
+    by_base[o] = scale;
+    slope[PENDRES_FIT_AMPLITUDE_SCALE] = b[o];
+    slope[PENDRES_FIT_OFFSET] = 1.0;
+    return scale * b[o] + v[PENDRES_FIT_OFFSET];
+  }
+}
+
+/* Derivative of a parameter by its scale where it follows from the data. */
+static double by_scale(pendres_parameter p, const fit_values v, const fit_lane *l)
+{
+  const double value = l->u[PENDRES_U_OMEGA + (int)p];
+  return p == PENDRES_DRIVE_FREQUENCY ? -value / v[PENDRES_FIT_FREQUENCY_SCALE]
+                                      : value / v[PENDRES_FIT_DRIVE_SCALE];
+}
+
+double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lane *l,
+                           pendres_fit_observable o, int bound, fit_values slope)
+{
+  double by_base[FIT_BASES], by[PENDRES_PARAMETER_FOLLOWED] = {0.0};
+  const double value = read(m, v, l, o, by_base, slope);
+  for (int k = 0; k < m->parameters; k++)
+    for (int b = 0; b < FIT_BASES; b++)
+      if (by_base[b] != 0.0) by[m->parameter[k]] += by_base[b] * l->slope[b][m->parameter[k]];
+  for (int k = 0; k < m->parameters; k++) {
+    const int q = m->parameter[k];
+    if (q != (int)m->axis && q != (int)m->other) slope[q] += by[q];
+  }
+  if (bound && scale_of(m->axis) >= 0) slope[scale_of(m->axis)] += by[m->axis] * by_scale(m->axis, v, l);
+  if (m->other != PENDRES_PARAMETER_COUNT && scale_of(m->other) >= 0)
+    slope[scale_of(m->other)] += by[m->other] * by_scale(m->other, v, l);
+  return value;
+}
+
+double pendres_fit_fold_at(const fit_model *m, const fit_values v, const fit_lane *l,
+                           fit_values slope)
+{
+  const double axis = l->u[pendres_fit_place(m)], value = pendres_fit_out(m, m->axis, v, axis);
+  const double out = value / axis; /* the data's unit */
+  const int scale = scale_of(m->axis);
+  memset(slope, 0, sizeof(fit_values));
+  for (int k = 0; k < m->parameters; k++) {
+    const int q = m->parameter[k];
+    if (q != (int)m->axis && q != (int)m->other) slope[q] = out * l->axis_slope[q];
+  }
+  if (m->other != PENDRES_PARAMETER_COUNT && scale_of(m->other) >= 0)
+    slope[scale_of(m->other)] = out * l->axis_slope[m->other] * by_scale(m->other, v, l);
+  if (scale >= 0)
+    slope[scale] += (m->axis == PENDRES_DRIVE_FREQUENCY ? value : -value) / v[scale];
+  return value;
+}
+
+/* ---- data ---- */
+
+/* Data by the other parameter, direction and axis in that direction, then by number. */
+typedef struct sorted {
+  const pendres_fit_datum *of;
+  double other;
+  size_t index;
+} sorted;
+
+static int in_order(const void *a, const void *b)
+{
+  const sorted *p = a, *q = b;
+  if (p->other != q->other) return p->other < q->other ? -1 : 1;
+  if (p->of->direction != q->of->direction) return p->of->direction > q->of->direction ? -1 : 1;
+  if (p->of->axis != q->of->axis)
+    return (p->of->axis < q->of->axis) == (p->of->direction > 0) ? -1 : 1;
+  return p->index < q->index ? -1 : p->index > q->index;
+}
+
+/* Put one more datum behind those that are there. */
+static void append(fit_model *m, const sorted *s, size_t k)
+{
+  const int curve = m->curves == 0 || m->curve[m->curves - 1].other != s->other;
+  if (curve)
+    m->curve[m->curves++] = (fit_curve){.other = s->other, .from = s->of->axis, .to = s->of->axis};
+  const int track =
+    curve || m->track[m->tracks - 1].direction != s->of->direction;
+  if (track)
+    m->track[m->tracks++] = (fit_track){.curve = m->curves - 1, .direction = s->of->direction,
+                                        .first = m->stations};
+  if (track || m->station[m->stations - 1].axis != s->of->axis) {
+    m->station[m->stations++] = (fit_station){.axis = s->of->axis, .first = k};
+    m->track[m->tracks - 1].count++;
+  }
+  m->station[m->stations - 1].count++;
+  m->order[k] = s->index;
+  m->measured[s->of->observable] = 1;
+  fit_curve *c = &m->curve[m->curves - 1];
+  c->from = fmin(c->from, s->of->axis);
+  c->to = fmax(c->to, s->of->axis);
+}
+
+static size_t count_curves(size_t n, const sorted *s)
+{
+  size_t curves = n > 0;
+  for (size_t k = 1; k < n; k++) curves += s[k].other != s[k - 1].other;
+  return curves;
+}
+
+pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
+                                       const pendres_fit_data *data)
+{
+  const size_t n = data->n;
+  sorted *s = pendres_room_take(room, n, sizeof *s);
+  if (room->status != PENDRES_OK) return room->status;
+  m->data = n;
+  m->datum = data->datum;
+  m->axis = data->axis;
+  m->other = data->other;
+  for (size_t k = 0; k < n; k++)
+    s[k] = (sorted){&data->datum[k],
+                    m->other != PENDRES_PARAMETER_COUNT ? data->datum[k].other : 0.0, k};
+  qsort(s, n, sizeof *s, in_order);
+  const size_t curves = count_curves(n, s);
+  m->order = pendres_room_take(room, n, sizeof *m->order);
+  m->curve = pendres_room_take(room, curves, sizeof *m->curve);
+  m->track = pendres_room_take(room, 2 * curves, sizeof *m->track);
+  m->station = pendres_room_take(room, n, sizeof *m->station);
+  if (room->status != PENDRES_OK) return room->status;
+  for (size_t k = 0; k < n; k++) append(m, &s[k], k);
+  double widest = 0.0;
+  for (size_t c = 0; c < curves; c++) widest = fmax(widest, m->curve[c].to - m->curve[c].from);
+  for (size_t c = 0; c < curves; c++) {
+    fit_curve *curve = &m->curve[c];
+    curve->span = widest > 0.0 ? widest : fmax(0.1 * fabs(curve->to), 1e-3);
+    curve->node = pendres_room_take(room, FIT_NODES, sizeof *curve->node);
+  }
+  m->room = n * FIT_STAGES + curves * FIT_FOLDS;
+  m->lane = pendres_room_take(room, m->room, sizeof *m->lane);
+  return room->status;
+}

@@ -1,0 +1,80 @@
+/*
+ * numbers.h -- numbers that were chosen for fits, each with its reason. Lengths, times and what
+ * follows from them are in canonical units.
+ */
+#ifndef PENDRES_FIT_NUMBERS_H
+#define PENDRES_FIT_NUMBERS_H
+
+#include "base/numbers.h"
+
+enum {
+  /* States that an oscillator is on in one sweep, one after another: a resonance has two, and an
+     overtone one more. */
+  FIT_STAGES = 3,
+  /* Folds of a curve, of which two make a resonance hysteretic. */
+  FIT_FOLDS = 16,
+  /* Nodes of a curve: some hundred are usual. */
+  FIT_NODES = 6000,
+  FIT_FOLD_ROUNDS = 4, /* secants for a fold: each gives as many digits as the two before */
+  /* Steps a period, at most this many and so many times as many as where a start began: values that
+     need more have gone astray. Slow drives take some hundred. */
+  FIT_MOST_STEPS = 1500,
+  FIT_MORE_STEPS = 4,
+  FIT_PASSES = 8,      /* of Newton's method at the data, from points of the curve between nodes */
+  FIT_STARTS = 6,
+  FIT_AGAIN = 3, /* times that the solver begins anew where it has stalled */
+  FIT_ITERATIONS = 60,
+  FIT_GUESS_DATA = 120, /* data that the guess looks at, evenly chosen */
+  FIT_GUESS_PLACES = 121, /* of the small resonance that are tried */
+  FIT_GUESS_SIZES = 17,   /* and largest amplitudes, four a decade from 3 down */
+  FIT_GUESS_STARTS = 10,  /* that are improved */
+  FIT_NOTES = 12,
+  FIT_NOTE = 400
+};
+
+/* Curves have this many nodes from rest to the largest amplitude, and steps along the axis are as
+   short as a resonance is wide or as the data are apart: a step longer than both might go over the
+   resonance. */
+static const double fit_nodes_high = 14.0, fit_steps_across = 150.0;
+
+/* A curve goes beyond the data by this share of their range, so that it begins and ends outside of
+   the range in which states coexist; and folds may lie further out by so many ranges. */
+static const double fit_margin = 0.3, fit_outside = 3.0;
+
+/* What Newton's method corrects last leaves its square. */
+static const double fit_last_step = 3e-5;
+
+/* Nodes of a curve moved to other parameters lie further apart by no more than this. */
+static const double fit_torn = 4.0;
+
+/* Orbits at data are computed to this, or to ten times the tolerance if that is less: far below the
+   errors of any instrument. */
+static const double fit_accuracy = 1e-7;
+
+/* An orbit this close to a fold, as a share of the piece of the curve, may be lost to it. */
+static const double fit_lost_near_fold = 0.05;
+
+/* Chi-square that may still be gained where a fit has converged: values are then off by a thirtieth
+   of their errors. A fit goes on to far less. */
+static const double fit_converged = 1e-3, fit_step_tolerance = 1e-9;
+
+/* Where a datum is right at the model's jump chi-square has a kink, whose derivatives do not tell
+   what may be gained: a stalled fit then counts as converged if they say less than this. */
+static const double fit_kinked = 1.0;
+
+/* Below this ratio of singular values of the scaled derivatives a combination is not determined:
+   they are known to seven digits or so. */
+static const double fit_undetermined = 1e-7;
+
+/* A fit whose chi-square is so improbable says that it is on a wrong minimum, or the model or the
+   errors are wrong. A start whose probability is above the second number ends the search. */
+static const double fit_improbable = 1e-6, fit_good_enough = 1e-3;
+
+/* Residuals of neighbours are correlated beyond chance where the sum of their products is further
+   from 0 than this many standard deviations. */
+static const double fit_correlated = 5.0;
+
+/* Data below this share of the largest are left out of a guess: noise would count most there. */
+static const double fit_guess_least = 0.3;
+
+#endif

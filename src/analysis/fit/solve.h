@@ -1,0 +1,56 @@
+/* solve.h -- least squares for the free quantities from one start, and their covariance. */
+#ifndef PENDRES_FIT_SOLVE_H
+#define PENDRES_FIT_SOLVE_H
+
+#include "analysis/fit/internal.h"
+
+/* A quantity that is free, and the number that the solver sees instead. */
+typedef struct fit_free {
+  const pendres_fit_unknown *of;
+  int quantity;
+  enum { FIT_PLAIN, FIT_LOGARITHM, FIT_SINE } form;
+  double unit, low, high, prior, prior_error; /* in canonical units */
+  int at_bound;
+} fit_free;
+
+typedef struct fit_problem {
+  fit_model *m;
+  fit_terms terms;
+  fit_rows rows; /* of the latest values */
+  size_t unknowns;
+  fit_free *free;
+  fit_values v;   /* the latest, with the fixed ones */
+  double *x;      /* [unknowns] what they were made from */
+  int known;      /* whether rows are those of x */
+  int lost;       /* the model could not be computed there */
+  pendres_status status; /* what ends the fit */
+  int evaluations, iterations;
+  double worst; /* sum of squares of the first values that could be computed */
+} fit_problem;
+
+/* What comes of a start. */
+typedef struct fit_result {
+  fit_values v;
+  double chi_square, freedom, remaining;
+  int computed, converged, determined;
+  double *covariance; /* [unknowns][unknowns], of the quantities in canonical units */
+  double *open;       /* [unknowns] a combination that is not determined, in units of v */
+  int *at_bound;      /* [unknowns] */
+} fit_result;
+
+/* Rows with those of priors. */
+static inline size_t pendres_fit_all_rows(const fit_problem *p)
+{
+  return pendres_fit_rows(p->m) + p->unknowns;
+}
+
+/* Compute the residuals at values, unless that was just done; 0: the model cannot be. */
+int pendres_fit_evaluate(fit_problem *p, const fit_values v);
+
+/* Least squares from values on, which are replaced. */
+pendres_status pendres_fit_solve(fit_problem *p, int iterations, fit_result *out);
+
+/* Chi-square and covariance at values. */
+pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out);
+
+#endif
