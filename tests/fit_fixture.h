@@ -99,7 +99,8 @@ static int lab_newton(const lab *l, double near, lab_motion *m)
     m->v = v + dv;
     const double size = hypot(m->y, m->v);
     if (hypot(dy, dv) < 1e-11 * (size + 1e-12)) {
-      const double trace = map[0][0] + map[1][1], full = map[0][0] * map[1][1] - map[0][1] * map[1][0];
+      const double trace = map[0][0] + map[1][1];
+      const double full = map[0][0] * map[1][1] - map[0][1] * map[1][0];
       return hypot(m->y - y0, m->v - v0) < near && 1.0 - trace + full > 0.0 &&
              1.0 + trace + full > 0.0;
     }

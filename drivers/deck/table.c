@@ -373,8 +373,8 @@ const deck_key deck_table[] = {
   { CHOICES("fit", "bounds", fit.bounds), IN(FIT),
     SAYS(NULL, "bounds of what is free, as 'damping 0.01 0.1'") },
   { CHOICES("fit", "prior", fit.prior), IN(FIT),
-    SAYS(NULL, "what is known of free quantities beside the data, a mean and its standard error, as "
-         "'a3 -0.16 0.01'") },
+    SAYS(NULL, "what is known of free quantities beside the data, a mean and its standard error, "
+         "as 'a3 -0.16 0.01'") },
   { REAL("fit", "huber", fit.huber), IN(FIT), NOT_NEGATIVE, .number = 0,
     SAYS("1", "standard errors beyond which a residual counts by its size instead of its square, "
          "against outliers; 0: none does") },

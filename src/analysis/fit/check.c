@@ -67,7 +67,9 @@ static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_
 pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c)
 {
   size_t open = 0;
-  const char *why = pendres_model_of(c->model->pendulum.force) == NULL ? "the pendulum has no force" : NULL;
+  const pendres_fit_model *model = c->model;
+  const char *why =
+    pendres_model_of(model->pendulum.force) == NULL ? "the pendulum has no force" : NULL;
   if (why == NULL) why = refuses_data(c->data);
   if (why == NULL && PENDRES_SIZED_REFUSES(&c->options) != NULL)
     why = PENDRES_SIZED_REFUSES(&c->options);
@@ -78,14 +80,16 @@ pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c
     why = refuses_unknown(c, &c->model->unknown[i]);
     open += !c->model->unknown[i].fixed;
     for (size_t k = 0; k < i && why == NULL; k++)
-      if (c->model->unknown[k].quantity == c->model->unknown[i].quantity) why = "an unknown is given twice";
+      if (model->unknown[k].quantity == model->unknown[i].quantity)
+        why = "an unknown is given twice";
   }
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   if (open == 0)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "nothing is free to be fitted");
   if (c->data->n <= open)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "%zu data do not determine %zu unknowns: take more data or fix some",
+                                "%zu data do not determine %zu unknowns: take more data or fix "
+                                "some",
                                 c->data->n, open);
   return PENDRES_OK;
 }

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/accuracy.h"
 #include "model/model.h"
 #include "orbits/orbit_pair.h"
 
@@ -46,12 +45,10 @@ static range range_of(const fit_model *m, const fit_curve *c, const fit_values v
 static void linear_guess(const pendres_pendulum *p, pendres_orbit_guess *g, double *highest)
 {
   const double top = pendres_model_of(p->force)->origin;
-  const double slope = (pendres_pendulum_acceleration(&(pendres_pendulum){
-                          .force = p->force, .drive_frequency = 1.0,
-                          .force_coefficients = {p->force_coefficients[0], p->force_coefficients[1],
-                                                 p->force_coefficients[2], p->force_coefficients[3],
-                                                 p->force_coefficients[4]}}, top - 1e-4, 0.0, 0.0)) /
-                       1e-4;
+  pendres_pendulum free_one = {.force = p->force, .drive_frequency = 1.0};
+  memcpy(free_one.force_coefficients, p->force_coefficients, sizeof p->force_coefficients);
+  const double slope =
+    pendres_pendulum_acceleration(&free_one, top - linear_near, 0.0, 0.0) / linear_near;
   const double w = p->drive_frequency, d = slope - w * w, e = p->damping * w;
   const double size = p->drive_amplitude / (d * d + e * e);
   *g = (pendres_orbit_guess){.pendulum = *p, .x = top + size * d, .v = w * size * e, .period = 1};
@@ -90,7 +87,8 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
   double highest = 0.0;
   pendres_fit_point_at(m, c, v, r->low, u);
   const pendres_pendulum p = pendres_map_pendulum(m->base.force, u);
-  if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return lose(m, "the model has no such values");
+  if (pendres_pendulum_check(&p, NULL) != PENDRES_OK)
+    return lose(m, "the model has no such values");
   linear_guess(&p, &g, &highest);
   pendres_status status = first_orbit(m, &g, &o);
   if (status != PENDRES_OK) return status;

@@ -21,8 +21,10 @@ static void set_start(pendres_fit_call *c)
                     ? pendres_parameter_get((pendres_parameter)q, &c->model->pendulum)
                     : neutral[q - PENDRES_PARAMETER_FOLLOWED];
   for (int q = 0; q < FIT_QUANTITIES; q++)
-    if (isnan(c->start[q]) || q == (int)c->data->axis || q == (int)c->data->other) c->start[q] = 0.0;
-  for (size_t i = 0; i < c->model->unknowns; i++) c->start[c->model->unknown[i].quantity] = c->model->unknown[i].guess;
+    if (isnan(c->start[q]) || q == (int)c->data->axis || q == (int)c->data->other)
+      c->start[q] = 0.0;
+  for (size_t i = 0; i < c->model->unknowns; i++)
+    c->start[c->model->unknown[i].quantity] = c->model->unknown[i].guess;
 }
 
 /* The blocks with the fewest rows that give the derivatives. */
@@ -186,8 +188,8 @@ static pendres_status order_starts(fit_problem *p, int starts, fit_values *start
   return PENDRES_OK;
 }
 
-static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int starts, fit_values *start,
-                                 fit_result *best, fit_result *now)
+static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int starts,
+                                 fit_values *start, fit_result *best, fit_result *now)
 {
   pendres_status status = PENDRES_OK;
   for (int k = 0; k < starts && status == PENDRES_OK; k++) {
@@ -209,7 +211,8 @@ static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int 
 
 /* Errors that make chi-square what is expected, and the fit with these: jumps and data then have
    their weights. */
-static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, double *error, fit_result *best)
+static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, double *error,
+                                  fit_result *best)
 {
   pendres_status status = PENDRES_OK;
   for (int round = 0; round < 2 && status == PENDRES_OK && best->computed; round++) {
@@ -225,7 +228,8 @@ static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, dou
 
 /* Starts in the caller's units: the deck's own, where it has all values, then those from the data.
    Returns how many. */
-static int find_starts(const pendres_fit_call *c, const fit_model *m, fit_values start[FIT_GUESSES + 1])
+static int find_starts(const pendres_fit_call *c, const fit_model *m,
+                       fit_values start[FIT_GUESSES + 1])
 {
   int count = 0, whole = 1;
   fit_values open;
@@ -329,7 +333,8 @@ pendres_status pendres_fit_find(pendres_context *ctx, const pendres_fit_data *da
 {
   if (out != NULL) *out = NULL;
   pendres_fit_call c = {.data = data, .model = model, .out = out};
-  if (data == NULL || model == NULL || out == NULL || (model->unknown == NULL && model->unknowns > 0))
+  if (data == NULL || model == NULL || out == NULL ||
+      (model->unknown == NULL && model->unknowns > 0))
     return PENDRES_CONTEXT_CALL(ctx, PENDRES_CONTEXT_NULL(ctx, "data, model, unknowns and out"));
   if (options != NULL) c.options = *options;
   return PENDRES_CONTEXT_CALL(ctx, fit(ctx, &c));

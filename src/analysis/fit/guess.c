@@ -359,6 +359,8 @@ int pendres_fit_guess(const fit_model *m, const fit_values v, fit_values out[FIT
   if (g.n <= (size_t)g.unknowns || g.unknowns == 0) return 0;
   const int starts = search(&g, v, best);
   for (int i = 0; i < starts; i++) {
+    /* What noise makes of the logarithms may be worse than where it began. */
+    if (i < FIT_GUESS_RAW) count = keep(out, cost, count, best[i].v, best[i].left);
     const double left = improve(&g, best[i].v);
     count = keep(out, cost, count, best[i].v, left);
   }

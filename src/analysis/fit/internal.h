@@ -31,7 +31,7 @@ typedef struct fit_lane {
   int found, stable;
   double moved; /* by the last step of Newton's method */
   double base[FIT_BASES]; /* the observables, in canonical units */
-  double slope[FIT_BASES][PENDRES_PARAMETER_FOLLOWED]; /* along the curve; of the fit's parameters */
+  double slope[FIT_BASES][PENDRES_PARAMETER_FOLLOWED]; /* along the curve, by parameters */
   double axis_slope[PENDRES_PARAMETER_FOLLOWED];       /* of the axis, within the border's plane */
 } fit_lane;
 
@@ -181,7 +181,7 @@ void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *t,
 
 /* ---- guess.c ---- */
 
-enum { FIT_GUESSES = 8 };
+enum { FIT_GUESSES = 12 };
 
 /* Values to begin with, best first: quantities that are NaN in v come from the data. Returns how
    many there are. */

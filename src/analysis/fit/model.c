@@ -122,7 +122,8 @@ double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lan
     const int q = m->parameter[k];
     if (q != (int)m->axis && q != (int)m->other) slope[q] += by[q];
   }
-  if (bound && scale_of(m->axis) >= 0) slope[scale_of(m->axis)] += by[m->axis] * by_scale(m->axis, v, l);
+  if (bound && scale_of(m->axis) >= 0)
+    slope[scale_of(m->axis)] += by[m->axis] * by_scale(m->axis, v, l);
   if (m->other != PENDRES_PARAMETER_COUNT && scale_of(m->other) >= 0)
     slope[scale_of(m->other)] += by[m->other] * by_scale(m->other, v, l);
   return value;

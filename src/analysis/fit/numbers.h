@@ -14,11 +14,11 @@ enum {
   /* Folds of a curve, of which two make a resonance hysteretic. */
   FIT_FOLDS = 16,
   /* Nodes of a curve: some hundred are usual. */
-  FIT_NODES = 6000,
+  FIT_NODES = 1500,
   FIT_FOLD_ROUNDS = 4, /* secants for a fold: each gives as many digits as the two before */
   /* Steps a period, at most this many and so many times as many as where a start began: values that
      need more have gone astray. Slow drives take some hundred. */
-  FIT_MOST_STEPS = 1500,
+  FIT_MOST_STEPS = 600,
   FIT_MORE_STEPS = 4,
   FIT_PASSES = 8,      /* of Newton's method at the data, from points of the curve between nodes */
   FIT_STARTS = 6,
@@ -28,9 +28,13 @@ enum {
   FIT_GUESS_PLACES = 121, /* of the small resonance that are tried */
   FIT_GUESS_SIZES = 17,   /* and largest amplitudes, four a decade from 3 down */
   FIT_GUESS_STARTS = 10,  /* that are improved */
+  FIT_GUESS_RAW = 2,      /* that are tried as they are as well */
   FIT_NOTES = 12,
   FIT_NOTE = 400
 };
+
+/* So close to its bottom a well is linear. */
+static const double linear_near = 1e-4;
 
 /* Curves have this many nodes from rest to the largest amplitude, and steps along the axis are as
    short as a resonance is wide or as the data are apart: a step longer than both might go over the
@@ -61,6 +65,9 @@ static const double fit_converged = 1e-3, fit_step_tolerance = 1e-9;
 /* Where a datum is right at the model's jump chi-square has a kink, whose derivatives do not tell
    what may be gained: a stalled fit then counts as converged if they say less than this. */
 static const double fit_kinked = 1.0;
+
+/* A value this close to a bound, as a share of the range, is at it: fits begin further inside. */
+static const double fit_at_bound = 1e-5, fit_inside = 1e-3;
 
 /* Below this ratio of singular values of the scaled derivatives a combination is not determined:
    they are known to seven digits or so. */

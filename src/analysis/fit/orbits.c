@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "engine/block.h"
 
-/* Samples of a block: row r of lane i at step k is at[(k rows + r) lanes + i], k from 0 to steps. */
+/* Samples of a block: row r of lane i at step k is at[(k rows + r) lanes + i], 0 <= k <= steps. */
 typedef struct samples {
   size_t steps, rows, lanes;
   double *at;

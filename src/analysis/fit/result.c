@@ -89,9 +89,9 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
     note(fit, "the fit has not converged: chi-square may still fall by %.2g; begin nearer by, or "
          "fix some unknowns", s->remaining);
   if (c->errors_known && s->probability < fit_improbable)
-    note(fit, "chi-square is %.4g with %g degrees of freedom, which chance gives with a probability "
-         "of %.1g: the model, the errors of the data or the minimum are wrong", s->chi_square,
-         s->degrees_of_freedom, s->probability);
+    note(fit, "chi-square is %.4g with %g degrees of freedom, which chance gives with a "
+         "probability of %.1g: the model, the errors of the data or the minimum are wrong",
+         s->chi_square, s->degrees_of_freedom, s->probability);
   const double correlated = correlation_of(p);
   if (correlated > fit_correlated)
     note(fit, "residuals of neighbours are correlated (%.1f standard deviations): the model does "
@@ -219,7 +219,8 @@ pendres_status pendres_fit_result(const pendres_fit_call *c, fit_problem *p, con
   fit->summary = (pendres_fit_summary){
     .unknowns = p->unknowns, .data = p->m->data, .chi_square = best->chi_square,
     .degrees_of_freedom = best->freedom,
-    .probability = c->errors_known ? pendres_fit_probability(best) : NAN, .remaining = best->remaining,
+    .probability = c->errors_known ? pendres_fit_probability(best) : NAN,
+    .remaining = best->remaining,
     .converged = best->converged, .determined = best->determined, .iterations = p->iterations,
     .evaluations = p->evaluations};
   take_covariance(c, p, best, fit);

@@ -15,7 +15,7 @@ static double inside(const fit_free *f, double value)
 {
   /* A bit inside of the bounds, since on them the sine stands still. */
   const double part = (value - f->low) / (f->high - f->low);
-  return fmin(fmax(part, 1e-3), 1.0 - 1e-3);
+  return fmin(fmax(part, fit_inside), 1.0 - fit_inside);
 }
 
 static double encode(fit_free *f, double value)
@@ -164,7 +164,8 @@ static pendres_status run(fit_problem *p, int iterations, fit_result *out)
   gsl_multifit_nlinear_workspace *w =
     gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &rules, f.n, f.p);
   gsl_vector_const_view x = gsl_vector_const_view_array(p->x, p->unknowns);
-  if (w == NULL) return pendres_context_fail(p->m->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a fit");
+  if (w == NULL)
+    return pendres_context_fail(p->m->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a fit");
   if (gsl_multifit_nlinear_init(&x.vector, &f, w) == GSL_SUCCESS)
     (void)gsl_multifit_nlinear_driver((size_t)iterations, fit_step_tolerance, fit_step_tolerance,
                                       0.0, NULL, NULL, &info, w);
@@ -266,11 +267,13 @@ pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out)
     for (size_t k = 0; k < n; k++) {
       fit_free *f = &p->free[k];
       const double value = out->v[f->quantity], width = f->high - f->low;
-      f->at_bound = width > 0.0 && (value - f->low < 1e-5 * width || f->high - value < 1e-5 * width);
+      f->at_bound =
+        width > 0.0 && fmin(value - f->low, f->high - value) < fit_at_bound * width;
       out->at_bound[k] = f->at_bound;
     }
     scale_columns(p, j, length);
-    status = gsl_linalg_SV_decomp_jacobi(j, v, s) == GSL_SUCCESS ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+    status = gsl_linalg_SV_decomp_jacobi(j, v, s) == GSL_SUCCESS ? PENDRES_OK
+                                                                  : PENDRES_NOT_CONVERGED;
   }
   if (status == PENDRES_OK) {
     read_decomposition(p, j, v, s, length, out);

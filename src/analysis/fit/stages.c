@@ -42,7 +42,8 @@ static void set_track(const fit_model *m, fit_track *t)
 
 /* The lane of a station on a stage: an orbit of its own, that of the fold at which the piece ends
    before it, or none. */
-static void set_lane(fit_model *m, const fit_values v, const fit_track *t, fit_station *s, int stage)
+static void set_lane(fit_model *m, const fit_values v, const fit_track *t, fit_station *s,
+                     int stage)
 {
   const fit_curve *c = &m->curve[t->curve];
   const fit_piece *p = &c->piece[t->piece[stage]];

@@ -1,0 +1,247 @@
+/*
+ * test_fit.c -- fits to data that another integration made (fit_fixture.h): values within their
+ * errors, jumps, wrong arguments, and what data leave open.
+ *
+ * Tolerances: a value is within four and a half standard errors (one normal number in 150,000 is
+ * not), a chi-square has a probability above 1e-5. Seeds are fixed.
+ */
+#include "fit_fixture.h"
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <pendres/pendres.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+static const double farthest_pull = 4.5, least_probability = 1e-5;
+
+enum { SWEEP = 60, DATA = 2 * SWEEP, OPEN = 4 };
+
+static pendres_context *context(void)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(NULL, &ctx));
+  return ctx;
+}
+
+/* One set: up and down over a resonance whose backbone bends by `bent` widths. */
+typedef struct set {
+  int sine, soft;
+  double quality, noise, bent;
+  pendres_fit_observable observable;
+} set;
+
+static lab lab_of(const set *s)
+{
+  const double a3 = fmin(s->soft ? 0.25 : 0.5, 4.0 * s->bent / 3.0 / s->quality);
+  lab l = {.sine = s->sine, .a1 = 1.0, .a3 = s->soft ? -a3 : a3, .damping = 1.0 / s->quality};
+  const double a = s->sine ? fmin(1.8, sqrt(8.0 * s->bent / s->quality)) : 1.0;
+  const double top = s->sine ? 1.0 - a * a / 16.0 : sqrt(1.0 + 0.75 * l.a3);
+  l.drive = a / s->quality * top;
+  l.frequency = top;
+  return l;
+}
+
+static double observed(const lab_motion *m, pendres_fit_observable o)
+{
+  return o == PENDRES_FIT_AMPLITUDE ? m->amplitude
+         : o == PENDRES_FIT_RMS     ? m->rms
+                                    : hypot(m->cosine, m->sine);
+}
+
+/* Measure; frequencies and lengths are in a laboratory's units. */
+static void measure(const set *s, double hertz, double volts, uint64_t seed,
+                    pendres_fit_datum data[DATA])
+{
+  const lab l = lab_of(s);
+  const double shift = l.frequency - 1.0;
+  const double low = fmin(1.0, l.frequency) - 6.0 / s->quality - 0.3 * fabs(shift);
+  const double high = fmax(1.0, l.frequency) + 6.0 / s->quality + 0.3 * fabs(shift);
+  double frequency[SWEEP], largest = 0.0;
+  lab_motion m[SWEEP];
+  for (int way = 0; way < 2; way++) {
+    for (int i = 0; i < SWEEP; i++)
+      frequency[i] =
+        fmax(low, 0.35) + (high - fmax(low, 0.35)) * (way ? SWEEP - 1 - i : i) / (SWEEP - 1);
+    assert_int_equal(lab_sweep(l, SWEEP, frequency, m), SWEEP);
+    for (int i = 0; i < SWEEP; i++) {
+      data[way * SWEEP + i] = (pendres_fit_datum){
+        .observable = s->observable, .direction = way ? -1 : 1, .axis = hertz * frequency[i],
+        .observed = volts * observed(&m[i], s->observable)};
+      largest = fmax(largest, data[way * SWEEP + i].observed);
+    }
+  }
+  for (int i = 0; i < DATA; i++) {
+    data[i].error = s->noise * largest;
+    data[i].observed += data[i].error * lab_normal(&seed);
+  }
+}
+
+static void check_value(const pendres_fit *fit, size_t i, double truth)
+{
+  const double error = sqrt(pendres_fit_covariance(fit, i, i));
+  const double pull = (pendres_fit_value(fit, i) - truth) / error;
+  if (!(fabs(pull) < farthest_pull))
+    fail_msg("unknown %zu is %.10g +- %.2g, not %.10g", i, pendres_fit_value(fit, i), error, truth);
+}
+
+/* Without any guess. */
+static void sets_of_data(void **state)
+{
+  (void)state;
+  static const set sets[] = {
+    {.quality = 20.0, .noise = 0.01, .bent = 4.0, .observable = PENDRES_FIT_FIRST_HARMONIC},
+    {.soft = 1, .quality = 40.0, .noise = 0.02, .bent = 4.0, .observable = PENDRES_FIT_RMS},
+    {.sine = 1, .quality = 30.0, .noise = 0.01, .bent = 4.0, .observable = PENDRES_FIT_AMPLITUDE},
+    {.quality = 5000.0, .noise = 0.003, .bent = 8.0, .observable = PENDRES_FIT_AMPLITUDE},
+    {.soft = 1, .quality = 1000.0, .noise = 0.03, .bent = 6.0, .observable = PENDRES_FIT_RMS},
+    {.sine = 1, .quality = 2000.0, .noise = 0.002, .bent = 3.0,
+     .observable = PENDRES_FIT_FIRST_HARMONIC},
+    {.quality = 6.0, .noise = 0.02, .bent = 0.5, .observable = PENDRES_FIT_FIRST_HARMONIC}};
+  pendres_context *ctx = context();
+  for (size_t k = 0; k < COUNT(sets); k++) {
+    pendres_fit_datum data[DATA];
+    pendres_fit *fit = NULL;
+    const lab l = lab_of(&sets[k]);
+    const double hertz = l.sine ? 2500.0 : 1.0, volts = l.sine ? 0.03 : 1.0;
+    measure(&sets[k], hertz, volts, 77 + k, data);
+    pendres_fit_unknown open[OPEN] = {{.quantity = PENDRES_DAMPING, .guess = NAN},
+                                      {.quantity = PENDRES_DRIVE_AMPLITUDE, .guess = NAN},
+                                      {.quantity = PENDRES_A1, .guess = NAN},
+                                      {.quantity = PENDRES_A3, .guess = NAN}};
+    pendres_fit_model model = {.pendulum.force = PENDRES_FORCE_POLYNOMIAL, .unknowns = OPEN,
+                               .unknown = open};
+    if (l.sine) {
+      model.pendulum.force = PENDRES_FORCE_PENDULUM;
+      open[2].quantity = PENDRES_FIT_FREQUENCY_SCALE;
+      open[3].quantity = PENDRES_FIT_AMPLITUDE_SCALE;
+    }
+    const pendres_fit_data all = {.n = DATA, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
+                                  .other = PENDRES_PARAMETER_COUNT};
+    check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+    const pendres_fit_summary s = pendres_fit_summary_get(fit);
+    assert_true(s.converged && s.determined && s.probability > least_probability);
+    check_value(fit, 0, l.damping);
+    check_value(fit, 1, l.drive);
+    check_value(fit, 2, l.sine ? hertz : l.a1);
+    check_value(fit, 3, l.sine ? volts : l.a3);
+    pendres_fit_free(fit);
+  }
+  pendres_context_free(ctx);
+}
+
+/* Two of the unknowns are one where the response is linear: a reading is drive times scale. */
+static void open_combination(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context();
+  pendres_fit_datum data[SWEEP];
+  pendres_fit *fit = NULL;
+  for (int i = 0; i < SWEEP; i++) {
+    const double w = 0.5 + 1.0 * i / (SWEEP - 1), d = 1.0 - w * w;
+    data[i] = (pendres_fit_datum){.observable = PENDRES_FIT_AMPLITUDE, .direction = 1, .axis = w,
+                                  .observed = 0.3 / sqrt(d * d + 0.04 * w * w), .error = 0.01};
+  }
+  const pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.15},
+                                      {.quantity = PENDRES_DRIVE_AMPLITUDE, .guess = 0.2},
+                                      {.quantity = PENDRES_FIT_AMPLITUDE_SCALE, .guess = 2.0}};
+  pendres_fit_model model = {
+    .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0}},
+    .unknowns = 3, .unknown = open};
+  const pendres_fit_data all = {.n = SWEEP, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
+                                .other = PENDRES_PARAMETER_COUNT};
+  check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+  assert_int_equal(pendres_fit_summary_get(fit).determined, 0);
+  assert_non_null(strstr(pendres_fit_note_get(fit, 0), "drive_amplitude"));
+  assert_non_null(strstr(pendres_fit_note_get(fit, 0), "amplitude_scale"));
+  check_near(pendres_fit_value(fit, 0), 0.2, 1e-5); /* exact data: the model's own error */
+  assert_true(isinf(pendres_fit_covariance(fit, 1, 1)));
+  pendres_fit_free(fit);
+  /* Without one of them the other is known, and a prior does as well. */
+  pendres_fit_unknown told[] = {open[0], open[1], open[2]};
+  told[2].prior = 1.0;
+  told[2].prior_error = 0.01;
+  model.unknown = told;
+  check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+  assert_int_equal(pendres_fit_summary_get(fit).determined, 1);
+  check_near(pendres_fit_value(fit, 1), 0.3, 1e-4);
+  check_near(sqrt(pendres_fit_covariance(fit, 2, 2)), 0.01, 1e-4);
+  pendres_fit_free(fit);
+  pendres_context_free(ctx);
+}
+
+static void refusals(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context();
+  pendres_fit_datum data[] = {{PENDRES_FIT_AMPLITUDE, 1, 0.8, 0.0, 0.1, 0.0},
+                              {PENDRES_FIT_AMPLITUDE, 1, 0.9, 0.0, 0.2, 0.0},
+                              {PENDRES_FIT_AMPLITUDE, 1, 1.0, 0.0, 0.3, 0.0}};
+  pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.1},
+                                {.quantity = PENDRES_DRIVE_AMPLITUDE, .guess = 0.1}};
+  pendres_fit_data all = {3, data, PENDRES_DRIVE_FREQUENCY, PENDRES_PARAMETER_COUNT};
+  pendres_fit_model model = {.unknowns = 2, .unknown = open};
+  pendres_fit *fit = NULL;
+#define REFUSED(...)                                                                               \
+  do {                                                                                             \
+    assert_int_equal(pendres_fit_find(ctx, __VA_ARGS__, NULL, &fit), PENDRES_INVALID_ARGUMENT);    \
+    assert_null(fit);                                                                              \
+    assert_true(pendres_context_message(ctx)[0] != '\0');                                          \
+  } while (0)
+  REFUSED(NULL, &model);
+  REFUSED(&all, NULL);
+  all.n = 2;
+  REFUSED(&all, &model); /* as many data as unknowns */
+  all.n = 3;
+  data[1].observed = NAN;
+  REFUSED(&all, &model);
+  data[1].observed = 0.2;
+  data[1].direction = 0;
+  REFUSED(&all, &model);
+  data[1].direction = 1;
+  data[1].error = 0.1; /* one of three */
+  REFUSED(&all, &model);
+  data[1].error = 0.0;
+  data[0].axis = -1.0;
+  REFUSED(&all, &model);
+  data[0].axis = 0.8;
+  open[1].quantity = PENDRES_DAMPING;
+  REFUSED(&all, &model);
+  open[1].quantity = PENDRES_DRIVE_FREQUENCY;
+  REFUSED(&all, &model);
+  open[1].quantity = PENDRES_A3; /* a pendulum has no such coefficient */
+  REFUSED(&all, &model);
+  open[1].quantity = PENDRES_FIT_DRIVE_SCALE; /* there are no drives in the data */
+  REFUSED(&all, &model);
+  open[1].quantity = PENDRES_FIT_QUANTITY_COUNT;
+  REFUSED(&all, &model);
+  open[1] = (pendres_fit_unknown){.quantity = PENDRES_DRIVE_AMPLITUDE, .fixed = 1, .guess = NAN};
+  REFUSED(&all, &model);
+  open[1].guess = 0.1;
+  open[0].fixed = 1; /* nothing is free */
+  REFUSED(&all, &model);
+#undef REFUSED
+  assert_int_equal(pendres_fit_find(ctx, &all, &model, NULL, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_fit_find(NULL, &all, &model, NULL, &fit), PENDRES_INVALID_ARGUMENT);
+  pendres_fit_free(NULL);
+  assert_true(isnan(pendres_fit_value(NULL, 0)) && isnan(pendres_fit_covariance(NULL, 0, 0)));
+  assert_null(pendres_fit_point_get(NULL, 0));
+  assert_null(pendres_fit_jump_get(NULL, 0));
+  assert_null(pendres_fit_note_get(NULL, 0));
+  assert_int_equal(pendres_fit_jump_count(NULL), 0);
+  assert_int_equal(pendres_fit_summary_get(NULL).data, 0);
+  assert_string_equal(pendres_fit_quantity_name(PENDRES_FIT_FREQUENCY_SCALE), "frequency_scale");
+  assert_null(pendres_fit_quantity_name(-1));
+  assert_null(pendres_fit_observable_name(PENDRES_FIT_OBSERVABLE_COUNT));
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(sets_of_data),
+                                     cmocka_unit_test(open_combination),
+                                     cmocka_unit_test(refusals)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
