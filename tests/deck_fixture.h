@@ -182,6 +182,9 @@ static const char *const good[] = {
   "&scene kind='response' /\n&pendulum drive_amplitude=0.2 damping=0.1 /\n"
   "&sweep drive_period=8 /\n"
   "&ensemble shape='random' v=-1 v_last=1 seed=3 /\n",
+  "&scene kind='fit' /\n&data file='a.csv' columns='1','volts','direction=3' /\n"
+  "&fit free='damping','a1','frequency_scale' fixed='offset 0.1' bounds='a1 0 2' huber=2 /\n"
+  "&pendulum force='polynomial' drive_amplitude=0.1 /\n",
 };
 
 enum { GOOD = sizeof good / sizeof *good };

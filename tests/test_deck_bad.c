@@ -156,7 +156,7 @@ static const bad_deck bad[] = {
     { "2:11 'drive_amplitude' is given in &sweep too" } },
   { "&scene kind='switching' /\n" ONE "&sweep temperature=1 torque=0.1 /",
     { "3:22 'torque' in &sweep is not used by scene 'switching' (only by: resonance_curve, "
-      "response, phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map, fit)" } },
+      "response, phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map)" } },
   { "&scene kind='orbit' /\n&pendulum damping=0.1 drive_amplitude=0.2 drive_period=8\n"
     "force_coefficients=1 /\n&orbit x=1 /",
     { "3:1 a pendulum's force has no 'force_coefficients': give 'force'" } },

@@ -1,6 +1,6 @@
 /*
  * test_fit.c -- fits to data that another integration made (fit_fixture.h): values within their
- * errors, jumps, wrong arguments, and what data leave open.
+ * errors, and what data leave open.
  *
  * Tolerances: a value is within four and a half standard errors (one normal number in 150,000 is
  * not), a chi-square has a probability above 1e-5. Seeds are fixed.
@@ -172,76 +172,9 @@ static void open_combination(void **state)
   pendres_context_free(ctx);
 }
 
-static void refusals(void **state)
-{
-  (void)state;
-  pendres_context *ctx = context();
-  pendres_fit_datum data[] = {{PENDRES_FIT_AMPLITUDE, 1, 0.8, 0.0, 0.1, 0.0},
-                              {PENDRES_FIT_AMPLITUDE, 1, 0.9, 0.0, 0.2, 0.0},
-                              {PENDRES_FIT_AMPLITUDE, 1, 1.0, 0.0, 0.3, 0.0}};
-  pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.1},
-                                {.quantity = PENDRES_DRIVE_AMPLITUDE, .guess = 0.1}};
-  pendres_fit_data all = {3, data, PENDRES_DRIVE_FREQUENCY, PENDRES_PARAMETER_COUNT};
-  pendres_fit_model model = {.unknowns = 2, .unknown = open};
-  pendres_fit *fit = NULL;
-#define REFUSED(...)                                                                               \
-  do {                                                                                             \
-    assert_int_equal(pendres_fit_find(ctx, __VA_ARGS__, NULL, &fit), PENDRES_INVALID_ARGUMENT);    \
-    assert_null(fit);                                                                              \
-    assert_true(pendres_context_message(ctx)[0] != '\0');                                          \
-  } while (0)
-  REFUSED(NULL, &model);
-  REFUSED(&all, NULL);
-  all.n = 2;
-  REFUSED(&all, &model); /* as many data as unknowns */
-  all.n = 3;
-  data[1].observed = NAN;
-  REFUSED(&all, &model);
-  data[1].observed = 0.2;
-  data[1].direction = 0;
-  REFUSED(&all, &model);
-  data[1].direction = 1;
-  data[1].error = 0.1; /* one of three */
-  REFUSED(&all, &model);
-  data[1].error = 0.0;
-  data[0].axis = -1.0;
-  REFUSED(&all, &model);
-  data[0].axis = 0.8;
-  open[1].quantity = PENDRES_DAMPING;
-  REFUSED(&all, &model);
-  open[1].quantity = PENDRES_DRIVE_FREQUENCY;
-  REFUSED(&all, &model);
-  open[1].quantity = PENDRES_A3; /* a pendulum has no such coefficient */
-  REFUSED(&all, &model);
-  open[1].quantity = PENDRES_FIT_DRIVE_SCALE; /* there are no drives in the data */
-  REFUSED(&all, &model);
-  open[1].quantity = PENDRES_FIT_QUANTITY_COUNT;
-  REFUSED(&all, &model);
-  open[1] = (pendres_fit_unknown){.quantity = PENDRES_DRIVE_AMPLITUDE, .fixed = 1, .guess = NAN};
-  REFUSED(&all, &model);
-  open[1].guess = 0.1;
-  open[0].fixed = 1; /* nothing is free */
-  REFUSED(&all, &model);
-#undef REFUSED
-  assert_int_equal(pendres_fit_find(ctx, &all, &model, NULL, NULL), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_fit_find(NULL, &all, &model, NULL, &fit), PENDRES_INVALID_ARGUMENT);
-  pendres_fit_free(NULL);
-  assert_true(isnan(pendres_fit_value(NULL, 0)) && isnan(pendres_fit_covariance(NULL, 0, 0)));
-  assert_null(pendres_fit_point_get(NULL, 0));
-  assert_null(pendres_fit_jump_get(NULL, 0));
-  assert_null(pendres_fit_note_get(NULL, 0));
-  assert_int_equal(pendres_fit_jump_count(NULL), 0);
-  assert_int_equal(pendres_fit_summary_get(NULL).data, 0);
-  assert_string_equal(pendres_fit_quantity_name(PENDRES_FIT_FREQUENCY_SCALE), "frequency_scale");
-  assert_null(pendres_fit_quantity_name(-1));
-  assert_null(pendres_fit_observable_name(PENDRES_FIT_OBSERVABLE_COUNT));
-  pendres_context_free(ctx);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sets_of_data),
-                                     cmocka_unit_test(open_combination),
-                                     cmocka_unit_test(refusals)};
+                                     cmocka_unit_test(open_combination)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -173,6 +173,9 @@ static void check_force(deck_builder *b)
   }
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
     fixed |= d->pendulum.force_coefficients[i] != 0.0;
+  /* A fit may find them. */
+  for (size_t i = 0; i < d->fit.free.count; i++)
+    any |= d->fit.free.name[i][0] == 'a' && d->fit.free.name[i][2] == '\0';
   if (d->pendulum.force == PENDRES_FORCE_PENDULUM && fixed)
     deck_complain(b, deck_given_of(b, "pendulum", "force_coefficients"), "force_coefficients",
                   "a pendulum's force has no 'force_coefficients': give 'force' as well");

@@ -92,8 +92,10 @@ typedef struct pendres_fit_unknown {
   int fixed;          /**< nonzero: `guess` is its value */
   double guess;       /**< where to begin; NaN: from the data (amplitudes, rms, quadratures or loop
                            areas tell damping, drive, a1, a3 and scales; of others it is 0) */
-  double low, high;   /**< bounds; both 0: none */
-  double prior, prior_error; /**< a Gaussian prior, its mean and standard deviation; 0: none */
+  double low;         /**< the lower bound, ... */
+  double high;        /**< ... and the upper one; both 0: none */
+  double prior;       /**< a Gaussian prior: its mean, ... */
+  double prior_error; /**< ... and standard deviation; 0: none */
 } pendres_fit_unknown;
 
 /** A number that was measured. */
