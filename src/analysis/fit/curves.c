@@ -34,8 +34,8 @@ static range range_of(const fit_model *m, const fit_curve *c, const fit_values v
   range r = {.low = fmin(a, b) - fit_margin * span, .high = fmax(a, b) + fit_margin * span,
              .least = fmin(a, b) - fit_outside * span, .most = fmax(a, b) + fit_outside * span};
   if (pendres_parameter_of(m->axis)->positive || m->axis == PENDRES_DRIVE_AMPLITUDE) {
-    r.low = fmax(r.low, 0.5 * fmin(a, b));
-    r.least = fmax(r.least, 0.05 * fmin(a, b));
+    r.low = fmax(r.low, fit_lowest * fmin(a, b));
+    r.least = fmax(r.least, fit_least * fmin(a, b));
   }
   return r;
 }

@@ -181,7 +181,7 @@ void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *t,
 
 /* ---- guess.c ---- */
 
-enum { FIT_GUESSES = 12 };
+enum { FIT_GUESSES = 16 };
 
 /* Values to begin with, best first: quantities that are NaN in v come from the data. Returns how
    many there are. */

@@ -18,7 +18,7 @@ enum {
   FIT_FOLD_ROUNDS = 4, /* secants for a fold: each gives as many digits as the two before */
   /* Steps a period, at most this many and so many times as many as where a start began: values that
      need more have gone astray. Slow drives take some hundred. */
-  FIT_MOST_STEPS = 600,
+  FIT_MOST_STEPS = 1000,
   FIT_MORE_STEPS = 4,
   FIT_PASSES = 8,      /* of Newton's method at the data, from points of the curve between nodes */
   FIT_STARTS = 6,
@@ -28,7 +28,7 @@ enum {
   FIT_GUESS_PLACES = 121, /* of the small resonance that are tried */
   FIT_GUESS_SIZES = 17,   /* and largest amplitudes, four a decade from 3 down */
   FIT_GUESS_STARTS = 10,  /* that are improved */
-  FIT_GUESS_RAW = 2,      /* that are tried as they are as well */
+  FIT_GUESS_RAW = 6, /* that are tried as they are as well */
   FIT_NOTES = 12,
   FIT_NOTE = 400
 };
@@ -44,6 +44,10 @@ static const double fit_nodes_high = 14.0, fit_steps_across = 150.0;
 /* A curve goes beyond the data by this share of their range, so that it begins and ends outside of
    the range in which states coexist; and folds may lie further out by so many ranges. */
 static const double fit_margin = 0.3, fit_outside = 3.0;
+
+/* What stays above 0, as a frequency, begins at this share of its lowest value in the data, and
+   is not followed below the second: slow drives take many steps. */
+static const double fit_lowest = 0.8, fit_least = 0.05;
 
 /* What Newton's method corrects last leaves its square. */
 static const double fit_last_step = 3e-5;
