@@ -488,7 +488,6 @@ const scene_kind scene_fit = {
   .kind = DECK_FIT,
   .references = "A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations, chapter 4; J. Nocedal and "
                 "S. J. Wright, Numerical Optimization, chapter 10",
-  .timed = 1,
   .size = {.head = 60e3, .point = 100.0, .memory = 1e6, .stages = 1.0, .after = 1.0,
            .seconds = 1.0},
   .describe = describe,
