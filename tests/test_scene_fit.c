@@ -15,28 +15,37 @@ enum { OPEN = 5, DATA = 240 };
 static const char head[] = "&scene kind = 'fit' /\n&pendulum force = 'polynomial', "
                            "force_coefficients = 1, 0, 1 /\n";
 
+/* The deck of input with other groups in front and other keys of the fit. */
+static pendres_store *run_sweeps(const char *groups, const char *fit)
+{
+  char text[1500], folder[1000];
+  assert_non_null(getcwd(folder, sizeof folder));
+  snprintf(text, sizeof text,
+           "%s&data file = '%.600s/input/fit.csv'\n  columns = 'frequency', 'volts', 'error', "
+           "'direction', 'drive_amplitude=drive'\n  observable = 'first_harmonic_amplitude' /\n"
+           "&fit %s /\n", groups, folder, fit);
+  scene_run_deck(text, 1, "fit");
+  return scene_open("fit");
+}
+
+static void read_numbers(pendres_store *s, const char *name, double *out, size_t n)
+{
+  check_ok(pendres_store_read(s, NULL, name, PENDRES_STORE_DOUBLE, out, n));
+}
+
 static void three_drives(void **state)
 {
   (void)state;
   static const double truth[OPEN] = {0.005, 1.2e6, 0.01, 4.0 / 15.0, 0.0008};
-  char text[1500], folder[1000];
-  assert_non_null(getcwd(folder, sizeof folder));
-  snprintf(text, sizeof text,
-           "%s&data file = '%.900s/input/fit.csv'\n  columns = 'frequency', 'volts', 'error', "
-           "'direction', 'drive_amplitude=drive'\n  observable = 'first_harmonic_amplitude' /\n"
-           "&fit free = 'damping', 'frequency_scale', 'drive_scale', 'amplitude_scale',\n"
-           "  'offset' /\n",
-           head, folder);
-  scene_run_deck(text, 1, "fit");
-  pendres_store *s = scene_open("fit");
+  pendres_store *s = run_sweeps(head, "free = 'damping', 'frequency_scale', 'drive_scale',\n"
+                                "  'amplitude_scale', 'offset'");
   double value[OPEN], error[OPEN], covariance[OPEN * OPEN], chi = 0.0, p = 0.0, residual[DATA];
-  check_ok(pendres_store_read(s, NULL, "value", PENDRES_STORE_DOUBLE, value, OPEN));
-  check_ok(pendres_store_read(s, NULL, "value_error", PENDRES_STORE_DOUBLE, error, OPEN));
-  check_ok(pendres_store_read(s, NULL, "covariance", PENDRES_STORE_DOUBLE, covariance,
-                              OPEN * OPEN));
-  check_ok(pendres_store_read(s, NULL, "chi_square", PENDRES_STORE_DOUBLE, &chi, 1));
-  check_ok(pendres_store_read(s, NULL, "probability", PENDRES_STORE_DOUBLE, &p, 1));
-  check_ok(pendres_store_read(s, NULL, "residual", PENDRES_STORE_DOUBLE, residual, DATA));
+  read_numbers(s, "value", value, OPEN);
+  read_numbers(s, "value_error", error, OPEN);
+  read_numbers(s, "covariance", covariance, OPEN * OPEN);
+  read_numbers(s, "chi_square", &chi, 1);
+  read_numbers(s, "probability", &p, 1);
+  read_numbers(s, "residual", residual, DATA);
   for (int i = 0; i < OPEN; i++) {
     check_near(value[i], truth[i], 4.5 * error[i]);
     check_near(sqrt(covariance[i * OPEN + i]), error[i], 1e-9 * error[i]);
@@ -49,6 +58,62 @@ static void three_drives(void **state)
   assert_true(pendres_store_has(s, NULL, "branch_stable") &&
               pendres_store_has(s, NULL, "branch_multiplier_re") &&
               pendres_store_has(s, NULL, "jump_parameter"));
+  assert_false(pendres_store_has(s, NULL, "value_si"));
+  pendres_store_free(s);
+}
+
+static void check_mark(pendres_store *s, const char *name, double factor, const char *units)
+{
+  double value = 0.0;
+  char *text = NULL;
+  check_ok(pendres_store_read_attribute_double(s, NULL, name, "si_factor", &value));
+  check_ok(pendres_store_read_attribute_text(s, NULL, name, "si_units", &text));
+  check_near(value, factor, 1e-14 * factor);
+  assert_string_equal(text, units);
+  free(text);
+}
+
+/* The same data where mass, frequency and the detector are known: what follows from these is not
+   sought, and data in Hz and V become numbers in the model's units and back. */
+static void known_scales(void **state)
+{
+  (void)state;
+  const double f0 = 1.2e6, mass = 1e-12, length = 1e-7, rate = 2.0 * PENDRES_PI * f0;
+  const double stiffness = mass * rate * rate, volts = 4.0 / 15.0;
+  const double truth[OPEN] = {0.005 * rate, stiffness, stiffness / (length * length),
+                              0.01 * stiffness * length, 0.0008};
+  static const char *const units[OPEN] = {"s-1", "N m-1", "N m-3", "N", "V"};
+  double value[OPEN], error[OPEN], ours[DATA];
+  char *text = NULL;
+  pendres_store *s = run_sweeps(
+    "&scene kind = 'fit' /\n&units natural_frequency = '1.2 MHz', mass = '1 ng',\n"
+    "  length = '100 nm', volts_per_length = 2666666.6666666665 /\n"
+    "&pendulum force = 'polynomial', force_coefficients = 1, 0, 1 /\n",
+    "free = 'damping', 'a1', 'a3', 'drive_scale', 'offset',\n"
+    "  bounds = 'a3 1e15, 1e16 N/m^3', prior = 'offset 0.7 0.3 mV'");
+  read_numbers(s, "value_si", value, OPEN);
+  read_numbers(s, "value_si_error", error, OPEN);
+  for (size_t i = 0; i < OPEN; i++) {
+    check_near(value[i], truth[i], 4.5 * error[i]);
+    assert_true(error[i] > 0.0 && error[i] < 0.1 * truth[i]);
+    check_ok(pendres_store_read_text(s, NULL, "value_units", i, &text));
+    assert_string_equal(text, units[i]);
+    free(text);
+  }
+  check_mark(s, "jump_parameter", f0, "Hz");
+  check_mark(s, "jump_measured_to", f0, "Hz");
+  check_mark(s, "observed", volts, "V");
+  check_mark(s, "modelled_error", volts, "V");
+  check_mark(s, "branch_amplitude", volts, "V");
+  check_mark(s, "branch_axis", f0, "Hz");
+  read_numbers(s, "datum_axis", ours, DATA);
+  check_near(ours[0] * f0, 1182000.0, 1e-9); /* the first line of the file */
+  read_numbers(s, "observed", ours, DATA);
+  check_near(ours[0] * volts, 0.002563, 1e-15);
+  /* Generators' volts have no unit. */
+  double unused = 0.0;
+  assert_int_equal(pendres_store_read_attribute_double(s, NULL, "datum_other", "si_factor",
+                                                       &unused), PENDRES_NOT_FOUND);
   pendres_store_free(s);
 }
 
@@ -99,17 +164,51 @@ static void bad_data(void **state)
   check_told("0.8 0.1 0\n", "columns = '1', '2', 'direction=3'", "not 0");
 }
 
+#define SCALED "&scene kind = 'fit' /\n&data file = 'a' /\n&units natural_frequency = 2 /\n&fit "
+
 static void bad_keys(void **state)
 {
   (void)state;
+  static const struct { const char *keys, *words; } wrong[] = {
+    {"free = 'damping', 'frequency_scale'", "'frequency_scale' is what 'natural_frequency'"},
+    {"free = 'damping', fixed = 'frequency_scale 3'", "leave out one of the two"},
+    {"free = 'damping', fixed = 'gain 3'", "begins with no quantity of a fit"},
+    {"free = 'damping', fixed = 'offset'", "is not of the form 'NAME VALUE'"},
+    {"free = 'damping', fixed = 'offset 1 mV'", "'offset' is in rad here: 'mV' does not fit"},
+    {"free = 'damping', fixed = 'drive_scale 1 N'", "complete &units"},
+    {"free = 'damping', fixed = 'offset 1', 'offset 2'", "has 'offset' twice"},
+    {"free = 'damping', fixed = 'damping 1'", "'damping' is in 'free' too"},
+    {"free = 'damping', bounds = 'offset 1 2'", "name 'offset' in 'free'"},
+    {"free = 'damping', bounds = 'damping 2 1'", "must be below the upper"},
+    {"free = 'damping', bounds = 'damping 1 2 kHq'", "'kHq' is no unit"},
+    {"free = 'damping', bounds = 'damping 1 2 kHz'", NULL},
+    {"free = 'damping', prior = 'damping 1 0'", "must be above 0"},
+    {"free = 'damping', prior = 'damping x 0'", "is not of the form 'NAME MEAN ERROR'"},
+  };
   scene_check_refused("&scene kind = 'fit' /\n&data file = 'a' /\n&fit free = 'dampin' /\n",
                       "did you mean 'damping'");
   scene_check_refused("&scene kind = 'fit' /\n&data file = 'a' /\n", "needs a group &fit with");
+  scene_check_refused("&scene kind = 'fit' /\n&data file = 'a' /\n&pendulum force = 'polynomial' /"
+                      "\n&units volts_per_length = 1 /\n&fit free = 'amplitude_scale' /\n",
+                      "'amplitude_scale' is what 'volts_per_length'");
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    char text[400];
+    deck d;
+    namelist_errors errors = {0};
+    snprintf(text, sizeof text, "%s%s /\n", SCALED, wrong[i].keys);
+    if (wrong[i].words != NULL) {
+      scene_check_refused(text, wrong[i].words);
+      continue;
+    }
+    assert_int_equal(deck_read_memory("test.nml", text, strlen(text), &d, &errors), PENDRES_OK);
+    deck_free(&d);
+    namelist_errors_free(&errors);
+  }
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(three_drives), cmocka_unit_test(bad_data),
-                                     cmocka_unit_test(bad_keys)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(three_drives), cmocka_unit_test(known_scales),
+                                     cmocka_unit_test(bad_data), cmocka_unit_test(bad_keys)};
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -299,6 +299,7 @@ void deck_check(deck_builder *b)
   deck_check_units(b);
   check_ensemble(b);
   check_spectrum(b);
+  deck_check_fit(b);
   if (d->precision.block_lanes % 8 != 0)
     deck_complain(b, deck_given_of(b, "precision", "block_lanes"), "block_lanes",
                   "'block_lanes' must be a multiple of 8");

@@ -327,6 +327,21 @@ typedef struct deck_si {
 } deck_si;
 int deck_si_of(const deck *d, const char *name, deck_si *out);
 
+/** Is a quantity of a fit sought, or held at a value that &fit gives? And what makes SI of it, as
+ *  deck_si_of; of drive_scale for one of the data's unit. */
+int deck_fit_has(const deck *d, const char *name);
+int deck_fit_si(const deck *d, const char *name, deck_si *out);
+
+/** Read an entry of &fit, of a form such as "NAME LOW HIGH", perhaps with a unit behind it: numbers
+ *  in the model's units. 0, with the reason: it is none. */
+enum { DECK_FIT_WHY = 200 };
+typedef struct deck_fit_value {
+  char name[DECK_NAME];
+  double number[2];
+} deck_fit_value;
+int deck_fit_entry(const deck *d, const char *text, const char *form, deck_fit_value *out,
+                   char why[DECK_FIT_WHY]);
+
 /** The same in a unit with the prefix in which a number of that size in SI is easiest to read. */
 deck_si deck_si_prefixed(const deck_si *si, double value);
 

@@ -57,7 +57,7 @@
 #define LIST(g, n, f) .group = g, .name = n, .type = DECK_LIST, FIELD(f)
 #define SWEEP(n, a) .group = "sweep", .name = n, .type = DECK_SWEEP, .axis = DECK_AXIS_##a
 #define VALUE(n, a) .group = "pendulum", .name = n, .type = DECK_SWEEP_VALUE, .axis = DECK_AXIS_##a
-#define SCALE(f) REAL("units", #f, units.f), IN(FREE | DRIVEN | ALONG), \
+#define SCALE(f) REAL("units", #f, units.f), IN(FREE | DRIVEN | ALONG | FIT), \
                  RANGE(0, BIG), .open = 1, .number = NAN
 #define IN(s) .scenes = (s)
 #define NEEDED_IN(s) .scenes = (s), .needed = (s)
@@ -371,7 +371,7 @@ const deck_key deck_table[] = {
     SAYS(NULL, "quantities with other values than &pendulum has, as 'amplitude_scale 0.2'; without "
          "it scales are 1, offset and backgrounds 0") },
   { CHOICES("fit", "bounds", fit.bounds), IN(FIT),
-    SAYS(NULL, "bounds of what is free, as 'damping 0.01 0.1'") },
+    SAYS(NULL, "bounds of what is free, as 'damping 0.01 0.1' or, with &units, 'damping 1 9 kHz'")},
   { CHOICES("fit", "prior", fit.prior), IN(FIT),
     SAYS(NULL, "what is known of free quantities beside the data, a mean and its standard error, "
          "as 'a3 -0.16 0.01'") },

@@ -163,6 +163,9 @@ void deck_scales_find(deck_builder *b);
 /* The damping that follows from a resistance, once all keys are read. */
 void deck_scales_damping(deck_builder *b);
 
+/* fit.c: what concerns several keys of a fit. */
+void deck_check_fit(deck_builder *b);
+
 /* decimal.c: the shortest decimal that reads back as x, in the C locale, with a point or an
    exponent so that it is a real to the eye. */
 enum { DECK_DECIMAL = 40 };

@@ -1,4 +1,4 @@
-/* fit_data.h -- data of a fit from a text file. */
+/* fit_data.h -- what the parts of the scene fit share: its data, their units, and its results. */
 #ifndef SCENE_FIT_DATA_H
 #define SCENE_FIT_DATA_H
 
@@ -13,7 +13,32 @@ typedef struct fit_data {
   char path[DECK_PATH];
 } fit_data;
 
+enum { FIT_MOST = PENDRES_FIT_QUANTITY_COUNT };
+
+typedef struct fit_work {
+  scene_run *run;
+  const deck *d;
+  fit_data data;
+  pendres_pendulum model;
+  size_t n, free; /* unknowns, of which the first ones are free */
+  pendres_fit_unknown unknown[FIT_MOST];
+  pendres_fit *fit;
+} fit_work;
+
 /* Read the deck's file; what is wrong is the run's failure: file, line, and what to do. */
 void fit_data_read(scene_run *run, fit_data *out);
+
+/* Standard error of unknown number i. */
+double fit_error(const fit_work *w, size_t i);
+
+/* Bring data from SI into the model's units, where &units tell these. */
+void fit_units_take(fit_work *w);
+/* What makes SI of a parameter of the data, the axis or the other one; 0: &units do not tell. */
+int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out);
+/* Mark what the file holds in units of the data. */
+void fit_units_mark(const fit_work *w);
+
+/* Write the results. */
+void fit_write(const fit_work *w);
 
 #endif

@@ -322,6 +322,7 @@ static void write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
   pendres_store_spec spec = { .name = deck_axis_name(axis), .long_name = words_of(axis),
                               .units = units_of(axis) };
   if (isnan(value)) return;
+  if (deck_fit_has(d, spec.name)) return; /* a guess, or not the value that is used */
   /* In other scenes the temperature is a dimension, even with one value. */
   if (axis == DECK_AXIS_TEMPERATURE && !scene_find(d->kind)->one_temperature) return;
   if (coefficient > 0) {

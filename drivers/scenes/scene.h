@@ -156,7 +156,9 @@ void scene_numbering(scene_run *run, const char *name, size_t n, const char *wor
 void scene_write_identity(scene_run *run);
 
 /* Where a deck has &units: mark a variable that was just defined, and its errors if it has any,
-   with the attributes si_factor and si_units; and print short results in SI behind the table. */
+   with the attributes si_factor and si_units; one whose unit does not follow from its name; and
+   print short results in SI behind the table. */
+void scene_mark_si(scene_run *run, const char *group, const char *name, const deck_si *si);
 void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors);
 void scene_tell_units(scene_run *run);
 

@@ -13,7 +13,7 @@
 
 enum { MOST_PRINTED = 20 };
 
-static void mark(scene_run *run, const char *group, const char *name, const deck_si *si)
+void scene_mark_si(scene_run *run, const char *group, const char *name, const deck_si *si)
 {
   if (!scene_going(run) || !pendres_store_has(run->store, group, name)) return;
   const pendres_status status =
@@ -28,9 +28,9 @@ void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors
   deck_si si;
   const int is_number = spec->type == PENDRES_STORE_DOUBLE;
   if (!is_number || !scene_going(run) || !deck_si_of(run->deck, spec->name, &si)) return;
-  mark(run, spec->group, spec->name, &si);
+  scene_mark_si(run, spec->group, spec->name, &si);
   (void)snprintf(error_name, sizeof error_name, "%.64s_error", spec->name);
-  if (errors) mark(run, spec->group, error_name, &si);
+  if (errors) scene_mark_si(run, spec->group, error_name, &si);
 }
 
 /* ---- behind the table ---------------------------------------------------------------------- */
@@ -189,7 +189,8 @@ void scene_tell_units(scene_run *run)
 {
   char *name = NULL;
   size_t n = 0;
-  if (!deck_has_units(run->deck) || !scene_prints(run)) return;
+  /* The table of a fit has its own column for them. */
+  if (!deck_has_units(run->deck) || !scene_prints(run) || run->deck->kind == DECK_FIT) return;
   fputs("\nin SI:\n", run->table);
   tell_scalars(run);
   for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name))
