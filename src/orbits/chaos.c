@@ -274,17 +274,20 @@ static pendres_chaos_measures measures_of(const pendres_attractor_set *c, const 
 /*
  * Whether replicas need not be followed further: they agree, and each by itself is chaotic. Before
  * all of their batches are over this is asked after 4, 6, 8, ... of them, and then the exponent
- * must also be as accurate as requested.
+ * must also be as accurate as requested. Where any error of it will do, means are not asked for:
+ * replicas that do not agree, such as those in the many bands of chaos next to its beginning, are
+ * as chaotic.
  */
 static int seen_enough(const pendres_context *ctx, const pendres_attractor_set *c,
                        const ensemble *v)
 {
+  const double wanted = ctx->options.exponent_error;
   if (v->batches < BATCHES) {
     if (v->batches < FEW_BATCHES || v->batches % 2 != 0) return 0;
     const pendres_chaos_mean growth = measures_of(c, v).growth;
-    if (!(growth.error <= ctx->options.exponent_error * growth.value)) return 0;
+    if (!(growth.error <= wanted * growth.value)) return 0;
   }
-  return alike(v) && all_chaotic(v);
+  return (wanted >= 1.0 || alike(v)) && all_chaotic(v);
 }
 
 /* The known chaotic attractor that more than half of the replicas' points lie on; NULL if none. */

@@ -195,6 +195,18 @@ static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapuno
   return status;
 }
 
+/* The same of trials, of which labels alone are asked: chaos need not be known better than that it
+   lasts. */
+static pendres_status settle_trials(pendres_context *ctx, size_t n, pendres_lyapunov_care care,
+                                    pendres_settled *s)
+{
+  const double exponent_error = ctx->options.exponent_error;
+  ctx->options.exponent_error = 1.0;
+  const pendres_status status = settle_all(ctx, n, care, s);
+  ctx->options.exponent_error = exponent_error;
+  return status;
+}
+
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s)
 {
   return settle_by_averages(ctx, n, NULL, PENDRES_CARE_CLOSE, s);
@@ -272,7 +284,7 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
     }
     if (n == 0) break;
     const int last = round + 1 == JUMP_ROUNDS;
-    status = settle_all(ctx, n, last ? PENDRES_CARE_LABEL : PENDRES_CARE_ONCE, some);
+    status = settle_trials(ctx, n, last ? PENDRES_CARE_LABEL : PENDRES_CARE_ONCE, some);
     for (size_t k = 0; k < n; k++) went[which[k]] = some[k];
   }
   return status;
@@ -306,7 +318,7 @@ pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation 
   pendres_settled went[TRIALS];
   double distance[TRIALS];
   begin(at, direction, distance, went);
-  pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_ONCE, went);
+  pendres_status status = settle_trials(ctx, TRIALS, PENDRES_CARE_ONCE, went);
   if (status == PENDRES_OK) status = go_on(ctx, at, direction, distance, went);
   return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
 }
@@ -319,6 +331,6 @@ pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulu
   for (int i = 0; i < TRIALS; i++) went[i] = pendres_settled_nothing_at(p, x[i], v[i]);
   const int rotates = jump->from == PENDRES_LABEL_QUASI_PERIODIC;
   const pendres_status status =
-    settle_all(ctx, TRIALS, rotates ? PENDRES_CARE_CLOSE : PENDRES_CARE_LABEL, went);
+    settle_trials(ctx, TRIALS, rotates ? PENDRES_CARE_CLOSE : PENDRES_CARE_LABEL, went);
   return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
 }
