@@ -49,6 +49,11 @@ double pendres_accuracy_to_follow(const pendres_context *ctx)
   return fmax(1e-4, ctx->options.tolerance);
 }
 
+double pendres_accuracy_in_chaos(const pendres_context *ctx)
+{
+  return ctx->options.exponent_error < 1.0 ? PENDRES_ACCURACY_DEFAULT : 1e-6;
+}
+
 double pendres_accuracy_of_means(const pendres_context *ctx)
 {
   return fmax(1e-11, ctx->options.tolerance);

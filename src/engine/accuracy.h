@@ -51,6 +51,11 @@ double pendres_accuracy_to_average(const pendres_context *ctx);
    within 1536 more with an error of 1e-6 a period, 423 with this one, 414 with 1e-3. */
 double pendres_accuracy_to_follow(const pendres_context *ctx);
 
+/* For replicas in chaos, with tangents of fourth order in the same steps. Where any error of the
+   exponent will do, steps may be so long that tangents still show its sign: at 1e-5 a period the
+   error of these outgrows weak chaos, which then takes several times as long. */
+double pendres_accuracy_in_chaos(const pendres_context *ctx);
+
 /* For means over rotations that are not locked to the drive, which are averaged twice. */
 double pendres_accuracy_of_means(const pendres_context *ctx);
 

@@ -228,7 +228,7 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
   for (size_t i = 0; i < n; i++)
     fastest = fmax(fastest, pendres_steps_speed(&c->pendulum, a[i].y + origin, a[i].w * omega));
   pendres_status status =
-    pendres_steps_choose(ctx, &c->pendulum, fastest, PENDRES_ACCURACY_DEFAULT, &steps);
+    pendres_steps_choose(ctx, &c->pendulum, fastest, pendres_accuracy_in_chaos(ctx), &steps);
   steps += steps % 2; /* for tangents with steps twice as long */
   if (status == PENDRES_OK) status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
   if (status != PENDRES_OK) return status;

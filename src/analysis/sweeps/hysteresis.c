@@ -98,8 +98,7 @@ static pendres_status go_on_in_chaos(path *w, size_t step, const pendres_settled
 {
   pendres_jump j = {
     .step = step, .direction = pendres_path_direction(w, step), .kind = PENDRES_JUMP_OTHER};
-  const pendres_status status =
-    pendres_crisis_find(w->ctx, w->parameter, old, w->at, &w->state, &j);
+  const pendres_status status = pendres_crisis_find(w, old, &j);
   if (status != PENDRES_OK || j.kind != PENDRES_JUMP_CRISIS) return status;
   const pendres_status noted = pendres_path_note(w, &j);
   pendres_path_leave(w);
@@ -234,6 +233,7 @@ static pendres_status follow_path(path *w, pendres_path_left *left)
   pendres_part_free(&w->part);
   pendres_path_unlocked_free(w);
   pendres_rotation_table_free(w->rotations);
+  free(w->seen);
   return status;
 }
 

@@ -45,6 +45,14 @@ typedef struct states {
   double x[LIVES], v[LIVES];
 } states;
 
+/* Chaos as it has been looked at: from which state of which pendulum on, and what was seen. */
+typedef struct pendres_crisis_seen {
+  pendres_pendulum pendulum;
+  double x, v;
+  states in;
+  sample points;
+} pendres_crisis_seen;
+
 /* A search for a crisis between a value at which chaos is smaller and one at which it is larger. */
 typedef struct search {
   pendres_context *ctx;
@@ -154,6 +162,7 @@ typedef struct look {
   sample *points;      /* kept; NULL: none */
   const region *where; /* whether it is left; NULL: not asked */
   long left[LIVES];    /* the period in which it was; 0: it was not */
+  double room;         /* periods of all lives together that are left to be looked at */
 } look;
 
 static int visit(void *arg, size_t index, const pendres_strobe_lane *l)
@@ -162,7 +171,7 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *l)
   const long at = l->period - CRISIS_WARM_UP - 1;
   if (k->where != NULL) {
     if (!holds(k->where, l->y, l->w)) k->left[index] = l->period;
-    return k->left[index] > 0 || l->period >= MOST_LIVES;
+    return k->left[index] > 0 || l->period >= MOST_LIVES || --k->room < 0.0;
   }
   if (at >= 0) {
     k->points->y[index * CRISIS_PERIODS + (size_t)at] = l->y;
@@ -214,11 +223,11 @@ static pendres_status spread(pendres_context *ctx, const pendres_settled *s, sta
 }
 
 /* The mean number of periods in which pendulums leave the region of the smaller chaos; infinite
-   where some do not. */
-static pendres_status mean_life(const search *w, double value, double *life)
+   where some do not, or where it is more than is asked about: the longest lives take most work. */
+static pendres_status mean_life(const search *w, double value, double most, double *life)
 {
   const pendres_pendulum p = pendres_parameter_with(&w->smaller->pendulum, w->parameter, value);
-  look k = {.where = &w->where};
+  look k = {.where = &w->where, .room = most * LIVES};
   states s = w->in;
   const pendres_status status = run(w->ctx, &p, &s, &k);
   *life = 0.0;
@@ -303,10 +312,10 @@ static pendres_status by_lives(const search *w, double other, pendres_jump *jump
   while (near > soon && status == PENDRES_OK) {
     at *= 2.0;
     if (CRISIS_CLOSER * at > room) return status;
-    status = mean_life(w, w->small + at * width, &near);
+    status = mean_life(w, w->small + at * width, soon, &near);
   }
   const double further = fmin(CRISIS_FURTHER, room / at);
-  if (status == PENDRES_OK) status = mean_life(w, w->small + further * at * width, &far);
+  if (status == PENDRES_OK) status = mean_life(w, w->small + further * at * width, near, &far);
   const double power = log(near / far) / log(further);
   if (status != PENDRES_OK || !(power > crisis_least_power)) return status;
   jump->value = 0.5 * (w->small + w->large);
@@ -326,44 +335,61 @@ static pendres_status in_chaos(const search *w, double value, int *chaotic)
   return status;
 }
 
-/* Look at both chaotic motions: which of them is larger, if any; 1: the latter, -1: the former. */
-static pendres_status compare(search *w, const pendres_settled *old, const pendres_settled *there,
-                              int *larger)
+/* Look at the chaos that a pendulum is in. */
+static pendres_status look_at(pendres_context *ctx, const pendres_settled *s,
+                              pendres_crisis_seen *out)
 {
-  region before, after;
-  sample *first = malloc(sizeof *first);
-  states in[2];
-  *larger = 0;
-  if (first == NULL)
-    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for strobe points");
-  pendres_status status = spread(w->ctx, old, &in[0]);
-  if (status == PENDRES_OK) status = take_sample(w->ctx, &old->pendulum, &in[0], first);
-  if (status == PENDRES_OK) status = spread(w->ctx, there, &in[1]);
-  if (status == PENDRES_OK) status = take_sample(w->ctx, &there->pendulum, &in[1], &w->points);
-  if (status == PENDRES_OK) {
-    make_region(&old->pendulum, first, &w->points, &before);
-    make_region(&there->pendulum, &w->points, first, &after);
-    if (share_outside(&before, &w->points) > crisis_least_share) *larger = 1;
-    else if (share_outside(&after, first) > crisis_least_share) *larger = -1;
-    w->where = *larger < 0 ? after : before;
-    w->in = in[*larger < 0];
-  }
-  free(first);
+  pendres_status status = spread(ctx, s, &out->in);
+  if (status == PENDRES_OK) status = take_sample(ctx, &s->pendulum, &out->in, &out->points);
+  out->pendulum = s->pendulum;
+  out->x = status == PENDRES_OK ? s->x : NAN;
+  out->v = s->v;
   return status;
 }
 
-pendres_status pendres_crisis_find(pendres_context *ctx, pendres_parameter parameter,
-                                   const pendres_settled *old, double from,
-                                   const pendres_settled *there, pendres_jump *jump)
+/* Look at both chaotic motions: which of them is larger, if any; 1: the latter, -1: the former,
+   which mostly was the latter of the last two. */
+static pendres_status compare(search *w, pendres_crisis_seen **seen, const pendres_settled *old,
+                              const pendres_settled *there, int *larger)
 {
-  const double to = pendres_parameter_get(parameter, &there->pendulum);
+  region before, after;
+  pendres_crisis_seen *first = *seen != NULL ? *seen : calloc(1, sizeof *first);
+  pendres_crisis_seen *second = calloc(1, sizeof *second);
+  pendres_status status = PENDRES_OK;
+  *larger = 0;
+  if (first == NULL || second == NULL)
+    status = pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for strobe points");
+  else if (!(pendres_model_same(&first->pendulum, &old->pendulum) && first->x == old->x &&
+             first->v == old->v))
+    status = look_at(w->ctx, old, first);
+  if (status == PENDRES_OK) status = look_at(w->ctx, there, second);
+  if (status == PENDRES_OK) {
+    const sample *small = &first->points, *large = &second->points;
+    make_region(&old->pendulum, small, large, &before);
+    make_region(&there->pendulum, large, small, &after);
+    if (share_outside(&before, large) > crisis_least_share) *larger = 1;
+    else if (share_outside(&after, small) > crisis_least_share) *larger = -1;
+    w->where = *larger < 0 ? after : before;
+    w->in = *larger < 0 ? second->in : first->in;
+  }
+  free(first);
+  *seen = second;
+  return status;
+}
+
+pendres_status pendres_crisis_find(pendres_path *path, const pendres_settled *old,
+                                   pendres_jump *jump)
+{
+  const pendres_settled *there = &path->state;
+  const double from = path->at, to = pendres_parameter_get(path->parameter, &there->pendulum);
   int larger = 0, found = 0, chaotic = 0;
   search *w = calloc(1, sizeof *w);
   if (w == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for strobe points");
-  w->ctx = ctx;
-  w->parameter = parameter;
-  pendres_status status = compare(w, old, there, &larger);
+    return pendres_context_fail(path->ctx, PENDRES_OUT_OF_MEMORY,
+                                "out of memory for strobe points");
+  w->ctx = path->ctx;
+  w->parameter = path->parameter;
+  pendres_status status = compare(w, &path->seen, old, there, &larger);
   if (status != PENDRES_OK || larger == 0) goto done;
   w->smaller = larger > 0 ? old : there;
   w->small = larger > 0 ? from : to;

@@ -7,17 +7,15 @@
 #ifndef PENDRES_HYSTERESIS_CRISIS_H
 #define PENDRES_HYSTERESIS_CRISIS_H
 
-#include "analysis/sweeps/hysteresis_jump.h"
+#include "analysis/sweeps/hysteresis_path.h"
 
 /*
- * A pendulum was in chaos at value `from` of a parameter, and is at that of `there`. Where the set
- * of its strobe points is suddenly larger on one side of a place between the two, kind (which the
- * caller has set to another), value, value_error, from, to, to_period, share and certain of the
+ * A pendulum was in chaos, `old`, at the path's last value, and is at that of its state. Where the
+ * set of its strobe points is suddenly larger on one side of a place between the two, kind (which
+ * the caller has set to another), value, value_error, from, to, to_period, share and certain of the
  * jump are set. One place is found where there are several. What changes gradually, or cannot be
  * told from it, is not.
  */
-pendres_status pendres_crisis_find(pendres_context *ctx, pendres_parameter parameter,
-                                   const pendres_settled *old, double from,
-                                   const pendres_settled *there, pendres_jump *jump);
+pendres_status pendres_crisis_find(pendres_path *w, const pendres_settled *old, pendres_jump *jump);
 
 #endif

@@ -37,6 +37,7 @@ typedef struct pendres_path {
   pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
   pendres_unlocked *unlocked; /* at each of this many different values; NULL: none met yet */
   size_t values;
+  struct pendres_crisis_seen *seen; /* chaos compared with another last; NULL: none */
 } pendres_path;
 
 pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value);
