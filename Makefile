@@ -475,13 +475,13 @@ interface-list:
 figures: $(PROGRAM)
 	@mkdir -p $(BUILD)/figures; top=$$PWD; cd $(BUILD)/figures && failed=0 && \
 	for deck in "$$top"/input/*.nml; do \
-	  case $${deck##*/} in workprec_* | fit.nml) continue ;; esac; echo "$${deck##*/}"; \
+	  case $${deck##*/} in workprec_*) continue ;; esac; echo "$${deck##*/}"; \
 	  "$(PROGRAM_PATH)" --quiet "$$deck" >/dev/null || [ $$? -eq 3 ] || failed=1; \
 	done; plot() { $${PYTHON:-/usr/bin/python3} "$$top/plots/plot.py" "$$@"; }; \
 	plot *.h5 && plot --surface f10.h5 && exit $$failed
 
 # The few pictures that docs/gallery.md and the README show, from what `make figures` left.
-GALLERY := f05 f07 f08 f09 duffing resonator hysteresis josephson cascade
+GALLERY := f05 f07 f08 f09 duffing resonator fit hysteresis josephson cascade
 gallery:
 	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 200 -o docs/gallery \
 	  $(GALLERY:%=$(BUILD)/figures/%.h5)

@@ -150,8 +150,12 @@ def draw_spectrum(h, ax):
            xlim=(0, omega[-1] / h["drive_frequency"]))
 
 
-def unit_of_x(h, name="x(0)"):
-    """What positions are divided by, and the label of their axis: only a pendulum's are angles."""
+def unit_of_x(h, name="x(0)", of="x"):
+    """What positions are divided by, and the label of their axis: in SI where the file tells it of
+    the variable `of`; else only a pendulum's are angles, in units of pi."""
+    factor, unit = h.scale(of) if of in h else (1.0, "")
+    if unit and unit not in ("rad", "1"):
+        return 1 / factor, f"${name}$ ({unit})"
     return (1.0, f"${name}$") if "a1" in h else (np.pi, rf"${name}/\pi$")
 
 
@@ -318,31 +322,50 @@ def draw_branches(h, path):
     return fig
 
 
+TRANSITIONS = {"sa_la": "SA to LA", "la_sa": "LA to SA",
+               "well_sa": "SA to another well", "well_la": "LA to another well"}
+
+
+def transitions(h):
+    """Each transition that was counted at least once: its name in the file, and in words."""
+    for events in h.file:
+        what = events[len("events_"):]
+        if events.startswith("events_") and f"rate_{what}" in h and np.any(h[events] > 0):
+            words = h.file[f"rate_{what}"].attrs["long_name"]
+            words = words.decode() if isinstance(words, bytes) else str(words)
+            yield what, TRANSITIONS.get(what, words.partition(" from ")[2].partition(",")[0] or what)
+
+
+def activation_text(h, what):
+    """The activation energy with its error, in SI where the file tells."""
+    factor, unit = h.scale(f"activation_energy_{what}")
+    energy, error = (factor * h[f"activation_energy_{what}{end}"] for end in ("", "_error"))
+    digits = max(0, 1 - int(np.floor(np.log10(error)))) if error > 0 else 4
+    return f", $E = {energy:.{min(digits, 12)}f} \\pm {error:.{min(digits, 12)}f}$ {unit}".rstrip()
+
+
 def draw_switching(h, path):
     """Rates with confidence intervals, the fits, and the activation energies that they mean."""
     fig, ax = figure(h, 3.4)
-    t = h["temperature"]
-    inverse = np.linspace(0.95 / t.max(), 1.05 / t.min(), 60)
-    for what, colour, text, marker in (("sa_la", SA, "SA to LA", "o"), ("la_sa", LA, "LA to SA", "s"),
-                                       ("well_sa", SA, "SA to another well", "^"),
-                                       ("well_la", LA, "LA to another well", "v")):
-        if f"rate_{what}" not in h or not np.any(h[f"events_{what}"] > 0):
-            continue
-        rate = h[f"rate_{what}"]
-        spread = np.abs([rate - h[f"rate_{what}_lower"], h[f"rate_{what}_upper"] - rate])
-        energy = h[f"activation_energy_{what}"]
-        error = h[f"activation_energy_{what}_error"]
-        if np.isfinite(energy) and np.isfinite(error):
-            text += f", $E = {energy:.4f} \\pm {error:.4f}$"
+    t, (kelvin, warmth) = h["temperature"], h.scale("temperature")
+    inverse, second = np.linspace(0.95 / t.max(), 1.05 / t.min(), 60), ""
+    for i, (what, text) in enumerate(transitions(h)):
+        factor, second = h.scale(f"rate_{what}")
+        rate, low, high = (factor * h[f"rate_{what}{end}"] for end in ("", "_lower", "_upper"))
+        colour = LA if what in ("la_sa", "well_la") else SA if what in TRANSITIONS else f"C{i % 6}"
+        if f"activation_energy_{what}" in h and np.isfinite(h[f"activation_energy_{what}_error"]):
+            text += activation_text(h, what)
             at = h[f"fit_temperature_{what}"]
             power = h[f"prefactor_exponent_{what}"]
-            fit = np.exp(h[f"log_prefactor_{what}"] - energy * inverse) * \
+            fit = np.exp(h[f"log_prefactor_{what}"] - h[f"activation_energy_{what}"] * inverse) * \
                 (1 / (inverse * at)) ** power
-            ax.plot(inverse, fit, color=colour, lw=0.8, ls="-" if marker in "os" else ":")
+            ax.plot(inverse / kelvin, factor * fit, color=colour, lw=0.8,
+                    ls=":" if what.startswith("well") else "-")
         some = h[f"events_{what}"] > 0
-        ax.errorbar(1 / t[some], rate[some], yerr=spread[:, some], fmt=marker, ms=4, mfc="none",
-                    color=colour, label=text, capsize=2)
-    ax.set(xlabel="$1/T$", ylabel="switching rate (per unit of time)", yscale="log")
+        ax.errorbar(1 / (kelvin * t[some]), rate[some], yerr=[(rate - low)[some], (high - rate)[some]],
+                    fmt="osDX^v"[i % 6], ms=4, mfc="none", color=colour, label=text, capsize=2)
+    ax.set(xlabel="$1/T$" + (f" ({warmth}$^{{-1}}$)" if warmth else ""), yscale="log",
+           ylabel="switching rate (" + (second or "per unit of time") + ")")
     if not ax.has_data():
         ax.text(0.5, 0.5, "nothing switched", transform=ax.transAxes, ha="center")
     legend(ax)
@@ -430,6 +453,12 @@ def write_steps(ax, h, x, unit):
                     textcoords="offset points", fontsize=plt.rcParams["legend.fontsize"])
 
 
+def exponent_axis(h, label="Lyapunov\nexponent"):
+    """Lyapunov exponents as they are drawn, and the label of their axis."""
+    factor, unit = h.scale("lyapunov")
+    return factor * h["lyapunov"], label + (f" ({unit})" if unit else "")
+
+
 def velocity_axis(h):
     """What mean velocities are multiplied by to be drawn, and the label: of a junction in a
     laboratory's units volts, else drive frequencies, if that does not change."""
@@ -453,6 +482,7 @@ def draw_hysteresis(h, path):
     steps = runs and name == "torque"
     factor, height = turning if steps else amplitude_axis(h, "amplitude", "amplitude $x_0$")
     shown = factor * h["mean_velocity" if steps else "amplitude"]
+    exponents = exponent_axis(h)
     fig, (top, below) = figure(h, 3.6, 2, 1, sharex=True, height_ratios=(2.4, 1))
     gradual = h["jump_gradual"] if "jump_gradual" in h else np.zeros(len(h["jump_parameter"]))
     ends = parameter_axis(h, h["jump_parameter"], name)[0]
@@ -462,7 +492,7 @@ def draw_hysteresis(h, path):
         # Where both ways agree, the narrow line of the way down lies on the wide one of the way up.
         stops = ends[(h["jump_direction"] == way) & (gradual == 0)]
         held = np.isfinite(h["period"][way]) & steps
-        for ax, values in (top, shown[way]), (below, h["lyapunov"][way]):
+        for ax, values in (top, shown[way]), (below, exponents[0][way]):
             a, b, gaps = jumped(x[order], values[order], stops, held[order])
             ax.plot(a, b, lw=(2.6, 0.9)[way], color=f"C{way}", marker="." if len(x) < 3 else None,
                     label=f"{('up', 'down')[way]}wards")
@@ -482,7 +512,7 @@ def draw_hysteresis(h, path):
             top.axvline(end, ymax=0.04, color=f"C{way}", lw=0.8)
     top.legend(title=title, title_fontsize=plt.rcParams["legend.fontsize"])
     below.axhline(0, color="0.7", lw=0.8)
-    below.set(ylabel="Lyapunov\nexponent", xlabel=label)
+    below.set(ylabel=exponents[1], xlabel=label)
     return fig
 
 
@@ -491,9 +521,10 @@ def draw_bifurcation_diagram(h, path):
     x, label = parameter_axis(h, h[name], name)
     if "lyapunov" in h:
         fig, (top, below) = figure(h, 3.6, 2, 1, sharex=True, height_ratios=(3, 1))
-        below.plot(x, h["lyapunov"], ".-", ms=3, lw=0.6)
+        exponents, text = exponent_axis(h)
+        below.plot(x, exponents, ".-", ms=3, lw=0.6)
         below.axhline(0, color="0.7", lw=0.8)
-        below.set_ylabel("Lyapunov\nexponent")
+        below.set_ylabel(text)
     else:
         fig, top = figure(h, 2.7)
         below = top

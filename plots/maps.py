@@ -5,7 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
-from curves import bifurcation_curves, column_of, unit_of_x
+from curves import bifurcation_curves, column_of, exponent_axis, unit_of_x
 from curves import draw_response as curve_response
 from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
                    WIDE, WIDTH, amplitude_axis, colours_of, figure, frequency, legend,
@@ -25,7 +25,7 @@ def attractor_styles(h):
         if name == "running":
             name += f" {h['attractor_winding'][i]:+d}/{h['attractor_period'][i]}"
         elif np.count_nonzero(labels == label) > 1:
-            name += f" {np.count_nonzero(labels[: i + 1] == label)}"
+            name += f" {i}"  # its number in the file and in the table on the terminal
         names.append(name)
         others = sum(c not in (SA, LA) for c in colours)
         colours.append((SA, LA)[label] if label < 2 and (SA, LA)[label] not in colours
@@ -54,7 +54,7 @@ def label_plane(fig, ax, index, extent, names, colours):
 def write_wells(ax, h, thin):
     """The number of the well in the middle of each large area of one well, as in print."""
     well, index = h["well"][:: thin[0], :: thin[1]], h["attractor_index"][:: thin[0], :: thin[1]]
-    x, v = h["x"][:: thin[0]] / unit_of_x(h)[0], h["v"][:: thin[1]]
+    x, v = h["x"][:: thin[0]] / unit_of_x(h)[0], h["v"][:: thin[1]] * v_axis(h)[0]
     for number in np.unique(well[index >= 0]):
         here = (well == number) & (index >= 0)
         if np.count_nonzero(here) < 0.01 * here.size:
@@ -70,6 +70,12 @@ def write_wells(ax, h, thin):
                     fontsize=8, ha="center", va="center", path_effects=OUTLINE)
 
 
+def v_axis(h):
+    """What velocities are multiplied by to be drawn, and the label of their axis."""
+    factor, unit = h.scale("v")
+    return factor, f"$v(0)$ ({unit})" if unit else "$v(0)$"
+
+
 def draw_clouds(ax, h):
     """Noisy Poincaré points: a marker and a grey each, which colours of basins do not hide."""
     temperatures, handles = h["temperature"], []
@@ -79,8 +85,8 @@ def draw_clouds(ax, h):
         some = np.flatnonzero(np.isfinite(x))
         some = some[:: max(1, len(some) // 3000)]
         style = {"marker": "o+x"[t % 3], "color": greys[t % 3], "ls": ""}
-        ax.plot(x[some] / unit_of_x(h)[0], v[some], ms=1.2 if t % 3 == 0 else 2.2, mew=0.4, rasterized=True,
-                **style)
+        ax.plot(x[some] / unit_of_x(h)[0], v[some] * v_axis(h)[0], mew=0.4, rasterized=True,
+                ms=1.2 if t % 3 == 0 else 2.2, **style)
         handles.insert(0, Line2D([], [], ms=5, mec="black" if t % 3 == 0 else None, **style,
                                  label=f"$T = {temperatures[t]:g}$"))
     ax.legend(handles=handles, loc="lower right", facecolor="0.85")
@@ -104,8 +110,8 @@ def wells_apart(h, index, thin):
 
 
 def draw_basins(h, path):
-    unit, label = unit_of_x(h)
-    x, v = h["x"] / unit, h["v"]
+    (unit, label), (speed, beside) = unit_of_x(h), v_axis(h)
+    x, v = h["x"] / unit, h["v"] * speed
     fig, ax = figure(h, 2.8)
     thin = tuple(max(1, -(-len(axis) // MOST_PIXELS)) for axis in (x, v))
     index = h["attractor_index"][:: thin[0], :: thin[1]]
@@ -120,18 +126,23 @@ def draw_basins(h, path):
     if "boundary_x" in h and h.options.boundary:
         gaps = np.flatnonzero(np.diff(h["boundary_piece"])) + 1
         ax.plot(np.insert(h["boundary_x"] / unit, gaps, np.nan),
-                np.insert(h["boundary_v"], gaps, np.nan), color="black", lw=0.5)
+                np.insert(h["boundary_v"] * speed, gaps, np.nan), color="black", lw=0.5)
     if "strobe_x" in h:
         draw_clouds(ax, h)
     elif "well" in h and "a1" not in h:  # other forces have no numbered wells
         write_wells(ax, h, thin)
     for i, name in enumerate(names):
-        at = h["attractor_x"][i] / unit, h["attractor_v"][i]
+        at = h["attractor_x"][i] / unit, h["attractor_v"][i] * speed
         if np.all(np.isfinite(at)) and x[0] <= at[0] <= x[-1]:
             ax.plot(*at, "X", ms=6, mew=0.8, color="white", mec="black")
+            # At the right the name is below the mark, and ends inside of the picture.
+            share = (at[0] - x[0]) / (x[-1] - x[0])
+            right = share > 0.6
             ax.annotate(name, at, color="white", fontsize=8, textcoords="offset points",
-                        xytext=(6, 6), path_effects=OUTLINE)
-    ax.set(xlabel=label, ylabel="$v(0)$", xlim=(x[0], x[-1]), ylim=(v[0], v[-1]))
+                        xytext=(0, -6) if right else (6, 6), path_effects=OUTLINE,
+                        ha="left" if not right else "center" if share < 0.85 else "right",
+                        va="top" if right else "bottom")
+    ax.set(xlabel=label, ylabel=beside, xlim=(x[0], x[-1]), ylim=(v[0], v[-1]))
     return fig
 
 
@@ -234,21 +245,21 @@ def draw_lyapunov_map(h, path):
     rows, columns = h.axis_of("lyapunov", 0), h.axis_of("lyapunov", 1)
     across, below = parameter_axis(h, h[columns], columns)
     up, beside = parameter_axis(h, h[rows], rows)
-    exponent, period = h["lyapunov"], h["period"]
+    (exponent, text), period = exponent_axis(h, "largest Lyapunov exponent"), h["period"]
     wide = h.options.size is not None and h.options.size[0] > WIDE - 1
     fig, axes = figure(h, 5.6, *((1, 2) if wide else (2, 1)), sharex=True, sharey=True)
     most = np.nanpercentile(np.abs(exponent), 99)
     shown = axes[0].pcolormesh(across, up, exponent, cmap="RdBu_r", vmin=-most, vmax=most,
                                shading="nearest", rasterized=True)
-    fig.colorbar(shown, ax=axes[0], label="largest Lyapunov exponent")
+    fig.colorbar(shown, ax=axes[0], label=text)
     closed = np.isfinite(period)
     kind = np.where(closed, 1 + (h["winding"] != 0) + 2 * (period > 1), 0)
     kind = np.where(h["label"] == NAMED.index("unresolved"), 5, kind)
     rotates = h["label"] == NAMED.index("quasi_periodic")
     kind = np.where(rotates, 6, kind)
     count = 7 if rotates.any() else 6
-    names = ["chaotic", "period 1", "period 1, running", "longer", "longer, running", "unresolved",
-             "quasi-periodic"][:count]
+    names = ["chaotic", "period 1", "period 1, running", "longer period", "longer, running",
+             "unresolved", "quasi-periodic"][:count]
     colours = ListedColormap(["black", SINGLE, MORE[4], SA, LA, UNRESOLVED, MORE[0]][:count])
     shown = axes[1].pcolormesh(across, up, kind, cmap=colours, vmin=-0.5, vmax=count - 0.5,
                                shading="nearest", rasterized=True)

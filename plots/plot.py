@@ -17,6 +17,7 @@ import textwrap
 import h5py
 
 import curves
+import fits
 import maps
 import validation
 from style import Run, plt
@@ -35,6 +36,7 @@ DRAWERS = {  # by the root attribute `scene`
     "work_precision": validation.draw_work_precision,
     "hard_cases": validation.draw_hard_cases,
     "switching": curves.draw_switching,
+    "fit": fits.draw_fit,
 }
 
 

@@ -138,7 +138,8 @@ def legend(ax, handles=None, under=None, **more):
     ax.legend(*zip(*once.values()), **more)
 
 
-PREFIXES = {12: "T", 9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n", -12: "p", -15: "f"}
+PREFIXES = {12: "T", 9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n", -12: "p", -15: "f",
+            -18: "a", -21: "z"}
 
 
 def prefix_of(value):

@@ -10,6 +10,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plots"))
 import curves  # noqa: E402
+import maps  # noqa: E402
+import plot  # noqa: E402
 import style  # noqa: E402
 
 
@@ -51,3 +53,23 @@ held = np.array([True, True, False, False, False])
 a, b, gaps = curves.jumped(x, y, np.array([1.5]), held)
 check("line", (a[:3].tolist(), np.isnan(b).tolist()), ([0.0, 1.0, 1.5], [k == 3 for k in range(8)]))
 check("gap", gaps, [((1.5, 0.0), (2.0, 1.0))])
+
+
+def labels(name):
+    """The labels of the axes of a picture, and of its legend's entries."""
+    options = types.SimpleNamespace(unit=None, frequency=False, size=None, boundary=True, title=True)
+    figure = plot.draw(name, options)
+    found = [text for ax in figure.axes for text in (ax.get_xlabel(), ax.get_ylabel())]
+    return found, [text for ax in figure.axes for text in ax.get_legend_handles_labels()[1]]
+
+
+# Runs in a laboratory's units are drawn in them; what noise does is drawn whatever its names are.
+check("basins in SI", labels("metres.h5")[0][:2], ["$x(0)$ (nm)", "$v(0)$ (m s$^{-1}$)"])
+check("rates in SI", labels("kelvin.h5")[0], ["$1/T$ (K$^{-1}$)", "switching rate (s$^{-1}$)"])
+check("escape", [text.partition(",")[0] for text in labels("escape.h5")[1]],
+      ["attractor 1 to infinity"])
+check("fit", labels("fit.h5")[1][-1], "fit")
+
+# Several attractors of one kind have their numbers in the file and on the terminal.
+names = maps.attractor_styles({"attractor_label": np.array([2, 2, 4])})[0]
+check("names", names, ["periodic 0", "periodic 1", "chaotic"])

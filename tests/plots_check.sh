@@ -65,6 +65,21 @@ deck ramp hysteresis "$p, damping = 0.15, temperature = 1e-3 / &sweep
   drive_frequency_range = 0.83, 0.87, 9 / &hysteresis start = 'sa', rate = 5e-4 /
   &noise trajectories = 9 /"
 
+# What is followed to infinity and what is named by numbers; a fit; starts and rates in SI.
+deck escape switching "&pendulum force = 'polynomial', force_coefficients = 1, -1, damping = 0.1,
+  drive_amplitude = 0.02, drive_frequency = 0.85 / &sweep temperature = 0.02, 0.03 /
+  &switching from = 1 / &noise trajectories = 100, periods = 100 /"
+deck fit fit "&pendulum force = 'polynomial', force_coefficients = 1, 0, 1 / &data file = '$top/input/fit.csv'
+  columns = 'frequency', 'volts', 'error', 'direction', 'drive_amplitude=drive'
+  observable = 'first_harmonic_amplitude' /
+  &fit free = 'damping', 'frequency_scale', 'drive_scale', 'amplitude_scale', 'offset' /"
+beam="&units mass = '1e-18 kg', natural_frequency = '10 MHz' / &pendulum force = 'polynomial',
+  force_coefficients = 1, 0, '4e12 N/m^3', damping = 'Q 100', drive_amplitude = '0.356 pN',
+  drive_frequency = '10.21 MHz' /"
+deck kelvin switching "$beam &sweep temperature = '300 K', '350 K' /
+  &noise trajectories = 100, periods = 1000 /"
+deck metres basins "$beam &sweep x_range = '-9 nm', '9 nm', 8, v_range = '-1 m/s', '1 m/s', 6 /"
+
 plot() { "$python" -W error::UserWarning "$top/plots/plot.py" "$@" >out 2>err; }
 plot ./*.h5 -o pictures || { cat err; exit 1; }
 plot ./*.h5 -o narrow -f svg --size 3.4,3 --unit 1.2MHz --frequency --no-boundary --ensemble --surface --no-title ||
