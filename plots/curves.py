@@ -10,6 +10,12 @@ from style import (EXACT, FREE, LA, SA, Run, amplitude_axis, around, drive_axis,
 
 def draw_free_oscillation(h, path):
     fig, ax = figure(h, 3.3)
+    if "frequency" in h:  # of any force
+        factor, across = amplitude_axis(h, "amplitude", "amplitude")
+        omega, label = frequency(h, h["frequency"])
+        ax.plot(factor * h["amplitude"], omega, color=EXACT)
+        ax.set(xlabel=across, ylabel=label.replace("drive ", ""))
+        return fig
     a = h["amplitude"]
     ax.axhline(1, color=FREE, ls="-.", label="harmonic oscillator")
     ax.plot(a, h["frequency_exact"], color=EXACT, label="exact (elliptic integral)")
@@ -314,7 +320,7 @@ def draw_branches(h, path):
                 ax.plot(*line.T, color="0.75", lw=0.8, zorder=1, label=f"folds, all {symbol}")
         if "free_amplitude" in h:
             ax.plot(frequency(h, h["free_frequency"])[0], factor * h["free_amplitude"], "-.", color=FREE,
-                    lw=0.8, zorder=1, label="free pendulum")
+                    lw=0.8, zorder=1, label="free oscillation")
     inside = (along >= low) & (along <= high)
     shown = amplitude[inside] if np.any(inside) else factor * h["mean_loop_amplitude"].ravel()
     ax.set(xlabel=label, ylabel=height, xlim=(low, high), ylim=(0, around(shown)[1]))

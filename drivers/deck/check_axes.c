@@ -184,6 +184,17 @@ static void check_force(deck_builder *b)
                   "a polynomial needs 'force_coefficients', one of them not zero");
 }
 
+/* From pi on a pendulum is upright, or goes round. */
+static void check_amplitude(deck_builder *b)
+{
+  const deck_axis *a = &b->d->axis[DECK_AXIS_AMPLITUDE];
+  if (a->count == 0 || !deck_is_plain(b->d) || a->value[a->count - 1] < PENDRES_PI) return;
+  const char *name = a->range_count > 0 && a->range_last >= PENDRES_PI ? "amplitude_range"
+                                                                       : "amplitude";
+  deck_complain(b, deck_given_of(b, "sweep", name), name,
+                "'%s' of a pendulum must lie between 0 and pi (both excluded)", name);
+}
+
 /* Whether noise carries a pendulum of the deck to infinity. */
 static int leaves_somewhere(const deck *d)
 {
@@ -219,6 +230,6 @@ static void check_noise(deck_builder *b)
 void deck_check_axes(deck_builder *b)
 {
   static void (*const checks[])(deck_builder *b) = { check_axes, check_ramp, check_force,
-                                                     check_noise };
+                                                     check_amplitude, check_noise };
   for (size_t i = 0; i < sizeof checks / sizeof *checks && b->errors->count == 0; i++) checks[i](b);
 }

@@ -26,7 +26,7 @@
  */
 #define DECK_KIND_LIST(ITEM)                                                                      \
   ITEM(FREE_OSCILLATION, "free_oscillation",                                                      \
-       "frequency of the free, undamped pendulum against its amplitude", .most = 0)               \
+       "frequency without damping and drive against the amplitude, of any force", .most = 0)      \
   ITEM(RESONANCE_CURVE, "resonance_curve",                                                        \
        "resonance of an ensemble, found to the tolerance, against damping",                       \
        .layout = DECK_RESONANCES, .least = 1, .most = 1, .takes = "results have one axis")        \

@@ -3,8 +3,8 @@
  *
  * The paper's Fig. 9. One task a damping. Beside the ensemble's means stand the branches
  * themselves, unstable parts included, the curves of folds that bound the coexistence region (the
- * figure's thick lines), and two backbones: the driven one's at a lag of pi/2, and the free
- * pendulum's; of a pendulum without a drive, the rotations that a torque keeps up.
+ * figure's thick lines), and two backbones: the driven one's at a lag of pi/2, and that of free
+ * oscillations; of a pendulum without a drive, the rotations that a torque keeps up.
  */
 #include <math.h>
 
@@ -15,7 +15,7 @@
 
 enum {
   BACKBONE = 101, /* points of the backbone, */
-  FREE = 156,     /* and of the free pendulum's, 0.02 apart up to pi */
+  FREE = 156,     /* and of free oscillations, of the pendulum's 0.02 apart up to pi */
   MOST_PARTS = 64 /* parts of a branch that the table tells */
 };
 
@@ -189,22 +189,85 @@ static void write_backbone(const scene_lines *l)
   SCENE_WRITE(l->run, &table, of_backbone);
 }
 
-/* The free pendulum, without damping and drive: exact. */
-static void write_free(scene_run *run)
+/* The largest amplitude of all branches, rotations aside. */
+static double largest_amplitude(const scene_lines *l)
 {
-  double amplitude[FREE], frequency[FREE], error[FREE];
-  const pendres_store_spec spec = {.name = "free_frequency", .dimensions = {"free_amplitude"},
-                                   .long_name = "frequency of the undamped, undriven pendulum",
-                                   .units = "1"};
-  const pendres_store_spec along = {.name = "free_amplitude", .units = "rad",
-                                    .long_name = "amplitude of the free pendulum"};
-  for (int i = 0; i < FREE; i++) {
-    amplitude[i] = 0.02 * (i + 1);
-    frequency[i] = pendres_free_frequency(amplitude[i]);
-    error[i] = 2e-15 * frequency[i]; /* some units in the last place */
+  double largest = 0.0;
+  for (size_t i = 0; i < l->grid.lines; i++) {
+    const pendres_branches *all = pendres_phase_diagram_branches_get(l->diagram, i);
+    for (size_t k = 0; k < pendres_branches_count(all); k++) {
+      const pendres_branch *b = pendres_branches_get(all, k);
+      for (size_t m = 0; m < pendres_branch_count(b); m++) {
+        const pendres_orbit *o = &pendres_branch_get(b, m)->orbit;
+        if (o->winding == 0) largest = fmax(largest, o->amplitude);
+      }
+    }
   }
-  scene_put_dimension(run, &along, amplitude, FREE);
-  scene_put(run, &spec, frequency, error, FREE);
+  return largest;
+}
+
+/* The free oscillation, without damping and drive. */
+typedef struct free_curve {
+  double amplitude[FREE], frequency[FREE], error[FREE];
+} free_curve;
+
+/* The plain pendulum's: exact. Returns how many points there are. */
+static size_t find_plain(free_curve *c)
+{
+  for (int i = 0; i < FREE; i++) {
+    c->amplitude[i] = 0.02 * (i + 1);
+    c->frequency[i] = pendres_free_frequency(c->amplitude[i]);
+    c->error[i] = 2e-15 * c->frequency[i]; /* some units in the last place */
+  }
+  return FREE;
+}
+
+/* That of any force, somewhat higher than the branches, or up to the separatrix; none where lines
+   have different forces. */
+static size_t find_free(const scene_lines *l, free_curve *c)
+{
+  pendres_pendulum p[FREE];
+  pendres_free_oscillation of[FREE];
+  pendres_status outcome[FREE];
+  const double most = 1.1 * largest_amplitude(l);
+  size_t n = 0;
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++) {
+    const pendres_parameter_info *info = pendres_parameter_of((pendres_parameter)k);
+    const int of_force = k == (int)PENDRES_TORQUE || info->coefficient > 0;
+    if (of_force && scene_lines_changes(l, (pendres_parameter)k)) return 0;
+  }
+  for (int i = 0; i < FREE; i++) {
+    p[i] = l->grid.pendulum;
+    p[i].damping = p[i].drive_amplitude = 0.0;
+    c->amplitude[i] = most * (i + 1) / FREE;
+  }
+  if (!(most > 0.0)) return 0;
+  pendres_context *ctx = scene_context(l->run);
+  if (scene_asked(l->run, pendres_free_oscillation_find(ctx, FREE, p, c->amplitude, of, outcome)) !=
+      PENDRES_OK)
+    return 0;
+  for (; n < FREE && isfinite(of[n].frequency); n++) {
+    c->frequency[n] = of[n].frequency;
+    c->error[n] = of[n].frequency_error;
+  }
+  return n;
+}
+
+static void write_free(const scene_lines *l)
+{
+  free_curve c;
+  const int plain = deck_is_plain(l->run->deck);
+  const pendres_store_spec spec = {
+    .name = "free_frequency", .dimensions = {"free_amplitude"}, .units = "1",
+    .long_name = plain ? "frequency of the undamped, undriven pendulum"
+                       : "frequency of oscillations without damping and drive"};
+  const pendres_store_spec along = {
+    .name = "free_amplitude", .units = "rad",
+    .long_name = plain ? "amplitude of the free pendulum" : "amplitude of the free oscillation"};
+  const size_t n = plain ? find_plain(&c) : find_free(l, &c);
+  if (n == 0) return;
+  scene_put_dimension(l->run, &along, c.amplitude, n);
+  scene_put(l->run, &spec, c.frequency, c.error, n);
 }
 
 /* ---- rotations without a drive ------------------------------------------------------------- */
@@ -348,8 +411,6 @@ static void print_table(FILE *out, const scene_lines *l)
 
 static void write_results(const scene_lines *l)
 {
-  scene_run *run = l->run;
-  const int plain = deck_is_plain(run->deck);
   scene_lines_write(l, sizeof columns / sizeof *columns, columns);
   if (are_rotations(l)) write_rotations(l);
   write_branches(l);
@@ -359,7 +420,7 @@ static void write_results(const scene_lines *l)
   if (l->points.axis[0] == DECK_AXIS_DAMPING && l->points.axis[1] == DECK_AXIS_DRIVE_FREQUENCY &&
       l->grid.pendulum.drive_amplitude > 0.0)
     write_backbone(l);
-  if (plain) write_free(run);
+  write_free(l);
   scene_curves_write_paper(l);
 }
 

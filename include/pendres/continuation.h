@@ -251,7 +251,7 @@ size_t pendres_branches_skipped(const pendres_branches *branches);
  *                        which the curve turns back
  * @return PENDRES_INVALID_ARGUMENT, or a failure of the integration; then out is not meaningful
  *
- * The undamped, undriven backbone of the pendulum is pendres_free_frequency().
+ * The undamped, undriven backbone is pendres_free_oscillation_find().
  */
 pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
                                      const pendres_pendulum *pendulums, pendres_orbit *out,

@@ -1,12 +1,12 @@
 /**
  * @file free.h
- * @brief The free pendulum: its frequency by elliptic integrals, and by integration.
+ * @brief Free oscillations: their frequency by elliptic integrals, integration, and quadrature.
  *
- * Owns: the frequency of the undamped, undriven pendulum as a function of its
- * amplitude: in closed form, and from the equation of motion alone, which is a check of the whole
- * computation.
+ * Owns: the frequency without damping and drive as a function of the amplitude: of the pendulum in
+ * closed form, and from the equation of motion alone, which is a check of the whole computation; of
+ * any force by quadrature of the period.
  *
- * Equation: y'' = -sin y, y(0) = a, y'(0) = 0; the frequency is 2 pi / period.
+ * Equation of the pendulum: y'' = -sin y, y(0) = a, y'(0) = 0; the frequency is 2 pi / period.
  */
 #ifndef PENDRES_FREE_H
 #define PENDRES_FREE_H
@@ -14,6 +14,7 @@
 #include <stddef.h>
 
 #include <pendres/context.h>
+#include <pendres/pendulum.h>
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
@@ -62,6 +63,37 @@ void pendres_free_get(double amplitude, pendres_free *out);
 pendres_status pendres_free_find(pendres_context *ctx, size_t n,
                                  const double *amplitude, double *frequency,
                                  double *error);
+
+/** A free oscillation under any force. Plain data. */
+typedef struct pendres_free_oscillation {
+  double well;            /**< where the pendulum rests: x */
+  double low, high;       /**< turning points: x; twice the amplitude apart */
+  double frequency;       /**< angular: 2 pi / period */
+  double frequency_error; /**< by what twice as many points change, and rounding */
+} pendres_free_oscillation;
+
+/**
+ * The backbone without damping and drive, of any force: the frequency of free oscillations of an
+ * amplitude (half the peak-to-peak), about the well in which a pendulum comes to rest that is let
+ * go at the model's origin, as pendres_backbone_find() takes it. By quadrature of the period
+ * (Landau and Lifshitz, Mechanics, section 11), which has nothing in common with an integration of
+ * the equation of motion.
+ *
+ * @param ctx       belongs to one thread at a time
+ * @param n         how many
+ * @param pendulums [n], read for their force and torque; not kept
+ * @param amplitude [n], above 0, as x is (rad); not kept
+ * @param out       [n], written; NaN where there is none
+ * @param outcome   [n], written: PENDRES_OK, PENDRES_TOLERANCE_UNREACHABLE (the error tells), or
+ *                  PENDRES_NOT_FOUND: there is no well, or the amplitude is that of the separatrix,
+ *                  where the frequency has fallen to 0, or larger
+ * @return PENDRES_INVALID_ARGUMENT or PENDRES_OUT_OF_MEMORY; then out is not meaningful
+ */
+pendres_status pendres_free_oscillation_find(pendres_context *ctx, size_t n,
+                                             const pendres_pendulum *pendulums,
+                                             const double *amplitude,
+                                             pendres_free_oscillation *out,
+                                             pendres_status *outcome);
 
 #ifdef __cplusplus
 }

@@ -21,36 +21,16 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/attractor_set.h"
+#include "orbits/free_force.h"
+#include "orbits/numbers.h"
 
 /* ---- small oscillations ---- */
-
-/* Find where a pendulum without drives comes to rest that is let go at y = 0, or, if that is the
-   top of a barrier, right above it; 0: nowhere. */
-static int find_well(const pendres_pendulum *p, double *y)
-{
-  double force, slope, low, high;
-  *y = 0.0;
-  for (int i = 0; i < BACKBONE_ROLLS; i++) {
-    pendres_model_force(p, *y, &force, &slope);
-    const double push = p->torque - force;
-    const double longest = fmin(backbone_first, fabs(push / slope));
-    const double step = push != 0.0 ? copysign(longest, push) : 0.0;
-    *y += step;
-    if (!(fabs(step) > backbone_last_step)) {
-      pendres_model_force(p, *y - backbone_near, &low, &slope);
-      pendres_model_force(p, *y + backbone_near, &high, &slope);
-      if (low < p->torque && p->torque < high) return 1;
-      *y += backbone_near;
-    }
-  }
-  return 0;
-}
 
 /* The stiffness about a well by the force's first harmonic at an amplitude. */
 static double stiffness(const pendres_pendulum *p, double well, double amplitude)
 {
   enum { PHASES = 16 };
-  const double a = fmax(amplitude, backbone_near);
+  const double a = fmax(amplitude, well_near);
   double sum = 0.0, force, slope;
   for (int i = 0; i < PHASES; i++) {
     const double sine = sin(two_pi * i / PHASES);
@@ -95,7 +75,7 @@ static pendres_orbit oscillation(const pendres_pendulum *p, double well, double 
   o.winding = 0;
   o.mean_angle = well;
   o.symmetric = pendres_pendulum_symmetric(p) &&
-                fabs(pendres_model_centre(p, well) - well) < backbone_near;
+                fabs(pendres_model_centre(p, well) - well) < well_near;
   return o;
 }
 
@@ -106,7 +86,7 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *of, pe
   static const pendres_parameter along[] = {PENDRES_DRIVE_FREQUENCY, PENDRES_DAMPING};
   pendres_pendulum p = *of;
   double well;
-  if (!find_well(&p, &well)) return PENDRES_NOT_FOUND;
+  if (!pendres_free_well(&p, &well)) return PENDRES_NOT_FOUND;
   double a = start_amplitude(&p, well);
   for (int i = 0; i < BACKBONE_STARTS && a > 0.0; i++, a *= 0.5) {
     pendres_u u;

@@ -183,16 +183,11 @@ static const double crossed_not_too_close = 0.2, crossed_besides = 1e-3, crossed
 /* ---- backbones ---- */
 
 enum {
-  BACKBONE_ROLLS = 1000, /* steps downhill after which no well is expected any more */
-  BACKBONE_STARTS = 6    /* amplitudes that are tried, each half of the one before */
+  BACKBONE_STARTS = 6 /* amplitudes that are tried, each half of the one before */
 };
 
 /* The curve is begun at this amplitude or below, where a single harmonic is an orbit to some per
-   cent; or above, where the force stiffens: such oscillations stay close to a harmonic. Steps
-   downhill are as long at most, and the last one is rounding. */
-static const double backbone_first = 0.1, backbone_last_step = 1e-12;
-
-/* So close to a place the force is linear to a few millionths. */
-static const double backbone_near = 1e-3;
+   cent; or above, where the force stiffens: such oscillations stay close to a harmonic. */
+static const double backbone_first = 0.1;
 
 #endif

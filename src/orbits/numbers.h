@@ -288,4 +288,27 @@ static const double chaos_agreement = 2.0;
 /* The confidence of a mean's error, and that of the bound on the escape rate. */
 static const double chaos_confidence = 0.999, chaos_escape_confidence = 0.95;
 
+/* ---- wells, and free oscillations in them ---- */
+
+enum {
+  WELL_ROLLS = 1000, /* steps downhill after which no well is expected any more */
+  /* Parts of the way across an oscillation in which its well's rims are looked for: finer than any
+     two zeros of a polynomial of degree five that matter, and than waves of 2 pi, up to 80 rad. */
+  FREE_FINENESS = 256,
+  /* Points for an oscillation's period: as few as a harmonic one needs, and as many as one needs
+     that comes within rounding of the separatrix, where they grow as one over the root of the
+     distance; and the points of a mean force, which is of a smooth function. */
+  FREE_FEWEST = 16,
+  FREE_MOST = 8192,
+  FREE_ORDER = 128,
+  /* Operations of a period beside those of the force, each with a rounding. */
+  FREE_ROUNDINGS = 8
+};
+
+/* Steps downhill are this long at most, and the last one is rounding. */
+static const double well_longest = 0.1, well_last_step = 1e-12;
+
+/* So close to a place the force is linear to a few millionths. */
+static const double well_near = 1e-3;
+
 #endif
