@@ -147,6 +147,13 @@ static void orbits(void **state)
   REFUSED(pendres_free_find(f->ctx, 1, NULL, &one, &error));
   REFUSED(pendres_free_find(f->ctx, 1, &one, NULL, &error));
   REFUSED(pendres_free_find(f->ctx, 1, &one, &one, NULL));
+  pendres_free_oscillation swing;
+  pendres_status outcome;
+  const pendres_pendulum any = {.damping = 0.0};
+  REFUSED(pendres_free_oscillation_find(f->ctx, 1, NULL, &one, &swing, &outcome));
+  REFUSED(pendres_free_oscillation_find(f->ctx, 1, &any, NULL, &swing, &outcome));
+  REFUSED(pendres_free_oscillation_find(f->ctx, 1, &any, &one, NULL, &outcome));
+  REFUSED(pendres_free_oscillation_find(f->ctx, 1, &any, &one, &swing, NULL));
   assert_int_equal(f->wrong, 0);
 }
 

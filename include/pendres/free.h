@@ -67,7 +67,8 @@ pendres_status pendres_free_find(pendres_context *ctx, size_t n,
 /** A free oscillation under any force. Plain data. */
 typedef struct pendres_free_oscillation {
   double well;            /**< where the pendulum rests: x */
-  double low, high;       /**< turning points: x; twice the amplitude apart */
+  double low;             /**< turning point: the lowest x, ... */
+  double high;            /**< ... and the highest; twice the amplitude apart */
   double frequency;       /**< angular: 2 pi / period */
   double frequency_error; /**< by what twice as many points change, and rounding */
 } pendres_free_oscillation;

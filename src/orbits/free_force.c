@@ -145,7 +145,8 @@ static pendres_status find_one(pendres_context *ctx, const pendres_pendulum *p, 
     double rounding = NAN, frequency = NAN;
     const int order = points < FREE_ORDER ? points : FREE_ORDER;
     spring s = {p, gsl_integration_glfixed_table_alloc((size_t)order)};
-    if (s.table == NULL) return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a quadrature");
+    if (s.table == NULL)
+      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a quadrature");
     const int swings = turning_points(&s, well, amplitude, in, &at);
     if (swings) frequency = frequency_by(&s, at, points, &rounding);
     gsl_integration_glfixed_table_free(s.table);
@@ -153,7 +154,7 @@ static pendres_status find_one(pendres_context *ctx, const pendres_pendulum *p, 
     const double change = fabs(frequency - before);
     before = frequency;
     *out = (pendres_free_oscillation){well + origin, at.low + origin, at.high + origin, frequency,
-                           change + rounding};
+                                      change + rounding};
     if (change <= rounding) break;
   }
   return out->frequency_error <= ctx->options.tolerance ? PENDRES_OK
@@ -161,9 +162,10 @@ static pendres_status find_one(pendres_context *ctx, const pendres_pendulum *p, 
 }
 
 static pendres_status find_all(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                  const double *amplitude, pendres_free_oscillation *out,
-                                  pendres_status *outcome)
+                               const double *amplitude, pendres_free_oscillation *out,
+                               pendres_status *outcome)
 {
+  static const pendres_free_oscillation none = {NAN, NAN, NAN, NAN, NAN};
   if (n > 0 && (p == NULL || amplitude == NULL || out == NULL || outcome == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, amplitude, out and outcome");
   for (size_t i = 0; i < n; i++) {
@@ -176,17 +178,19 @@ static pendres_status find_all(pendres_context *ctx, size_t n, const pendres_pen
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
   for (size_t i = 0; i < n; i++) {
-    out[i] = (pendres_free_oscillation){NAN, NAN, NAN, NAN, NAN};
+    out[i] = none;
     outcome[i] = find_one(ctx, &p[i], amplitude[i], &out[i]);
     if (outcome[i] == PENDRES_OUT_OF_MEMORY) return outcome[i];
-    if (outcome[i] == PENDRES_NOT_FOUND) out[i] = (pendres_free_oscillation){NAN, NAN, NAN, NAN, NAN};
+    if (outcome[i] == PENDRES_NOT_FOUND) out[i] = none;
   }
   return PENDRES_OK;
 }
 
 pendres_status pendres_free_oscillation_find(pendres_context *ctx, size_t n,
-                                  const pendres_pendulum *pendulums, const double *amplitude,
-                                  pendres_free_oscillation *out, pendres_status *outcome)
+                                             const pendres_pendulum *pendulums,
+                                             const double *amplitude,
+                                             pendres_free_oscillation *out,
+                                             pendres_status *outcome)
 {
   pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
   while (pendres_door_next(&d)) {
