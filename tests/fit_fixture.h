@@ -128,7 +128,7 @@ static int lab_settle(const lab *l, lab_motion *m)
 
 /* Measure at n frequencies in order, beginning at rest; the state is followed as an experimenter
    who waits long enough at each does. Returns how many were measured. */
-static int lab_sweep(lab l, int n, const double *frequency, lab_motion *out)
+static inline int lab_sweep(lab l, int n, const double *frequency, lab_motion *out)
 {
   lab_motion m = {0};
   double map[2][2];

@@ -56,6 +56,23 @@ static void refusals(void **state)
   open[1].guess = 0.1;
   open[0].fixed = 1; /* nothing is free */
   REFUSED(&all, &model);
+  /* Free decays: displacements forwards in time, and nothing of a drive. */
+  open[0].fixed = 0;
+  all.axis = PENDRES_PARAMETER_COUNT;
+  REFUSED(&all, &model); /* amplitudes */
+  for (int i = 0; i < 3; i++) data[i].observable = PENDRES_FIT_DISPLACEMENT;
+  REFUSED(&all, &model); /* a drive */
+  open[1].quantity = PENDRES_FIT_PHASE_OFFSET;
+  REFUSED(&all, &model);
+  open[1].quantity = PENDRES_FIT_START_VELOCITY;
+  data[1].direction = -1;
+  REFUSED(&all, &model);
+  data[1].direction = 1;
+  all.other = PENDRES_DAMPING;
+  REFUSED(&all, &model);
+  all.other = PENDRES_PARAMETER_COUNT;
+  all.axis = PENDRES_DRIVE_FREQUENCY;
+  REFUSED(&all, &model); /* displacements over a frequency, which have no start either */
 #undef REFUSED
   assert_int_equal(pendres_fit_find(ctx, &all, &model, NULL, NULL), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_fit_find(NULL, &all, &model, NULL, &fit), PENDRES_INVALID_ARGUMENT);

@@ -172,9 +172,91 @@ static void open_combination(void **state)
   pendres_context_free(ctx);
 }
 
+/* The linear response about frequency 1 with damping 0.2 and drive 0.3, 1 % errors. */
+static void linear_response(pendres_fit_datum data[SWEEP], pendres_fit_observable o)
+{
+  for (int i = 0; i < SWEEP; i++) {
+    const double w = 0.5 + 1.0 * i / (SWEEP - 1), d = 1.0 - w * w, e = 0.2 * w;
+    const double part = o == PENDRES_FIT_AMPLITUDE  ? 1.0
+                        : o == PENDRES_FIT_IN_PHASE ? d / hypot(d, e)
+                                                    : e / hypot(d, e);
+    data[i] = (pendres_fit_datum){.observable = o, .direction = 1, .axis = w, .error = 0.01,
+                                  .observed = part * 0.3 / hypot(d, e)};
+  }
+}
+
+static const pendres_fit_model linear_model = {
+  .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0}}};
+
+/* A lag that the instrument adds turns both quadratures: cos and sin of lag + 0.4. */
+static void turned_phase(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context();
+  pendres_fit_datum data[2 * SWEEP];
+  pendres_fit *fit = NULL;
+  linear_response(data, PENDRES_FIT_IN_PHASE);
+  linear_response(data + SWEEP, PENDRES_FIT_QUADRATURE);
+  for (int i = 0; i < SWEEP; i++) {
+    const double x = data[i].observed, y = data[SWEEP + i].observed;
+    data[i].observed = x * cos(0.4) - y * sin(0.4);
+    data[SWEEP + i].observed = x * sin(0.4) + y * cos(0.4);
+  }
+  const pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.25},
+                                      {.quantity = PENDRES_DRIVE_AMPLITUDE, .guess = 0.25},
+                                      {.quantity = PENDRES_FIT_PHASE_OFFSET, .guess = 0.0}};
+  pendres_fit_model model = linear_model;
+  model.unknowns = 3;
+  model.unknown = open;
+  const pendres_fit_data all = {.n = 2 * SWEEP, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
+                                .other = PENDRES_PARAMETER_COUNT};
+  check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+  check_near(pendres_fit_value(fit, 0), 0.2, 1e-5); /* exact data: the model's own error */
+  check_near(pendres_fit_value(fit, 1), 0.3, 1e-5);
+  check_near(pendres_fit_value(fit, 2), 0.4, 1e-5);
+  pendres_fit_free(fit);
+  pendres_context_free(ctx);
+}
+
+/* Six data are 40 errors too high. Their squares move the fit by many errors; by Huber's loss each
+   pulls like a datum two errors away. Chi-square is the sum of that loss. */
+static void outliers(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context();
+  pendres_fit_datum data[SWEEP];
+  double away[2];
+  linear_response(data, PENDRES_FIT_AMPLITUDE);
+  for (int i = 22; i < 40; i += 3) data[i].observed += 0.4;
+  const pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.2},
+                                      {.quantity = PENDRES_DRIVE_AMPLITUDE, .guess = 0.3}};
+  pendres_fit_model model = linear_model;
+  model.unknowns = 2;
+  model.unknown = open;
+  const pendres_fit_data all = {.n = SWEEP, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
+                                .other = PENDRES_PARAMETER_COUNT};
+  for (int soft = 0; soft < 2; soft++) {
+    const double bend = 2.0;
+    pendres_fit *fit = NULL;
+    const pendres_fit_options options = {.huber = soft ? bend : 0.0};
+    check_ok(pendres_fit_find(ctx, &all, &model, &options, &fit));
+    double sum = 0.0;
+    for (size_t i = 0; i < SWEEP; i++) {
+      const double r = fabs(pendres_fit_point_get(fit, i)->residual) / 0.01;
+      sum += soft && r > bend ? bend * (2.0 * r - bend) : r * r;
+    }
+    check_near(pendres_fit_summary_get(fit).chi_square, sum, 1e-9 * sum);
+    away[soft] = fabs(pendres_fit_value(fit, 1) - 0.3) / sqrt(pendres_fit_covariance(fit, 1, 1));
+    pendres_fit_free(fit);
+  }
+  if (!(away[0] > 5.0 && away[1] < 1.0)) fail_msg("%g and %g errors", away[0], away[1]);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sets_of_data),
-                                     cmocka_unit_test(open_combination)};
+                                     cmocka_unit_test(open_combination),
+                                     cmocka_unit_test(turned_phase), cmocka_unit_test(outliers)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -117,6 +117,56 @@ static void known_scales(void **state)
   pendres_store_free(s);
 }
 
+/* A linear decay in seconds and volts, by its formula: 1 kHz, Q = 50, 2 V at first. The start is
+   free though the deck does not name it, and where mass and frequency are known all comes in SI. */
+static void ringdown(void **state)
+{
+  (void)state;
+  enum { MEASURED = 300, FOUND = 4 };
+  const double f0 = 1000.0, rate = 2.0 * PENDRES_PI * f0, damping = rate / 50.0;
+  const double w = sqrt(rate * rate - 0.25 * damping * damping), volts = 0.5;
+  const double truth[FOUND] = {1.0 / 50.0, f0, 2.0 / volts, 0.0};
+  static const char groups[] = "force = 'polynomial', force_coefficients = 1 /\n"
+                               "&data axis = 'time', columns = 'time', 'volts'";
+  char text[900], path[100];
+  double value[FOUND], error[FOUND], chi = 0.0;
+  scene_path("data", path);
+  FILE *f = fopen(path, "w");
+  assert_non_null(f);
+  fprintf(f, "time, volts\n");
+  for (int i = 0; i < MEASURED; i++) {
+    const double t = 7e-5 * i;
+    fprintf(f, "%.17g, %.17g\n", t,
+            exp(-0.5 * damping * t) * 2.0 * (cos(w * t) + 0.5 * damping / w * sin(w * t)));
+  }
+  assert_int_equal(fclose(f), 0);
+  snprintf(text, sizeof text, "&scene kind = 'fit' /\n&pendulum %s, file = '%s', error = 1e-3 /\n"
+           "&fit free = 'damping', 'frequency_scale', fixed = 'amplitude_scale %.17g' /\n", groups,
+           path, volts);
+  scene_run_deck(text, 1, "ringdown");
+  pendres_store *s = scene_open("ringdown");
+  read_numbers(s, "value", value, FOUND);
+  read_numbers(s, "value_error", error, FOUND);
+  read_numbers(s, "chi_square", &chi, 1);
+  for (int i = 0; i < FOUND; i++) check_near(value[i], truth[i], 0.01 * error[i]); /* exact data */
+  assert_true(chi < 0.01 && pendres_store_has(s, NULL, "modelled"));
+  assert_false(pendres_store_has(s, NULL, "branch_axis"));
+  pendres_store_free(s);
+
+  snprintf(text, sizeof text, "&scene kind = 'fit' /\n&units natural_frequency = '1 kHz', "
+           "length = '1 nm', volts_per_length = '%.17g V/nm' /\n&pendulum %s, file = '%s', "
+           "error = 1e-3 /\n&fit free = 'damping', 'a1' /\n", volts, groups, path);
+  scene_run_deck(text, 1, "ringdown");
+  s = scene_open("ringdown");
+  read_numbers(s, "value_si", value, FOUND);
+  read_numbers(s, "value_si_error", error, FOUND);
+  check_near(value[0], damping, 0.01 * error[0]);
+  check_near(value[2], 2.0, 0.01 * error[2]);
+  check_mark(s, "datum_axis", 1.0 / rate, "s");
+  check_mark(s, "residual", volts, "V");
+  pendres_store_free(s);
+}
+
 /* Run on a data file with this text; the message of the failure. */
 static void check_told(const char *data, const char *keys, const char *words)
 {
@@ -161,6 +211,8 @@ static void bad_data(void **state)
   check_told("0.8 0.1\n0.9 0.2\n", "columns = 'phase=2', '1'", "'phase' is no role");
   check_told("0.8,0.1,0\n0.9,0.2,0.1\n", "columns = '1', '2', 'error=3'", "must be above 0");
   check_told("0.8 0.1\n", "", "1 data do not determine 1 unknowns");
+  check_told("0 1\n1 2\n", "axis = 'time', observable = 'amplitude'", "a displacement is a datum");
+  check_told("0 1\n1 2\n", "observable = 'displacement'", "a displacement is a datum");
   check_told("0.8 0.1 0\n", "columns = '1', '2', 'direction=3'", "not 0");
 }
 
@@ -209,6 +261,7 @@ static void bad_keys(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(three_drives), cmocka_unit_test(known_scales),
+                                     cmocka_unit_test(ringdown),
                                      cmocka_unit_test(bad_data), cmocka_unit_test(bad_keys)};
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -42,6 +42,7 @@ static const struct {
   { "parametric_amplitude", NUMBER },
   { "drive_amplitude", FORCE }, { "drive", FORCE }, { "torque", FORCE },
   { "amplitude", POSITION }, { "x", POSITION }, { "x_first", POSITION }, { "x_last", POSITION },
+  { "displacement", POSITION },
   { "tolerance", POSITION }, { "turning_point_*", POSITION },
   { "v", VELOCITY }, { "v_last", VELOCITY }, { "velocity", VELOCITY },
   { "damping", RATE }, { "lyapunov", RATE }, { "lyapunov_exponent", RATE }, { "rate_*", RATE },

@@ -126,7 +126,7 @@ static const char *const observables[] = {
 };
 #define FOLLOWED "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2", "a3", \
                  "a4", "a5"
-static const char *const swept[] = { "drive_frequency", FOLLOWED, NULL };
+static const char *const swept[] = { "drive_frequency", FOLLOWED, "time", NULL };
 static const char *const quantities[] = {
   FOLLOWED,
 #define SCALE_NAME(code, name, neutral) name,
@@ -350,10 +350,11 @@ const deck_key deck_table[] = {
          "between sweeps. Without it the names in the file's first line are taken for roles: those "
          "of axis and observables, OBSERVABLE_error, direction, and names of parameters") },
   { CHOICE("data", "axis", data.axis), IN(FIT), .choices = swept, .text = "drive_frequency",
-    SAYS(NULL, "parameter that was swept") },
+    SAYS(NULL, "parameter that was swept; 'time': the data are a free decay, without drive") },
   { CHOICES("data", "observable", data.observables), IN(FIT), .choices = observables,
     EXAMPLE("'amplitude'"),
-    SAYS(NULL, "what was measured, in the order of the columns; without it 'amplitude'") },
+    SAYS(NULL, "what was measured, in the order of the columns; without it 'amplitude', of data "
+         "over time 'displacement'") },
   { CHOICE("data", "direction", data.direction), IN(FIT), .choices = directions, .text = "file",
     SAYS(NULL, "which way the axis went where no column says it: as the lines of the file do, or "
          "up or down throughout") },

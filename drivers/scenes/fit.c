@@ -70,6 +70,11 @@ static void set_unknowns(fit_work *w)
     if (guess == 0.0 && q >= (int)PENDRES_A1) guess = NAN;
     w->unknown[w->n++] = (pendres_fit_unknown){.quantity = q, .guess = guess};
   }
+  /* A free decay begins anywhere, unless its start is told. */
+  for (int q = PENDRES_FIT_START_DISPLACEMENT; fit_is_decay(d) && q <= PENDRES_FIT_START_VELOCITY;
+       q++)
+    if (!deck_fit_has(d, pendres_fit_quantity_name(q)))
+      w->unknown[w->n++] = (pendres_fit_unknown){.quantity = q, .guess = NAN};
   w->free = w->n;
   read_entries(w, &d->fit.fixed, "NAME VALUE", 1, set_fixed);
   read_entries(w, &d->fit.bounds, "NAME LOW HIGH", 0, set_bounds);
@@ -89,7 +94,8 @@ static void check_model(fit_work *w)
   for (size_t i = 0; i < sizeof needed / sizeof *needed && scene_going(w->run); i++) {
     const pendres_parameter p = needed[i];
     if (!isnan(pendres_parameter_get(p, &w->model)) || p == w->data.of.axis ||
-        p == w->data.of.other || unknown_of(w, (int)p) != NULL)
+        p == w->data.of.other || unknown_of(w, (int)p) != NULL ||
+        (fit_is_decay(w->d) && p != PENDRES_DAMPING))
       continue;
     (void)scene_fail(w->run, PENDRES_INVALID_ARGUMENT,
                      "%s: '%s' is neither in &pendulum, nor free, nor a column of the data: give "

@@ -302,7 +302,7 @@ static void set_directions(reader *r)
       way = here->axis > last->axis ? 1 : -1;
     else if (next != NULL && next->other == here->other)
       way = next->axis >= here->axis ? 1 : -1;
-    if (strcmp(told, "up") == 0) way = 1;
+    if (strcmp(told, "up") == 0 || fit_is_decay(r->d)) way = 1;
     if (strcmp(told, "down") == 0) way = -1;
     for (size_t k = 0; k < m; k++) out->datum[i * m + k].direction = way;
   }
@@ -364,7 +364,7 @@ void fit_data_read(scene_run *run, fit_data *out)
 {
   const deck *d = run->deck;
   reader r = {.run = run, .d = d, .out = out, .axis = NONE, .direction = NONE, .other = NONE};
-  *out = (fit_data){.of = {.other = PENDRES_PARAMETER_COUNT}};
+  *out = (fit_data){.of = {.axis = PENDRES_PARAMETER_COUNT, .other = PENDRES_PARAMETER_COUNT}};
   for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
     if (strcmp(pendres_parameter_of((pendres_parameter)k)->name, d->data.axis) == 0)
       out->of.axis = (pendres_parameter)k;
@@ -373,7 +373,8 @@ void fit_data_read(scene_run *run, fit_data *out)
     for (int k = 0; k < PENDRES_FIT_OBSERVABLE_COUNT; k++)
       if (strcmp(d->data.observables.name[i], pendres_fit_observable_name(k)) == 0)
         r.kind[r.observables++] = (pendres_fit_observable)k;
-  if (r.observables == 0) r.kind[r.observables++] = PENDRES_FIT_AMPLITUDE;
+  if (r.observables == 0)
+    r.kind[r.observables++] = fit_is_decay(d) ? PENDRES_FIT_DISPLACEMENT : PENDRES_FIT_AMPLITUDE;
   FILE *in = open_file(&r);
   if (in == NULL) return;
   read_lines(&r, in);

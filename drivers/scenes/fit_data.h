@@ -2,6 +2,8 @@
 #ifndef SCENE_FIT_DATA_H
 #define SCENE_FIT_DATA_H
 
+#include <string.h>
+
 #include <pendres/fit.h>
 
 #include "scenes/scene.h"
@@ -28,12 +30,19 @@ typedef struct fit_work {
 /* Read the deck's file; what is wrong is the run's failure: file, line, and what to do. */
 void fit_data_read(scene_run *run, fit_data *out);
 
+/* Whether the data are over time. */
+static inline int fit_is_decay(const deck *d)
+{
+  return strcmp(d->data.axis, "time") == 0;
+}
+
 /* Standard error of unknown number i. */
 double fit_error(const fit_work *w, size_t i);
 
 /* Bring data from SI into the model's units, where &units tell these. */
 void fit_units_take(fit_work *w);
-/* What makes SI of a parameter of the data, the axis or the other one; 0: &units do not tell. */
+/* What makes SI of a parameter of the data, the axis or the other one, or of their time; 0: &units
+   do not tell. */
 int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out);
 /* Mark what the file holds in units of the data. */
 void fit_units_mark(const fit_work *w);

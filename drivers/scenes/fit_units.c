@@ -14,7 +14,8 @@
 
 int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out)
 {
-  if (p == PENDRES_PARAMETER_COUNT) return 0;
+  if (p == PENDRES_PARAMETER_COUNT)
+    return fit_is_decay(w->d) && deck_si_of(w->d, "drive_period", out);
   if (p == PENDRES_DRIVE_AMPLITUDE && deck_fit_has(w->d, "drive_scale")) return 0;
   return deck_si_of(w->d, pendres_parameter_of(p)->name, out);
 }
@@ -37,7 +38,8 @@ void fit_units_take(fit_work *w)
 {
   deck_si si;
   const double axis = factor_of(fit_units_of_data(w, w->data.of.axis, &si), &si);
-  const double other = factor_of(fit_units_of_data(w, w->data.of.other, &si), &si);
+  const int two = w->data.of.other != PENDRES_PARAMETER_COUNT;
+  const double other = factor_of(two && fit_units_of_data(w, w->data.of.other, &si), &si);
   for (size_t i = 0; i < w->data.of.n; i++) {
     pendres_fit_datum *d = &w->data.datum[i];
     const double unit = factor_of(units_of_observable(w, d->observable, &si), &si);
@@ -61,7 +63,8 @@ void fit_units_mark(const fit_work *w)
   const char *const *const names[] = { of_axis, of_other, of_data };
   deck_si si[3], next;
   int known[3] = { fit_units_of_data(w, w->data.of.axis, &si[0]),
-                   fit_units_of_data(w, w->data.of.other, &si[1]),
+                   w->data.of.other != PENDRES_PARAMETER_COUNT &&
+                     fit_units_of_data(w, w->data.of.other, &si[1]),
                    units_of_observable(w, w->data.datum[0].observable, &si[2]) };
   /* Several observables stand in one variable, which has a unit only if all have the same. */
   for (size_t i = 1; i < w->data.of.n && known[2]; i++)

@@ -8,7 +8,8 @@
  *
  * The model is the orbit of one drive period that the oscillator is on: the curve of orbits is
  * followed along the axis, through its folds, and at a fold the state jumps to the next stable part
- * of the curve. Derivatives by the unknowns come from the equations of sensitivity along the curve;
+ * of the curve. Of a free decay it is the motion itself, from a state that is found as well.
+ * Derivatives by the unknowns come from the equations of sensitivity along the curve or the motion;
  * no differences are taken. Where the model jumps, and where the data do, is compared as well:
  * docs/fit.md describes how a datum between the two counts.
  *
@@ -39,13 +40,15 @@ extern "C" {
   X(PHASE_LAG, "phase_lag")                                \
   X(IN_PHASE, "in_phase")                                  \
   X(QUADRATURE, "quadrature")                              \
-  X(LOOP_AREA, "loop_area")
+  X(LOOP_AREA, "loop_area")                                \
+  X(DISPLACEMENT, "displacement")
 
 /**
  * An observable. AMPLITUDE: half the peak-to-peak; RMS: the root mean square of the distance from
  * the mean; FIRST_HARMONIC: its amplitude; PHASE_LAG: by which the first harmonic lags behind the
  * drive, in rad; IN_PHASE and QUADRATURE: R cos(lag) and R sin(lag) of it; LOOP_AREA: work of the
- * drive a cycle. PENDRES_FIT_OBSERVABLE_COUNT: how many there are.
+ * drive a cycle; of free decays DISPLACEMENT: from the bottom of the well, at a time.
+ * PENDRES_FIT_OBSERVABLE_COUNT: how many there are.
  */
 typedef enum pendres_fit_observable {
 #define PENDRES_FIT_OBSERVABLE_CODE(code, name) PENDRES_FIT_##code,
@@ -62,7 +65,9 @@ typedef enum pendres_fit_observable {
   X(OFFSET, "offset", 0.0)                                  \
   X(PHASE_OFFSET, "phase_offset", 0.0)                      \
   X(BACKGROUND_IN_PHASE, "background_in_phase", 0.0)        \
-  X(BACKGROUND_QUADRATURE, "background_quadrature", 0.0)
+  X(BACKGROUND_QUADRATURE, "background_quadrature", 0.0)    \
+  X(START_DISPLACEMENT, "start_displacement", 0.0)          \
+  X(START_VELOCITY, "start_velocity", 0.0)
 
 /**
  * What a fit may find: the parameters by their numbers, pendres_parameter below
@@ -71,7 +76,10 @@ typedef enum pendres_fit_observable {
  * DRIVE_SCALE: the model's drive amplitude over the data's; AMPLITUDE_SCALE: the instrument's
  * reading over the model's length (amplitude, rms, first harmonic, quadratures); OFFSET: added to
  * amplitudes and rms; PHASE_OFFSET: added to lags, also of quadratures; BACKGROUND_...: added to
- * the quadratures. PENDRES_FIT_QUANTITY_COUNT: how many there are.
+ * the quadratures; START_...: of a free decay the model's state at the first datum, displacements
+ * being measured from the bottom of the well. For data over time FREQUENCY_SCALE, where it is an
+ * unknown, makes seconds: the model's time is 2 pi FREQUENCY_SCALE times the data's.
+ * PENDRES_FIT_QUANTITY_COUNT: how many there are.
  */
 typedef enum pendres_fit_quantity {
   PENDRES_FIT_PARAMETER_LAST = PENDRES_PARAMETER_FOLLOWED - 1, /**< the last parameter */
@@ -113,7 +121,8 @@ typedef struct pendres_fit_data {
   size_t n;                       /**< how many */
   const pendres_fit_datum *datum; /**< [n], in any order; not kept */
   pendres_parameter axis;         /**< the parameter that was swept, below
-                                       PENDRES_PARAMETER_FOLLOWED */
+                                       PENDRES_PARAMETER_FOLLOWED; PENDRES_PARAMETER_COUNT: time,
+                                       along a free decay, without drive */
   pendres_parameter other;        /**< one that differs between sweeps; PENDRES_PARAMETER_COUNT:
                                        none */
 } pendres_fit_data;

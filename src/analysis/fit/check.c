@@ -12,7 +12,11 @@ static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_da
   if (!isfinite(one->axis) || !isfinite(one->observed)) return "a datum is no finite number";
   if (!isfinite(one->error) || one->error < 0.0)
     return "a standard error is no finite number from 0 on";
-  if (pendres_parameter_of(d->axis)->positive && !(one->axis > 0.0))
+  if (d->axis == PENDRES_PARAMETER_COUNT && one->direction != 1) return "time goes one way";
+  if ((d->axis == PENDRES_PARAMETER_COUNT) != (one->observable == PENDRES_FIT_DISPLACEMENT))
+    return "a displacement is a datum over time, and nothing else is";
+  if (d->axis != PENDRES_PARAMETER_COUNT && pendres_parameter_of(d->axis)->positive &&
+      !(one->axis > 0.0))
     return "the swept parameter must be positive";
   if (d->other == PENDRES_PARAMETER_COUNT) return NULL;
   if (!isfinite(one->other)) return "the other parameter of a datum is no finite number";
@@ -24,10 +28,13 @@ static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_da
 static const char *refuses_data(const pendres_fit_data *d)
 {
   size_t known = 0;
-  if ((unsigned)d->axis >= PENDRES_PARAMETER_FOLLOWED) return "the axis is no parameter of orbits";
+  const int decays = d->axis == PENDRES_PARAMETER_COUNT;
+  if (!decays && (unsigned)d->axis >= PENDRES_PARAMETER_FOLLOWED)
+    return "the axis is no parameter of orbits";
+  if (decays && d->other != PENDRES_PARAMETER_COUNT) return "data over time are of one free decay";
   if (d->other != PENDRES_PARAMETER_COUNT && (unsigned)d->other >= PENDRES_PARAMETER_FOLLOWED)
     return "the other parameter is no parameter of orbits";
-  if (d->axis == d->other) return "the axis and the other parameter are the same";
+  if (!decays && d->axis == d->other) return "the axis and the other parameter are the same";
   if (d->n > 0 && d->datum == NULL) return "there are no data";
   for (size_t i = 0; i < d->n; i++) {
     const char *why = refuses_datum(d, &d->datum[i]);
@@ -42,7 +49,8 @@ static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_
 {
   const int q = u->quantity;
   if (q < 0 || q >= FIT_QUANTITIES) return "an unknown is no quantity that there is";
-  if (q == (int)c->data->axis || q == (int)c->data->other)
+  const int decays = c->data->axis == PENDRES_PARAMETER_COUNT;
+  if (q < PENDRES_PARAMETER_FOLLOWED && (q == (int)c->data->axis || q == (int)c->data->other))
     return "an unknown is given by the data: scales of them may be unknown instead";
   const int drives = c->data->axis == PENDRES_DRIVE_AMPLITUDE ||
                      c->data->other == PENDRES_DRIVE_AMPLITUDE;
@@ -50,8 +58,14 @@ static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_
     return "drive_scale is of drives that the data give, and they give none";
   const int clocks = c->data->axis == PENDRES_DRIVE_FREQUENCY ||
                      c->data->other == PENDRES_DRIVE_FREQUENCY;
-  if (q == PENDRES_FIT_FREQUENCY_SCALE && !clocks)
+  if (q == PENDRES_FIT_FREQUENCY_SCALE && !clocks && !decays)
     return "frequency_scale is of frequencies that the data give, and they give none";
+  const int of_start = q == PENDRES_FIT_START_DISPLACEMENT || q == PENDRES_FIT_START_VELOCITY;
+  if (of_start && !decays) return "the start is unknown of data over time alone";
+  if (decays && (q == PENDRES_DRIVE_FREQUENCY || q == PENDRES_DRIVE_AMPLITUDE ||
+                 q == PENDRES_PARAMETRIC_AMPLITUDE || q == PENDRES_FIT_PHASE_OFFSET ||
+                 q == PENDRES_FIT_BACKGROUND_IN_PHASE || q == PENDRES_FIT_BACKGROUND_QUADRATURE))
+    return "an unknown is of a drive, and a free decay has none";
   const int coefficient = q < PENDRES_PARAMETER_FOLLOWED
                             ? pendres_parameter_of((pendres_parameter)q)->coefficient : 0;
   if (coefficient > pendres_model_of(c->model->pendulum.force)->coefficients)

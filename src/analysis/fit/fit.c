@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/door.h"
 
 /* ---- before the fit ---- */
@@ -23,6 +24,9 @@ static void set_start(pendres_fit_call *c)
   for (int q = 0; q < FIT_QUANTITIES; q++)
     if (isnan(c->start[q]) || q == (int)c->data->axis || q == (int)c->data->other)
       c->start[q] = 0.0;
+  /* Without a scale times are the model's, whose frequencies are angular. */
+  if (c->data->axis == PENDRES_PARAMETER_COUNT)
+    c->start[PENDRES_FIT_FREQUENCY_SCALE] = 1.0 / two_pi;
   for (size_t i = 0; i < c->model->unknowns; i++)
     c->start[c->model->unknown[i].quantity] = c->model->unknown[i].guess;
 }
@@ -31,7 +35,7 @@ static void set_start(pendres_fit_call *c)
 static void set_parameters(const pendres_fit_call *c, fit_model *m)
 {
   int wanted[PENDRES_PARAMETER_FOLLOWED] = {0}, last = 0;
-  wanted[m->axis] = 1;
+  if (!m->decays) wanted[m->axis] = 1;
   if (m->other != PENDRES_PARAMETER_COUNT) wanted[m->other] = 1;
   for (size_t i = 0; i < c->model->unknowns; i++)
     if (!c->model->unknown[i].fixed && c->model->unknown[i].quantity < PENDRES_PARAMETER_FOLLOWED)
@@ -52,11 +56,16 @@ static pendres_pendulum typical(const pendres_fit_call *c, const fit_model *m, c
   pendres_pendulum p = c->model->pendulum;
   for (int q = 0; q < PENDRES_PARAMETER_FOLLOWED; q++)
     pendres_parameter_set((pendres_parameter)q, v[q], &p);
+  p.temperature = 0.0;
+  if (m->decays) {
+    p.drive_frequency = 1.0;
+    p.drive_amplitude = p.parametric_amplitude = 0.0;
+    return p;
+  }
   const fit_curve *last = &m->curve[m->curves - 1];
   pendres_parameter_set(m->axis, pendres_fit_in(m, m->axis, v, 0.5 * (last->from + last->to)), &p);
   if (m->other != PENDRES_PARAMETER_COUNT)
     pendres_parameter_set(m->other, pendres_fit_in(m, m->other, v, last->other), &p);
-  p.temperature = 0.0;
   return p;
 }
 
@@ -67,6 +76,8 @@ static void set_units(fit_model *m, const pendres_units *u)
   m->unit[PENDRES_FIT_FREQUENCY_SCALE] = u->time;
   m->unit[PENDRES_FIT_DRIVE_SCALE] = m->unit[PENDRES_DRIVE_AMPLITUDE];
   m->unit[PENDRES_FIT_AMPLITUDE_SCALE] = 1.0 / u->length;
+  m->unit[PENDRES_FIT_START_DISPLACEMENT] = u->length;
+  m->unit[PENDRES_FIT_START_VELOCITY] = u->length / u->time;
   m->area = u->length * u->length / (u->time * u->time);
 }
 
@@ -102,6 +113,7 @@ static double scatter_of(const fit_model *m, pendres_fit_observable o, double *w
         largest = fmax(largest, fabs(d->observed));
       }
   }
+  if (m->decays) return fit_decay_scatter * largest + 1e-300;
   qsort(work, n, sizeof *work, ascending);
   const double median = n > 0 ? work[n / 2] / (0.6745 * sqrt(6.0)) : 0.0;
   return fmax(median, 1e-6 * largest + 1e-300);
@@ -188,15 +200,37 @@ static pendres_status order_starts(fit_problem *p, int starts, fit_values *start
   return PENDRES_OK;
 }
 
+/* More data of a free decay: a guess of the frequency is good for a few cycles, and a fit to these
+   for some more. Where the data so far tell no damping its logarithm may have gone anywhere; it
+   comes back to where the data that follow see it. */
+static void widen(fit_problem *p, fit_values v)
+{
+  fit_model *m = p->m;
+  const double span = m->station[m->active - 1].axis - m->station[0].axis;
+  const double least = fit_decay_seen / (two_pi * v[PENDRES_FIT_FREQUENCY_SCALE] * span);
+  m->active += m->active / 2;
+  if (m->active > m->stations) m->active = m->stations;
+  for (size_t k = 0; k < p->unknowns; k++)
+    if (p->free[k].quantity == PENDRES_DAMPING && !(p->free[k].low < p->free[k].high))
+      v[PENDRES_DAMPING] = fmax(v[PENDRES_DAMPING], least);
+}
+
 static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int starts,
                                  fit_values *start, fit_result *best, fit_result *now)
 {
   pendres_status status = PENDRES_OK;
+  const size_t window = p->m->active;
   for (int k = 0; k < starts && status == PENDRES_OK; k++) {
     scale_values(p->m, start[k], now->v);
     for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
     p->m->usual_steps = 0;
+    p->m->active = window;
     status = pendres_fit_solve(p, c->options.iterations, now);
+    while (status == PENDRES_OK && now->computed && p->m->decays &&
+           p->m->active < p->m->stations) {
+      widen(p, now->v);
+      status = pendres_fit_solve(p, c->options.iterations, now);
+    }
     if (status == PENDRES_OK && is_better(now, best)) {
       const fit_result other = *best;
       *best = *now;
@@ -228,7 +262,7 @@ static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, dou
 
 /* Starts in the caller's units: the deck's own, where it has all values, then those from the data.
    Returns how many. */
-static int find_starts(const pendres_fit_call *c, const fit_model *m,
+static int find_starts(const pendres_fit_call *c, fit_model *m,
                        fit_values start[FIT_GUESSES + 1])
 {
   int count = 0, whole = 1;
@@ -248,7 +282,8 @@ static int find_starts(const pendres_fit_call *c, const fit_model *m,
           c->model->unknown[i].quantity != PENDRES_FIT_OFFSET)
         open[c->model->unknown[i].quantity] = NAN;
   }
-  count += pendres_fit_guess(m, open, start + count);
+  count += m->decays ? pendres_fit_decay_guess(m, open, start + count)
+                     : pendres_fit_guess(m, open, start + count);
   for (int k = 0; k < count; k++)
     for (int q = 0; q < FIT_QUANTITIES; q++)
       if (isnan(start[k][q])) start[k][q] = 0.0;

@@ -42,7 +42,7 @@ typedef struct guess {
 
 /* ---- the balance ---- */
 
-static double stiffness(const fit_model *m, const fit_values v, double a)
+double pendres_fit_stiffness(const fit_model *m, const fit_values v, double a)
 {
   const double sine = a > 1e-6 ? 2.0 * gsl_sf_bessel_J1(fmin(a, 1e3)) / a : 1.0;
   switch (m->base.force) {
@@ -75,7 +75,7 @@ static double imbalance(const fit_model *m, const fit_values v, const seen *s)
   double w, f;
   at_datum(m, v, s, &w, &f);
   const double a = amplitude_of(v, s, w);
-  const double d = stiffness(m, v, a) - w * w, e = v[PENDRES_DAMPING] * w;
+  const double d = pendres_fit_stiffness(m, v, a) - w * w, e = v[PENDRES_DAMPING] * w;
   return log(f * f + 1e-300) - log(a * a * (d * d + e * e) + 1e-300);
 }
 
@@ -246,7 +246,7 @@ static void set_linear(const guess *g, fit_values v)
   for (size_t i = 0; i < g->n; i++) {
     double w, f;
     at_datum(m, at, &g->data[i], &w, &f);
-    const double a = amplitude_of(at, &g->data[i], w), d = stiffness(m, at, a) - w * w;
+    const double a = amplitude_of(at, &g->data[i], w), d = pendres_fit_stiffness(m, at, a) - w * w;
     /* f^2 drive^2 - (a w)^2 gamma^2 = (a d)^2 */
     const double p = f * f, q = -a * a * w * w;
     const double known = a * a * d * d - (open_drive ? 0.0 : p) -

@@ -33,6 +33,8 @@ typedef struct fit_lane {
   double base[FIT_BASES]; /* the observables, in canonical units */
   double slope[FIT_BASES][PENDRES_PARAMETER_FOLLOWED]; /* along the curve, by parameters */
   double axis_slope[PENDRES_PARAMETER_FOLLOWED];       /* of the axis, within the border's plane */
+  double start_slope[2], time_slope; /* of decays: of the displacement, by the state at their start,
+                                        and by the logarithm of the time */
 } fit_lane;
 
 /* A fold: where it lies on its curve, and its orbit. */
@@ -97,6 +99,8 @@ typedef struct fit_model {
   fit_curve *curve;
   fit_track *track;
   fit_station *station;
+  int decays;    /* the data are over time */
+  size_t active; /* of these the stations that count */
   int measured[FIT_BASES];
   /* Parameters by which derivatives are wanted, and the blocks that give them. */
   int parameters, parameter[PENDRES_PARAMETER_FOLLOWED];
@@ -147,6 +151,22 @@ static inline int pendres_fit_place(const fit_model *m)
 
 /* ---- orbits.c ---- */
 
+/* Samples of a block: row r of lane i at step k is at[(k rows + r) lanes + i], 0 <= k <= steps. */
+typedef struct fit_samples {
+  size_t steps, rows, lanes;
+  double *at;
+} fit_samples;
+
+static inline double pendres_fit_sample(const fit_samples *s, size_t lane, size_t k, int row)
+{
+  return s->at[(k * s->rows + (size_t)row) * s->lanes + lane];
+}
+
+/* A period of n pendulums with these parameters and states. */
+pendres_status pendres_fit_sample_period(const fit_model *m, int steps, size_t n,
+                                         fit_lane *const *lanes, fit_samples *s);
+
+
 /* Find and measure n orbits with these steps a period; those that fail are not found. */
 pendres_status pendres_fit_orbits(const fit_model *m, int steps, size_t n, fit_lane *lanes);
 
@@ -179,9 +199,22 @@ pendres_status pendres_fit_stages(fit_model *m, const fit_values v);
 /* Decide on which stages data are, and make the residuals; raw ones, without Huber's loss. */
 void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *t, fit_rows *rows);
 
+enum { FIT_GUESSES = 16 };
+
+/* ---- decay.c ---- */
+
+/* The motion at all stations that count. */
+pendres_status pendres_fit_decay(fit_model *m, const fit_values v);
+
+/* ---- decay_guess.c ---- */
+
+/* Values to begin with; how many there are. m->active is how many stations they are good for. */
+int pendres_fit_decay_guess(fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
+
 /* ---- guess.c ---- */
 
-enum { FIT_GUESSES = 16 };
+/* The square of the frequency at an amplitude, by the balance of the first harmonic. */
+double pendres_fit_stiffness(const fit_model *m, const fit_values v, double amplitude);
 
 /* Values to begin with, best first: quantities that are NaN in v come from the data. Returns how
    many there are. */

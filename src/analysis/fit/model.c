@@ -126,6 +126,12 @@ double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lan
     slope[scale_of(m->axis)] += by[m->axis] * by_scale(m->axis, v, l);
   if (m->other != PENDRES_PARAMETER_COUNT && scale_of(m->other) >= 0)
     slope[scale_of(m->other)] += by[m->other] * by_scale(m->other, v, l);
+  if (m->decays) {
+    const double by_y = by_base[PENDRES_FIT_DISPLACEMENT];
+    slope[PENDRES_FIT_START_DISPLACEMENT] = by_y * l->start_slope[0];
+    slope[PENDRES_FIT_START_VELOCITY] = by_y * l->start_slope[1];
+    slope[PENDRES_FIT_FREQUENCY_SCALE] = by_y * l->time_slope / v[PENDRES_FIT_FREQUENCY_SCALE];
+  }
   return value;
 }
 
@@ -205,6 +211,7 @@ pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
   m->data = n;
   m->datum = data->datum;
   m->axis = data->axis;
+  m->decays = data->axis == PENDRES_PARAMETER_COUNT;
   m->other = data->other;
   for (size_t k = 0; k < n; k++)
     s[k] = (sorted){&data->datum[k],

@@ -29,6 +29,10 @@ enum {
   FIT_GUESS_SIZES = 17,   /* and largest amplitudes, four a decade from 3 down */
   FIT_GUESS_STARTS = 10,  /* that are improved */
   FIT_GUESS_RAW = 6, /* that are tried as they are as well */
+  /* Data of a free decay that a guess looks at: at first, and until there are a few cycles. The
+     latter takes a tenth of a second. */
+  FIT_DECAY_FIRST = 32,
+  FIT_DECAY_WINDOW = 1024,
   FIT_NOTES = 12,
   FIT_NOTE = 400
 };
@@ -87,5 +91,23 @@ static const double fit_correlated = 5.0;
 
 /* Data below this share of the largest are left out of a guess: noise would count most there. */
 static const double fit_guess_least = 0.3;
+
+/* Cycles that tell the frequency of a free decay to some per cent. */
+static const double fit_decay_cycles = 3.0;
+
+/* A motion of more cycles in the time of the data has gone astray: data tell at most half as many
+   as they are. */
+static const double fit_decay_periods = 1e6;
+
+/* The error of a period of a decay, below which rounding counts. */
+static const double fit_decay_least = 1e-12;
+
+/* A damping that takes away this part of a motion, or half of it, over the time of the data is seen
+   by a fit in which they grow in number. */
+static const double fit_decay_seen = 0.1;
+
+/* What errors of data over time are taken for where none are known, as a share of the largest
+   datum; the fit then tells them, and the first guess weighs nothing. */
+static const double fit_decay_scatter = 0.01;
 
 #endif

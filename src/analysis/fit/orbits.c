@@ -7,16 +7,10 @@
 #include "base/angles.h"
 #include "engine/block.h"
 
-/* Samples of a block: row r of lane i at step k is at[(k rows + r) lanes + i], 0 <= k <= steps. */
-typedef struct samples {
-  size_t steps, rows, lanes;
-  double *at;
-} samples;
-
 /* One lane: its samples on the closed orbit, and their derivatives by the fit's parameters. */
 typedef struct orbit {
   const fit_model *m;
-  const samples *s;
+  const fit_samples *s;
   size_t lane;
   double shift[FIT_PLACES];                            /* to the closed orbit, */
   double by[PENDRES_PARAMETER_FOLLOWED][FIT_PLACES];   /* and how that moves with parameters */
@@ -26,7 +20,7 @@ typedef struct orbit {
 
 static double sample(const orbit *o, size_t k, int row)
 {
-  return o->s->at[(k * o->s->rows + (size_t)row) * o->s->lanes + o->lane];
+  return pendres_fit_sample(o->s, o->lane, k, row);
 }
 
 /* The rows of (y, w) derived by a parameter. */
@@ -37,7 +31,7 @@ static int row_of(int parameter)
 
 static void record(void *arg, int step, const pendres_rows *rows)
 {
-  const samples *s = arg;
+  const fit_samples *s = arg;
   double *to = s->at + (size_t)step * s->rows * s->lanes;
   for (size_t r = 0; r < s->rows; r++, to += s->lanes)
     memcpy(to, rows->at + r * rows->stride, s->lanes * sizeof *to);
@@ -230,8 +224,8 @@ static void measure(const orbit *o, fit_lane *l)
 
 /* ---- passes ---- */
 
-static pendres_status run(const fit_model *m, int steps, size_t n, fit_lane *const *lanes,
-                          samples *s)
+pendres_status pendres_fit_sample_period(const fit_model *m, int steps, size_t n,
+                                         fit_lane *const *lanes, fit_samples *s)
 {
   pendres_block *b;
   pendres_status status = pendres_block_open(m->ctx, m->flow, steps, &b);
@@ -248,7 +242,7 @@ static pendres_status run(const fit_model *m, int steps, size_t n, fit_lane *con
 }
 
 /* One step of Newton's method for some lanes of a block; those that have arrived are measured. */
-static void improve(const fit_model *m, const samples *s, double *work, size_t n,
+static void improve(const fit_model *m, const fit_samples *s, double *work, size_t n,
                     fit_lane *const *lanes)
 {
   const int axis = pendres_fit_place(m);
@@ -292,7 +286,7 @@ pendres_status pendres_fit_orbits(const fit_model *m, int steps, size_t n, fit_l
   pendres_status status = pendres_block_open(m->ctx, m->flow, steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t most = pendres_block_capacity(b);
-  samples s = {.steps = (size_t)steps, .rows = pendres_flow_kind_rows(m->flow)};
+  fit_samples s = {.steps = (size_t)steps, .rows = pendres_flow_kind_rows(m->flow)};
   s.at = pendres_room_take(&room, (s.steps + 1) * s.rows * most, sizeof *s.at);
   double *work = pendres_room_take(&room, (2 + (size_t)m->parameters) * s.steps, sizeof *work);
   fit_lane **some = pendres_room_take(&room, most, sizeof(fit_lane *));
@@ -304,7 +298,7 @@ pendres_status pendres_fit_orbits(const fit_model *m, int steps, size_t n, fit_l
   for (int pass = 0; pass < FIT_PASSES && status == PENDRES_OK; pass++) {
     size_t next = 0, count, all = 0;
     while (status == PENDRES_OK && (count = gather(n, lanes, most, &next, some)) > 0) {
-      status = run(m, steps, count, some, &s);
+      status = pendres_fit_sample_period(m, steps, count, some, &s);
       if (status == PENDRES_OK) improve(m, &s, work, count, some);
       m->ctx->cost.newton_steps += (double)count;
       all += count;

@@ -93,7 +93,7 @@ int pendres_fit_evaluate(fit_problem *p, const fit_values v)
   memcpy(p->v, v, sizeof p->v);
   p->evaluations++;
   p->known = 1;
-  pendres_status status = pendres_fit_curves(p->m, v);
+  pendres_status status = p->m->decays ? PENDRES_OK : pendres_fit_curves(p->m, v);
   if (status == PENDRES_OK) status = pendres_fit_stages(p->m, v);
   p->lost = status != PENDRES_OK;
   if (p->lost && !is_of_values(status)) p->status = status;

@@ -116,6 +116,7 @@ static int mend(const fit_model *m, const fit_track *t, fit_station *s, int stag
 pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
 {
   int steps = 0;
+  if (m->decays) return pendres_fit_decay(m, v);
   pendres_status status = choose_steps(m, &steps);
   if (status != PENDRES_OK) return status;
   if (m->usual_steps == 0) m->usual_steps = steps;
@@ -299,6 +300,9 @@ void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *te
         const double error = terms->error[datum];
         rows->residual[datum] = residual_of(m, v, s, s->stage, datum, rows->slope[datum]) / error;
         for (int q = 0; q < FIT_QUANTITIES; q++) rows->slope[datum][q] /= -error;
+        if (!m->decays || i < m->active) continue;
+        rows->residual[datum] = 0.0;
+        memset(rows->slope[datum], 0, sizeof rows->slope[datum]);
       }
     }
     take_jumps(m, v, terms, k, rows);
