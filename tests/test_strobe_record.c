@@ -174,6 +174,23 @@ static void test_refusals(void **state)
   pendres_context_free(ctx);
 }
 
+/* In chaos the second run's covariance leaves all numbers after some 2000 periods: where nothing is
+   known errors are infinite, not NaN. */
+static void test_lost_is_infinite(void **state)
+{
+  enum { N = 4001 };
+  static double x[N], v[N], x_error[N], v_error[N];
+  const pendres_pendulum p = { .damping = 0.25, .drive_amplitude = 1.5,
+                               .drive_frequency = 2.0 / 3.0 };
+  pendres_context *ctx = context(1e-6);
+  (void)state;
+  check_ok(pendres_strobe_record(ctx, &p, &(pendres_state){1.8, 0.0}, N - 1, 1,
+                                 &(pendres_record){x, v, x_error, v_error}));
+  assert_true(isfinite(x_error[5]) && isfinite(v_error[5]));
+  for (size_t k = 1000; k < N; k++) assert_true(isinf(x_error[k]) && isinf(v_error[k]));
+  pendres_context_free(ctx);
+}
+
 /* In pieces of any length, gone on with from copies and in other contexts: the same bytes, also
    where a chaotic trajectory is lost on the way. */
 static void test_pieces(void **state)
@@ -210,6 +227,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_reference),
     cmocka_unit_test(test_lost_for_good),
+    cmocka_unit_test(test_lost_is_infinite),
     cmocka_unit_test(test_pieces),
     cmocka_unit_test(test_phases),
     cmocka_unit_test(test_densities),

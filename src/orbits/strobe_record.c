@@ -106,34 +106,55 @@ static pendres_status run(pendres_context *ctx, const piece *what, pendres_flow_
   return status;
 }
 
+/* Tell the errors of the points of a piece from the distance to the second run and twice the
+   standard error of rounding, which is where they go. */
+static void compare(pendres_recording *next, const piece *first, const piece *second,
+                    double *x_error, double *v_error)
+{
+  const size_t n = (size_t)second->periods * (size_t)next->samples;
+  for (size_t k = 1; k <= n; k++) {
+    const double dx = fabs(first->x[k] - second->x[k]), dv = fabs(first->v[k] - second->v[k]);
+    /* The larger of the two: either may be small by chance, where it changes its sign. */
+    const double error = pendres_strobe_error(fmax(dx, dv));
+    if (!(error + x_error[k] + v_error[k] < INFINITY)) next->lost = 1;
+    x_error[k] = error + 2.0 * x_error[k] + last_place_of_one * fabs(first->x[k]);
+    v_error[k] = error + 2.0 * v_error[k] + last_place_of_one * fabs(first->v[k]);
+    if (next->lost) x_error[k] = v_error[k] = INFINITY;
+  }
+}
+
 /*
- * Make the second run, and tell the errors from the distance to it and twice the standard error of
- * rounding. Where the error of x or that of v is infinite, both are, from there on: the trajectory
- * may have become another one, even if the two runs meet again.
+ * Make the second run, as far as it tells errors. Where the error of x or that of v is infinite,
+ * both are, from there on: the trajectory may have become another one, even if the two runs meet
+ * again.
  */
 static pendres_status estimate(pendres_context *ctx, pendres_recording *next, const piece *first,
                                double *x_error, double *v_error)
 {
-  const size_t n = (size_t)first->periods * (size_t)next->samples + 1;
-  double *finer = malloc(2 * n * sizeof *finer);
+  const size_t samples = (size_t)next->samples, all = (size_t)first->periods * samples;
+  const size_t room = samples * STROBE_MOST_COMPARED + 1;
+  double *finer = malloc(2 * room * sizeof *finer);
   if (finer == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  const piece second = { .of = first->of, .at = &next->finer, .periods = first->periods,
-                         .stretch = 2 * next->stretch, .x = finer, .v = finer + n };
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", room);
+  pendres_recording so_far = *first->of;
   pendres_flow_error off = { next->noise[0], next->noise[1], next->noise[2] };
-  const pendres_status status = run(ctx, &second, &off, x_error, v_error);
+  pendres_status status = PENDRES_OK;
+  size_t at = 0;
+  for (long left = first->periods; left > 0 && !next->lost && status == PENDRES_OK;) {
+    const piece here = { .x = first->x + at, .v = first->v + at };
+    const piece second = { .of = &so_far, .at = &next->finer,
+                           .periods = left < STROBE_MOST_COMPARED ? left : STROBE_MOST_COMPARED,
+                           .stretch = 2 * next->stretch, .x = finer, .v = finer + room };
+    status = run(ctx, &second, &off, x_error + at, v_error + at);
+    if (status == PENDRES_OK) compare(next, &here, &second, x_error + at, v_error + at);
+    at += (size_t)second.periods * samples;
+    left -= second.periods;
+    so_far.periods += second.periods;
+  }
   next->noise[0] = off.yy;
   next->noise[1] = off.yw;
   next->noise[2] = off.ww;
-  for (size_t k = 1; k < n && status == PENDRES_OK; k++) {
-    const double dx = fabs(first->x[k] - finer[k]), dv = fabs(first->v[k] - finer[n + k]);
-    /* The larger of the two: either may be small by chance, where it changes its sign. */
-    const double error = pendres_strobe_error(fmax(dx, dv));
-    if (!(error + x_error[k] + v_error[k] < INFINITY)) next->lost = 1;
-    const double lost = next->lost ? INFINITY : 0.0;
-    x_error[k] = lost + error + 2.0 * x_error[k] + last_place_of_one * fabs(first->x[k]);
-    v_error[k] = lost + error + 2.0 * v_error[k] + last_place_of_one * fabs(first->v[k]);
-  }
+  while (at++ < all) x_error[at] = v_error[at] = INFINITY;
   free(finer);
   return status;
 }
