@@ -21,6 +21,9 @@ static const bad_deck bad[] = {
   { "&scene kind='nonsense' /\n&pendulum dampng=1 /",
     { "1:13 knows no 'nonsense'; it takes 'free_oscillation'",
         "2:11 (did you mean 'damping'?)" } },
+  { "&scene kind='orbit' /\n&pendulum force='Duffing' force_coefficients=1,0,1 quality=5\n"
+    "  drive_amplitude=1 drive_period=8 /\n&orbit x=1 /",
+    { "2:17 knows no 'Duffing' (did you mean 'polynomial'?)", "2:52 (did you mean 'damping'?)" } },
   { "&scene kind=orbit /\n&pendulum damping=-1 /",
     { "1:13 'kind' wants a string in quotes, not orbit" } },
   /* names */

@@ -239,6 +239,10 @@ static const bad_deck bad[] = {
   { "&scene kind='orbit' /\n&orbit x=1 periods='3 s' /\n"
     "&pendulum damping=0.1 drive_amplitude=1 drive_period=8 /", { "2:20 a whole number" } },
   { ORBIT "1 drive_period=8 /\n&units mass='1 m' length='1 m' /", { "4:13 'mass' is in kg here" } },
+  /* a resistance that is wrong is not called a missing damping, too */
+  { "&scene kind='hysteresis' /\n&hysteresis x=1 /\n&pendulum drive_amplitude=0 /\n"
+    "&sweep torque=0,1 /\n&units critical_current='1 uA' capacitance='1 pF' resistance='3 K' /",
+    { "4:1 'drive_period' in &pendulum or &sweep", "5:62 'resistance' is in ohm here" } },
   { POLYNOMIAL "1 force_coefficients=1,0,'3 N/m^2'" REST, { "2:71 'a3' is in N m-3 here" } },
   { "&scene kind='orbit' /\n&orbit x=1 /\n&pendulum force='polynomial' damping='Q 5'"
     " drive_period=8 drive_amplitude=0 force_coefficients=-1,0,1 /",
@@ -315,6 +319,7 @@ static void conversions(void **state)
     { "cm.s-1", "m/s", 1, 0.01, 0 },      { "Hz", "rad/s", 1, 2 * PI, 1e-15 },
     { "deg", "rad", 180, PI, 1e-15 },     { "eV", "J", 1, 1.602176634e-19, 3e-35 },
     { "k\342\204\246", "ohm", 1, 1e3, 0 }, { "\316\274V", "V", 1, 1e-6, 0 },
+    { "kOhm", "ohm", 1, 1e3, 0 },
     { "V/A", "ohm", 1, 1, 0 },            { "Hz", "1/s", 1, 2 * PI, 1e-15 },
   };
   static const char *const none[] = { "Kg", "m^0", "N/", "2 m", "m s -1", "xHz", "mm^", "m^-" };

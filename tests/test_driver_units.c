@@ -78,6 +78,22 @@ static void test_jumps(void **state)
   pendres_store_free(store);
 }
 
+/* What there is not is no number: a junction's voltage where it rotates without a lock. */
+static void test_absent(void **state)
+{
+  (void)state;
+  write_text("iv.nml", "&scene kind = 'hysteresis' /\n&hysteresis x = 1.6 /\n"
+             "&units critical_current = '10 uA', resistance = '10 Ohm', capacitance = '0.5 pF' /\n"
+             "&pendulum drive_amplitude = 0, drive_frequency = 1 /\n"
+             "&sweep torque_range = '0 A', '12 uA', 13 /\n");
+  check_code(RUN("-q", "iv.nml"), DONE);
+  check_says(out, "homoclinic  0.866712477541");
+  check_says(out, "1                             8.66712477541");
+  check_says(out, "     0\n"); /* the voltage at rest has no error */
+  assert_null(strstr(out, "nan"));
+  assert_null(strstr(out, " \n"));
+}
+
 /* Its cusp, known to a tenth of a pN. */
 static void test_cusp(void **state)
 {
@@ -237,8 +253,8 @@ static void test_references(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    TEST(test_jumps), TEST(test_cusp), TEST(test_marks), TEST(test_all_marked),
-    TEST(test_references),
+    TEST(test_jumps), TEST(test_absent), TEST(test_cusp), TEST(test_marks),
+    TEST(test_all_marked), TEST(test_references),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

@@ -67,6 +67,9 @@ static int was_tried(const deck_builder *b, size_t row)
   const deck_key *key = &deck_table[row];
   const int value = strcmp(key->group, "pendulum") == 0;
   if (b->given[row].given || b->given[row].broken) return 1;
+  /* A resistance makes the damping, once what is wrong with it is mended. */
+  if (strcmp(key->name, "damping") == 0 && deck_given_of(b, "units", "resistance")->broken)
+    return 1;
   if (!value && key->type != DECK_SWEEP) return 0;
   const deck_given *other = deck_given_of(b, value ? "sweep" : "pendulum", key->name);
   return other->given || other->broken;
@@ -113,6 +116,17 @@ static void check_missing(deck_builder *b)
 
 /* ---- keys that exclude or need each other -------------------------------------------------- */
 
+/* Whether the axis is another one than drive and damping, so that the drive has its place in
+   &pendulum. */
+static int other_is_swept(const deck_builder *b)
+{
+  for (size_t i = 0; i < deck_table_size; i++)
+    if (deck_table[i].type == DECK_SWEEP && strcmp(deck_table[i].name, "damping") != 0 &&
+        b->given[i].given && deck_in_scene(b, "pendulum", "drive_period"))
+      return 1;
+  return 0;
+}
+
 /* Exactly one of drive frequency and drive period, both in the same group. */
 static void check_drive(deck_builder *b, const char *group)
 {
@@ -133,8 +147,10 @@ static void check_drive(deck_builder *b, const char *group)
                   "give either 'drive_frequency' or 'drive_period', not both");
   } else if (!have_frequency && !have_period && (place == NULL || !place->broken)) {
     char message[200];
-    snprintf(message, sizeof message, "scene '%s' needs 'drive_frequency' or 'drive_period' in &%s",
-             deck_kind_name(b->d->kind), group);
+    const int fixed = strcmp(group, "sweep") == 0 && other_is_swept(b);
+    snprintf(message, sizeof message,
+             "scene '%s' needs 'drive_frequency' or 'drive_period' in &%s%s",
+             deck_kind_name(b->d->kind), fixed ? "pendulum or &" : "", group);
     deck_complain_of_group(b, place, message);
   }
 }

@@ -197,7 +197,7 @@ static void explain_key(FILE *out, const char *margin, const deck_key *key, unsi
 void deck_list(FILE *out)
 {
   for (int k = 0; k < DECK_KIND_COUNT; k++)
-    fprintf(out, "%-17s %s\n", deck_kind_name((deck_kind)k), deck_kind_of((deck_kind)k)->words);
+    fprintf(out, "%-19s %s\n", deck_kind_name((deck_kind)k), deck_kind_of((deck_kind)k)->words);
 }
 
 static int find_kind(const char *word)

@@ -70,6 +70,8 @@ static void trim(char *text)
 static int read_choice(deck_builder *b, const deck_key *key, const namelist_value *v, int *wrong)
 {
   char text[DECK_PATH], list[300] = "", hint[100];
+  const char *synonym = NULL;
+  char word[DECK_PATH];
   deck_suggestion s = { 0 };
   *wrong = 1;
   if (!namelist_value_string(b->nl, v, key->name, text, sizeof text, b->errors)) return -1;
@@ -85,6 +87,10 @@ static int read_choice(deck_builder *b, const deck_key *key, const namelist_valu
       snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'",
                list[0] == '\0' ? "" : ", ", key->choices[i]);
   }
+  for (size_t k = 0; k <= strlen(text); k++) word[k] = (char)lex_lower(text[k]);
+  for (size_t k = 0; s.best == NULL && (synonym = deck_synonym(word, k)) != NULL; k++)
+    for (int i = 0; key->choices[i] != NULL; i++)
+      if (same_choice(synonym, key->choices[i])) s.best = key->choices[i];
   namelist_error_at(b->nl, v->at, b->errors, "'%s' knows no '%.40s'%s; it takes %s", key->name,
                     text, deck_suggestion_text(&s, hint, sizeof hint), list);
   for (int i = 0; s.best != NULL && key->choices[i] != NULL; i++)

@@ -75,6 +75,9 @@ const char *deck_synonym(const char *word, size_t number)
     { "q", "damping" },              { "quality_factor", "damping" },
     { "current", "torque" },         { "ic", "critical_current" },
     { "i_c", "critical_current" },   { "responsivity", "volts_per_length" },
+    { "quality", "damping" },        { "amplitude", "drive_amplitude" },
+    { "duffing", "polynomial" },     { "helmholtz", "polynomial" },
+    { "junction", "pendulum" },      { "josephson", "pendulum" },
   };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++)
     if (strcmp(word, pair[i][0]) == 0 && number-- == 0) return pair[i][1];

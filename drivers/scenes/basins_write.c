@@ -305,6 +305,8 @@ static const scene_cell cells[] = {
   {.heading = "period ", .format = "%4.0f ", .none = "   - ", .value = offsetof(row, period)},
   {.heading = "winding ", .format = "%6.0f   ", .none = "     -   ",
    .value = offsetof(row, winding)},
+  {.heading = "x          ", .format = "%10.6f ", .none = "         - ",
+   .value = offsetof(row, of.orbit.x)},
   {.heading = "amplitude    ", .format = "%.8f   ", .none = "-            ",
    .value = offsetof(row, of.orbit.amplitude)},
   {.heading = "phase lag    ", .format = "%.8f   ", .none = "-            ",
@@ -348,7 +350,7 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, size
   const scene_table table = {SCENE_ROWS(rows, n)};
   SCENE_PRINT(out, &table, n, cells, NULL);
   if (s->escaped > 0)
-    fprintf(out, "%-13s%72s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
+    fprintf(out, "%-13s%83s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
             s->escape_fraction_error);
   print_chaos(out, n, rows);
   fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,

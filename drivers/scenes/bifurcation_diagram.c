@@ -273,9 +273,10 @@ static void tabulate(FILE *out, const work *w)
           "period after");
   for (size_t i = 0; i < w->path.jumps && i < SCENE_TABLE_LINES; i++) {
     const pendres_jump *j = &w->path.jump[i];
-    fprintf(out, "%-10s %.14g +- %.0e  %d\n", pendres_name_get(PENDRES_NAMES_JUMP, j->kind),
-            j->value,
-            j->value_error, j->to_period);
+    char where[60];
+    snprintf(where, sizeof where, "%.14g +- %.0e", j->value, j->value_error);
+    fprintf(out, "%-10s %-28s %d\n", pendres_name_get(PENDRES_NAMES_JUMP, j->kind), where,
+            j->to_period);
   }
   if (scene_along_uncertain(&w->path))
     fprintf(out, "uncertain: errors as small as rounding choose the state that it begins on\n");

@@ -164,7 +164,7 @@ static void tabulate_steps(FILE *out, const scene_along_path *path)
     fprintf(out, "%-8s", name);
     print_end(out, s->lower_end, s->lower, s->lower_error);
     print_end(out, s->upper_end, s->upper, s->upper_error);
-    if (isnan(s->width)) fputs("\n", out);
+    if (isnan(s->width)) fputs("  -\n", out);
     else fprintf(out, "  %.12g +- %.0e\n", s->width, s->width_error);
   }
   if (path->steps > told) fprintf(out, "and %zu narrower ones\n", path->steps - told);
@@ -181,12 +181,14 @@ static void print_orbit(FILE *out, const pendres_jump *j, int turns)
 static void tabulate(FILE *out, const scene_run *run, const scene_along_path *path)
 {
   const int turns = has_steps(run->deck, path);
-  fprintf(out, "%-5s %-9s %-28s %-11s %-11s %s\n", "way", "ends by", deck_axis_name(path->axis),
+  fprintf(out, "%-5s %-11s %-28s %-14s %-14s %s\n", "way", "ends by", deck_axis_name(path->axis),
           "from", "to", turns ? "turns/periods" : "period");
   for (size_t i = 0; i < path->jumps && i < SCENE_TABLE_LINES; i++) {
     const pendres_jump *j = &path->jump[i];
-    fprintf(out, "%-5s %-9s %.14g +- %.0e  %-11s %-11s ", j->direction > 0 ? "up" : "down",
-            pendres_name_get(PENDRES_NAMES_JUMP, j->kind), j->value, j->value_error,
+    char where[60];
+    snprintf(where, sizeof where, "%.14g +- %.0e", j->value, j->value_error);
+    fprintf(out, "%-5s %-11s %-28s %-14s %-14s ", j->direction > 0 ? "up" : "down",
+            pendres_name_get(PENDRES_NAMES_JUMP, j->kind), where,
             pendres_name_get(PENDRES_NAMES_LABEL, j->from),
             pendres_name_get(PENDRES_NAMES_LABEL, j->to));
     print_orbit(out, j, turns);

@@ -382,7 +382,7 @@ static void print_table(scene_run *run, const work *w)
 {
   static const scene_cell cells[] = {
     SCENE_CELL(line, temperature, "temperature  ", "%-12.5g "),
-    {.heading = "transition  ", .format = "%-11s ", .type = SCENE_TEXT,
+    {.heading = "transition      ", .format = "%-15s ", .type = SCENE_TEXT,
      .value = offsetof(line, way)},
     SCENE_CELL(line, rate.value, "rate         ", "%-12.4g "),
     SCENE_CELL(line, rate.error, "+-        ", "%-9.2g "),

@@ -77,10 +77,12 @@ static void print_value(FILE *out, const shown *s, size_t i, int width)
   int digits = 10, used = 0;
   if (isfinite(x) && isfinite(e) && e > 0.0 && x != 0.0) digits = (int)log10(fabs(x) / e) + 2;
   digits = digits < 3 ? 3 : digits > 15 ? 15 : digits;
-  used = snprintf(text, sizeof text, "%.*g", digits, x);
-  if (s->has_error && !isnan(x))
+  if (isnan(x)) used = snprintf(text, sizeof text, "-"); /* there is none */
+  else used = snprintf(text, sizeof text, "%.*g", digits, x);
+  if (s->has_error && !isnan(x) && e != 0.0) /* what is given has no error */
     used += snprintf(text + used, sizeof text - (size_t)used, " +- %.1g", e);
-  fprintf(out, "%-*s", used < width ? width : used + 1, text);
+  if (width > 0) fprintf(out, "%-*s", used < width ? width : used + 1, text);
+  else fputs(text, out);
 }
 
 /* Whether it is a number of this rank with few values that has a unit, or a dimension; of rank 1,
@@ -134,7 +136,7 @@ static void tell_scalars(scene_run *run)
     if (isnan(s.value[0]) || (s.value[0] == 0.0 && !s.has_error)) continue; /* it is not there */
     fprintf(run->table, "%-26s ", name);
     print_value(run->table, &s, 0, 0);
-    fprintf(run->table, "%s\n", s.units);
+    fprintf(run->table, "%s%s\n", s.units[0] != '\0' ? " " : "", s.units);
   }
 }
 
@@ -148,12 +150,13 @@ static void tell_columns(scene_run *run, const shown *along, const shown *column
     const shown *s = k < 0 ? along : &column[k];
     (void)snprintf(heading, sizeof heading, "%s%s%s", s->name, s->units[0] != '\0' ? ", " : "",
                    s->units);
-    fprintf(run->table, "%-*s", WIDTH, heading);
+    fprintf(run->table, "%-*s", k + 1 < columns ? WIDTH : 0, heading);
   }
   fputc('\n', run->table);
   for (size_t i = 0; i < along->n; i++) {
     print_value(run->table, along, i, WIDTH);
-    for (int k = 0; k < columns; k++) print_value(run->table, &column[k], i, WIDTH);
+    for (int k = 0; k < columns; k++)
+      print_value(run->table, &column[k], i, k + 1 < columns ? WIDTH : 0);
     fputc('\n', run->table);
   }
 }
