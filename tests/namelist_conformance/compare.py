@@ -146,6 +146,7 @@ def build(folder):
     sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
     sources.append(os.path.join(TOP, 'drivers', 'system', 'grow.c'))
     sources.append(os.path.join(TOP, 'src', 'analysis', 'sweeps', 'sweep.c'))  # what lists and ranges make of an axis
+    sources.append(os.path.join(TOP, 'src', 'analysis', 'fit', 'names.c'))  # what a fit may free
     # Which coefficients a force has, what its parameters are, and its units.
     sources += [os.path.join(TOP, 'src', 'model', f)
                 for f in ('model.c', 'parameter.c', 'units.c', 'units_table.c')]
