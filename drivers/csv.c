@@ -14,7 +14,8 @@
 
 #include <pendres/store.h>
 
-enum { MOST_ROWS = 100000, ROOM = DECK_PATH + 256 };
+/* Axes of a table: two of results, and an outer one; response has all of them. */
+enum { MOST_ROWS = 100000, MOST_AXES = 4, ROOM = DECK_PATH + 500 };
 
 /* What the first line begins with: a file that begins otherwise is another one's. */
 static const char sign[] = "# resonance: ";
@@ -23,9 +24,9 @@ static const char sign[] = "# resonance: ";
 typedef struct column {
   char *name;
   pendres_store_type type;
-  int rank; /* 0 to 2 */
-  uint64_t size[2];
-  char *dimension[2];
+  int rank; /* 0 to MOST_AXES */
+  uint64_t size[MOST_AXES];
+  char *dimension[MOST_AXES];
   double *value; /* or, of a text, */
   char **text;
   double si_factor; /* that the values were multiplied by; 0: they are as the file has them */
@@ -43,7 +44,9 @@ typedef struct tables {
 
 static uint64_t rows_of(const column *c)
 {
-  return c->size[0] * c->size[1];
+  uint64_t n = 1;
+  for (int k = 0; k < c->rank; k++) n *= c->size[k];
+  return n;
 }
 
 static void drop(column *c)
@@ -52,8 +55,7 @@ static void drop(column *c)
   free(c->text);
   free(c->value);
   free(c->name);
-  free(c->dimension[0]);
-  free(c->dimension[1]);
+  for (int k = 0; k < MOST_AXES; k++) free(c->dimension[k]);
   *c = (column){ 0 };
 }
 
@@ -63,9 +65,9 @@ static pendres_status describe(pendres_store *store, column *c)
   uint64_t sizes[PENDRES_STORE_RANK];
   if (c->type == PENDRES_STORE_TYPE_COUNT) return PENDRES_UNSUPPORTED;
   pendres_status status = pendres_store_shape(store, "", c->name, &c->rank, sizes);
-  if (status == PENDRES_OK && c->rank > (c->type == PENDRES_STORE_STRING ? 1 : 2))
+  if (status == PENDRES_OK && c->rank > (c->type == PENDRES_STORE_STRING ? 1 : MOST_AXES))
     return PENDRES_UNSUPPORTED;
-  for (int k = 0; k < 2; k++) c->size[k] = sizes[k];
+  for (int k = 0; k < MOST_AXES; k++) c->size[k] = sizes[k];
   for (int k = 0; k < c->rank && status == PENDRES_OK; k++)
     status = pendres_store_dimension_of(store, "", c->name, k, &c->dimension[k]);
   return status;
@@ -269,9 +271,21 @@ static size_t gather(tables *t, const column *first, column **wanted)
   return n;
 }
 
+/* The element of a column in a row of the table: of a dimension the one along it. */
+static size_t place_of(const column *c, const column *first, uint64_t row)
+{
+  uint64_t along = row;
+  if (!is_dimension(c)) return (size_t)row;
+  for (int k = first->rank - 1; k >= 0; k--) {
+    if (strcmp(c->name, first->dimension[k]) == 0) return (size_t)(along % first->size[k]);
+    along /= first->size[k];
+  }
+  return (size_t)row;
+}
+
 static void put_table(tables *t, const column *first, column **wanted, FILE *out)
 {
-  const uint64_t rows = first->size[0] * first->size[1];
+  const uint64_t rows = rows_of(first);
   const size_t n = gather(t, first, wanted);
   put_head(t, out);
   for (size_t i = 0; i < n; i++) put_meaning(t, wanted[i], out);
@@ -280,12 +294,8 @@ static void put_table(tables *t, const column *first, column **wanted, FILE *out
   putc('\n', out);
   for (uint64_t row = 0; row < rows; row++) {
     for (size_t i = 0; i < n; i++) {
-      uint64_t at = row;
-      if (is_dimension(wanted[i]) && first->rank == 2)
-        at = wanted[i] == find(t, first->dimension[0]) ? row / first->size[1]
-                                                       : row % first->size[1];
       if (i > 0) putc(',', out);
-      put_cell(wanted[i], (size_t)at, out);
+      put_cell(wanted[i], place_of(wanted[i], first, row), out);
     }
     putc('\n', out);
   }
@@ -298,10 +308,10 @@ static void name_file(const deck *d, const column *other, char path[ROOM])
 {
   const size_t n = strlen(d->output);
   const int stem = (int)(n > 3 && strcmp(d->output + n - 3, ".h5") == 0 ? n - 3 : n);
-  const char *one = other != NULL ? other->dimension[0] : NULL;
-  const char *two = other != NULL ? other->dimension[1] : NULL;
-  snprintf(path, ROOM, "%.*s%s%.100s%s%.100s.csv", stem, d->output, one != NULL ? "." : "",
-           one != NULL ? one : "", two != NULL ? "." : "", two != NULL ? two : "");
+  int used = snprintf(path, ROOM, "%.*s", stem, d->output);
+  for (int k = 0; other != NULL && k < other->rank; k++)
+    used += snprintf(path + used, ROOM - (size_t)used, ".%.100s", other->dimension[k]);
+  snprintf(path + used, ROOM - (size_t)used, ".csv");
 }
 
 /* Is there nothing at path that is another one's? */
@@ -367,7 +377,7 @@ static int write_file(tables *t, const column *first, const char *path)
   char part[ROOM + 8], why[ROOM + 64] = "";
   char *target = NULL;
   int fd = -1;
-  column **wanted = calloc(t->count + 2, sizeof(column *));
+  column **wanted = calloc(t->count + MOST_AXES, sizeof(column *));
   int failed = wanted == NULL || pendres_store_target(path, &target, why, sizeof why) != PENDRES_OK;
   if (!failed) {
     if (strlen(target) < ROOM) {

@@ -8,6 +8,7 @@
 
 #include "terminal/safe_text.h"
 #include "run.h"
+#include "scenes/outer.h"
 
 /* What every run has in memory, and what a thread adds. */
 static const double program_memory = 19e6, thread_memory = 9e6;
@@ -24,12 +25,18 @@ static const scene_size *size_of(const deck *d)
   return &scene_find(d->kind)->size;
 }
 
-/* Points of the results. */
+/* Scenes that are computed. */
+static double runs_of(const deck *d)
+{
+  return deck_slices(d) > 0 ? (double)deck_slices(d) : 1.0;
+}
+
+/* Points of the results, of one of them. */
 static double points_of(const deck *d)
 {
   double points = 1.0;
   if (size_of(d)->points != NULL) return size_of(d)->points(d);
-  for (int axis = 0; axis < DECK_AXIS_COUNT; axis++)
+  for (int axis = 0; axis < DECK_AXIS_OUTER; axis++)
     if (axis != DECK_AXIS_TEMPERATURE && d->axis[axis].count > 0)
       points *= (double)d->axis[axis].count;
   return points;
@@ -50,7 +57,8 @@ static scene_more more_of(const deck *d, const farm_trial *t)
 static double estimate_output(const deck *d, const farm_trial *t)
 {
   const scene_size *s = size_of(d);
-  return s->head + s->point * points_of(d) + s->value * values_of(d) + more_of(d, t).output;
+  return s->head + runs_of(d) * (s->point * points_of(d) + s->value * values_of(d) +
+                                 more_of(d, t).output);
 }
 
 /* Bytes of memory with this number of threads. */
@@ -64,7 +72,7 @@ static double estimate_journal(const deck *d, const farm_trial *t)
 {
   if (t->what == NULL) return t->journal;
   if (t->tried > 0) return t->journal * size_of(d)->stages;
-  return size_of(d)->journal * points_of(d) + 8.0 * values_of(d);
+  return runs_of(d) * (size_of(d)->journal * points_of(d) + 8.0 * values_of(d));
 }
 
 /* How many times longer points take than at the usual damping, in the mean. */
@@ -121,7 +129,7 @@ static void print_time(const deck *d, const farm_trial *t, double outside, int t
   const double factor = t->what == NULL ? 1.0 : r->after;
   const double seen = program_seconds + outside + factor * t->seconds;
   const double seconds =
-    unknown ? fmax(seen, r->seconds * points_of(d) * slowness(d)) : seen;
+    unknown ? fmax(seen, runs_of(d) * r->seconds * points_of(d) * slowness(d)) : seen;
   fprintf(out, "time      %s ", t->cut && seconds == seen ? "at least" : "about");
   print_seconds(seconds, out);
   fputs(" of processor time", out);
@@ -221,23 +229,49 @@ static void print_description(const scene_run *run, const scene_kind *scene)
   print_line("output", d->output);
   printf("tolerance %g\n", d->precision.tolerance);
   printf("threads   %d\n\n", farm_threads(run->farm));
-  scene->describe(d, stdout);
+  scene_describe_all(d, scene, stdout);
+}
+
+/* Of an outer axis some slices are tried, which stand for all. */
+static void add_trial(const farm_trial *t, double times, farm_trial *sum)
+{
+  sum->seconds += times * t->seconds;
+  sum->journal += times * t->journal;
+  sum->changes += t->changes;
+  sum->cost.pendulum_periods += times * t->cost.pendulum_periods;
+  sum->cost.settled_pendulums += times * t->cost.settled_pendulums;
+  sum->spent += t->spent;
+  sum->cut |= t->cut;
+  if (t->what == NULL) return;
+  sum->what = t->what;
+  sum->tasks += t->tasks;
+  sum->tried += t->tried;
 }
 
 void estimate_dry_run(scene_run *run, const scene_kind *scene)
 {
   char path[DECK_PATH];
-  farm_trial trial = { .few = few_seconds, .most = most_seconds, .least = least_tasks };
+  farm_trial trial = { .seconds = 0.0 };
+  const size_t tries = scene_trials(run->deck);
   print_description(run, scene);
   (void)fflush(stdout);
   together_output(path, sizeof path);
   if (pendres_store_create(path, NULL, &run->store) != PENDRES_OK) return;
-  farm_set_trial(run->farm, &trial);
-  const pendres_status status = scene->run(run);
-  if (status != PENDRES_OK && trial.what == NULL && trial.spent > 0.0) return; /* it fails early */
-  /* Interrupted before there were tasks, or between them. */
-  if (status == PENDRES_INTERRUPTED && trial.what == NULL) trial.cut = 1;
+  double outside = 0.0;
+  for (size_t i = 0; i < tries; i++) {
+    const double times = runs_of(run->deck) / (double)tries;
+    farm_trial one = { .few = few_seconds / (double)tries, .most = most_seconds / (double)tries,
+                       .least = least_tasks };
+    farm_set_trial(run->farm, &one);
+    const pendres_status status = scene_try(run, scene, i);
+    farm_set_trial(run->farm, NULL);
+    if (status != PENDRES_OK && one.what == NULL && one.spent > 0.0) return; /* it fails early */
+    /* Interrupted before there were tasks, or between them. */
+    if (status == PENDRES_INTERRUPTED && one.what == NULL) one.cut = 1;
+    outside += times * farm_trial_outside(&one);
+    add_trial(&one, times, &trial);
+  }
   putchar('\n');
-  print_estimate(run->deck, &trial, farm_trial_outside(&trial), farm_threads(run->farm), stdout);
+  print_estimate(run->deck, &trial, outside, farm_threads(run->farm), stdout);
   print_space(run->deck->output, stdout);
 }

@@ -11,6 +11,7 @@
 #include "ending.h"
 #include "farm/ranks.h"
 #include "pages.h"
+#include "scenes/outer.h"
 #include "run.h"
 #include "shard.h"
 #include "terminal/safe_text.h"
@@ -279,7 +280,7 @@ static int compute(job *j)
   progress_note(&j->progress, "%s: %s on %d thread%s", j->deck.name, deck_kind_name(j->deck.kind),
                 farm_threads(j->farm), farm_threads(j->farm) == 1 ? "" : "s");
   tell_without_effect(j);
-  pendres_status status = j->scene->run(&j->run);
+  pendres_status status = scene_run_all(&j->run, j->scene);
   farm_dismiss(j->farm, status == PENDRES_OK || status == PENDRES_INTERRUPTED ? NULL
                : j->run.message[0] != '\0' ? j->run.message
                : pendres_status_message(status));

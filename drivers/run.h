@@ -143,8 +143,8 @@ pendres_status provenance_write(const provenance *p, const deck *d, const farm *
 /*
  * ---- csv.c: results as text, beside the HDF5 file.
  *
- * Owns: the form of these files, and the choice of results that go into them: whatever has one or
- * two dimensions, as tables of columns, and the rest of the numbers as comments. Users find them
+ * Owns: the form of these files, and the choice of results that go into them: whatever has one to
+ * four dimensions, as tables of columns, and the rest of the numbers as comments. Users find them
  * described in docs/files.md.
  */
 

@@ -44,7 +44,8 @@ def read(path, known):
     """Add the variables of a file to known: (name, meaning, dimensions, unit) -> kinds."""
     with h5py.File(path, "r") as file:
         kind = attribute(file, "scene")
-        fixed = attribute(file, "coordinates").split()
+        outer = attribute(file, "outer_axis")
+        fixed = [*attribute(file, "coordinates").split(), outer]
         for name, variable in file.items():
             plain = isinstance(variable, h5py.Dataset) and name not in fixed
             if not plain or name.endswith("_error") or (kind, name) in known["seen"]:
@@ -53,6 +54,7 @@ def read(path, known):
             is_scale = attribute(variable, "CLASS") == "DIMENSION_SCALE"
             over = () if is_scale else tuple(
                 os.path.basename(d[0].name) if len(d) else "" for d in variable.dims)
+            over = tuple("outer axis" if name == outer else name for name in over)
             if is_scale and not meaning(variable):
                 continue
             unit = attribute(variable, "units")

@@ -302,6 +302,7 @@ void deck_check(deck_builder *b)
   deck *d = b->d;
   if (b->scene == 0) return;
   deck_scales_damping(b);
+  deck_outer_apply(b);
   check_missing(b);
   check_axis_sources(b);
   resolve_drive(b);
@@ -311,6 +312,7 @@ void deck_check(deck_builder *b)
   check_idle_keys(b);
   check_size(b);
   deck_check_axes(b);
+  deck_outer_check(b);
   check_output(b);
   deck_check_units(b);
   check_ensemble(b);

@@ -16,6 +16,7 @@
 static size_t count_of(const deck *d, const deck_axis *axis)
 {
   const size_t n = axis->range_count;
+  if (axis == &d->axis[DECK_AXIS_OUTER]) return n;
   return n > 1 ? (n - 1) * (size_t)d->resolution + 1 : n;
 }
 
@@ -31,17 +32,23 @@ static int expand_axis(const deck *d, deck_axis *axis)
                               &axis->count) == PENDRES_OK;
 }
 
+void deck_expand_axis(deck_builder *b, deck_axis_id id)
+{
+  deck_axis *axis = &b->d->axis[id];
+  if (axis->listed_count + axis->range_count == 0) return;
+  if (!expand_axis(b->d, axis)) b->out_of_memory = 1;
+}
+
 void deck_expand_axes(deck_builder *b)
 {
-  for (int i = 0; i < DECK_AXIS_COUNT; i++) {
+  for (int i = 0; i < DECK_AXIS_OUTER; i++) {
     deck_axis *axis = &b->d->axis[i];
-    if (axis->listed_count + axis->range_count == 0) continue;
     if (count_of(b->d, axis) > DECK_MAX_COUNT) {
       deck_complain(b, deck_given_of(b, "sweep", "resolution"), "resolution",
                "'resolution' makes more than 1000000 values of a range: give a smaller number");
       return;
     }
-    if (!expand_axis(b->d, axis)) b->out_of_memory = 1;
+    deck_expand_axis(b, (deck_axis_id)i);
   }
 }
 

@@ -110,13 +110,14 @@ typedef struct deck_kind_info {
   const char *takes; /* the words where there are fewer or more */
 } deck_kind_info;
 
-/* Axes of &sweep: the parameters, in the order of their list, and two more. */
+/* Axes: the parameters, in the order of their list, two more of &sweep, and that of &outer. */
 typedef enum deck_axis_id {
 #define DECK_AXIS_CODE(code, ...) DECK_AXIS_##code,
   PENDRES_PARAMETER_LIST(DECK_AXIS_CODE)
 #undef DECK_AXIS_CODE
   DECK_AXIS_AMPLITUDE,
   DECK_AXIS_TOLERANCE,
+  DECK_AXIS_OUTER,
   DECK_AXIS_COUNT
 } deck_axis_id;
 
@@ -170,6 +171,13 @@ typedef struct deck {
   int64_t resolution;       /* number of parts into which each step of the ranges is divided */
   double search[2];         /* bounds of drive frequency in the search of a resonance */
   int search_given;         /* the deck says them */
+
+  struct {                  /* the outer axis; its values are in axis[] */
+    char key[DECK_NAME];    /* as the deck names it; "": there is none */
+    int known;              /* nonzero: it is a number of the scene, whose row of the table is */
+    size_t row;
+    int coefficient;        /* 1 to 5 of 'force_coefficients'; 0: the row is the number */
+  } outer;
 
   struct {                  /* as in struct pendres_ensemble */
     int64_t members;
@@ -313,6 +321,19 @@ int deck_has_ramp(const deck *d);
  *  are, which is at most DECK_AXES in a deck that was checked. */
 enum { DECK_AXES = 3 };
 int deck_axes(const deck *d, deck_axis_id axis[DECK_AXES]);
+
+/**
+ * The outer axis: the scene is computed once for each of its values. How many there are (0: there
+ * is no such axis), the name of the axis in results, and what it is in words. All else in a deck
+ * with one is that of a single scene, of the value of the largest size.
+ */
+size_t deck_slices(const deck *d);
+const char *deck_outer_name(const deck *d, char name[2 * DECK_NAME]);
+const char *deck_outer_words(const deck *d);
+
+/** The deck of one of these scenes, number 0 to deck_slices() - 1: as resolved, without the outer
+ *  axis, with that value in its place. Returns as deck_read_set does. */
+pendres_status deck_slice(const deck *d, size_t slice, deck *out, namelist_errors *errors);
 
 /** Does it tell a laboratory's scales, in &units? */
 int deck_has_units(const deck *d);

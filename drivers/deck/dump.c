@@ -139,7 +139,7 @@ static void dump_groups(const deck *d, FILE *stream)
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if ((key->scenes & scene) == 0 || key->type == DECK_SWEEP_VALUE) continue;
-    if (!deck_key_applies(key, d) || has_no_value(key, d)) continue;
+    if (!deck_key_applies(key, d) || has_no_value(key, d) || deck_outer_is(d, key)) continue;
     if (group == NULL || strcmp(group, key->group) != 0) {
       if (group != NULL) fprintf(stream, "/\n");
       group = key->group;
@@ -157,7 +157,10 @@ pendres_status deck_dump(const deck *d, FILE *stream)
   locale_t before = (locale_t)0;
   if (c == (locale_t)0) return PENDRES_OUT_OF_MEMORY;
   before = uselocale(c);
-  dump_groups(d, stream);
+  deck shown = *d;
+  if (d->outer.known && d->outer.coefficient > 0) /* it stands in &outer */
+    shown.pendulum.force_coefficients[d->outer.coefficient - 1] = 0.0;
+  dump_groups(&shown, stream);
   uselocale(before);
   freelocale(c);
   return ferror(stream) ? PENDRES_IO : PENDRES_OK;

@@ -344,6 +344,8 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
   char name[2 * DECK_NAME];
   int good = !array->broken;
   snprintf(name, sizeof name, "%s%s", key->name, range ? "_range" : "");
+  const deck_key of_outer = deck_outer_values(b->d, key);
+  if (key->type == DECK_SWEEP && key->axis == DECK_AXIS_OUTER) key = &of_outer;
   if (good && array->count == 0) return; /* nothing but null values */
   if (!given->given) {
     given->nl = b->nl;
@@ -425,6 +427,7 @@ int deck_key_applies(const deck_key *key, const deck *d)
   case DECK_WITH_SEARCH: return deck_searches(d);
   case DECK_UNLESS_AXIS:
     return d->axis[key->axis].listed_count + d->axis[key->axis].range_count == 0;
+  case DECK_WITH_OUTER: return d->outer.key[0] != '\0';
   case DECK_BY_FREQUENCY: return !d->by_period;
   case DECK_BY_PERIOD: return d->by_period;
   default: return 1;

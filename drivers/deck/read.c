@@ -46,6 +46,7 @@ static int stage_of(const char *group, const char *name)
 {
   if (strcmp(group, "scene") == 0) return STAGE_SCENE;
   if (strcmp(group, "units") == 0) return STAGE_SCALES;
+  if (strcmp(group, "outer") == 0 && strcmp(name, "key") == 0) return STAGE_FORCE;
   if (strcmp(name, "rate") == 0 || strcmp(name, "protocol") == 0) return STAGE_RAMP;
   if (strcmp(group, "pendulum") != 0) return STAGE_REST;
   if (strcmp(name, "force") == 0) return STAGE_FORCE;
@@ -130,6 +131,7 @@ static void read_groups(deck_builder *b)
     if (stage == STAGE_SCENE) check_kind(b, found);
     if (stage == STAGE_SCENE && b->scene != 0) deck_key_defaults(b);
     if (stage == STAGE_FORCE) find_force(b->d);
+    if (stage == STAGE_FORCE && b->scene != 0) deck_outer_find(b);
     if (stage == STAGE_SCALES && b->scene != 0) deck_scales_find(b);
   }
 }
@@ -182,11 +184,13 @@ static pendres_status build(const namelist *nl, const namelist *settings, size_t
   deck_check(&b);
   namelist_errors_sort(errors);
   if (b.out_of_memory || errors->out_of_memory) goto no_memory;
+  if (errors->count == 0 && keep_text(&d, nl, settings, count) != PENDRES_OK) goto no_memory;
+  if (errors->count == 0) deck_outer_try(&b);
+  if (b.out_of_memory || errors->out_of_memory) goto no_memory;
   if (errors->count > 0) {
     deck_free(&d);
     return PENDRES_INVALID_ARGUMENT;
   }
-  if (keep_text(&d, nl, settings, count) != PENDRES_OK) goto no_memory;
   *out = d;
   return PENDRES_OK;
 no_memory:

@@ -248,6 +248,13 @@ const deck_key deck_table[] = {
   { CHOICES("sweep", "case", cases), IN(HARD), .choices = cases, EXAMPLE("'separatrix'"),
     SAYS(NULL, "cases to run; without it all") },
 
+  { STRING("outer", "key", outer.key), IN(DRIVEN | ALONG | FREE), .when = DECK_WITH_OUTER,
+    SAYS(NULL, "a number for each value of which all of the scene is computed, so that its results "
+         "have one more axis: a parameter of &pendulum, a1 to a5, or GROUP.KEY (docs/axes.md)") },
+  { .group = "outer", .name = "values", .type = DECK_SWEEP, .axis = DECK_AXIS_OUTER,
+    IN(DRIVEN | ALONG | FREE), RANGE(-BIG, BIG), .when = DECK_WITH_OUTER,
+    SAYS("unit of 'key'", "its values, within the range of that key") },
+
   { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
     .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters") },
   { CHOICE("ensemble", "shape", ensemble.shape), IN(MEMBERS), .choices = shapes, .text = "line",

@@ -37,6 +37,7 @@ typedef enum deck_type {
   X(WITH_SEARCH, "only where a resonance is looked for",                                           \
     "no resonance is looked for: that takes lines along the drive's frequency or period")          \
   /* Those that another key may give instead: */                                                   \
+  X(WITH_OUTER, NULL, NULL)   /* with an outer axis */                                            \
   X(UNLESS_AXIS, NULL, NULL)  /* unless the key's axis has values in &sweep */                     \
   X(BY_FREQUENCY, NULL, NULL) /* unless the drive is given by its period */                        \
   X(BY_PERIOD, NULL, NULL)    /* the reverse */
@@ -186,7 +187,21 @@ int deck_is_there(const deck_given *at);
 
 /* check_axes.c: takes the values of all axes together, and checks what they vary. */
 void deck_expand_axes(deck_builder *b);
+void deck_expand_axis(deck_builder *b, deck_axis_id axis);
 void deck_check_axes(deck_builder *b);
+
+/* outer.c: */
+/* Find the number that &outer names, once the kind of scene is known. */
+void deck_outer_find(deck_builder *b);
+/* The key of its values, with the range and the unit of that number. */
+deck_key deck_outer_values(const deck *d, const deck_key *values);
+/* Is a key that number, whose place in the deck is &outer? */
+int deck_outer_is(const deck *d, const deck_key *key);
+/* Give the number one of the values, before all else is checked; then whether it can be an outer
+   axis; and, when all is checked, whether the decks of all values are good. */
+void deck_outer_apply(deck_builder *b);
+void deck_outer_check(deck_builder *b);
+void deck_outer_try(deck_builder *b);
 
 /* units.c: brings defaults into the pendulum's units, in which it checks the tolerance. */
 void deck_check_units(deck_builder *b);

@@ -112,6 +112,20 @@ void farm_set_journal(farm *f, journal *j)
 void farm_set_share(farm *f, farm_share share)
 {
   f->share = share;
+  f->complete = share.complete;
+}
+
+void farm_begin_slice(farm *f, size_t slice, int more)
+{
+  f->slice = slice;
+  f->stages = slice * FARM_SLICE_STAGES;
+  f->more = more;
+  f->share.complete = f->complete;
+}
+
+int farm_left_to_shards(const farm *f)
+{
+  return f->left && f->share.shards > 1;
 }
 
 int farm_left(const farm *f)

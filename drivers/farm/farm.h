@@ -102,6 +102,17 @@ pendres_status farm_run(farm *f, const farm_stage *stage);
 struct journal;
 void farm_set_journal(farm *f, struct journal *j);
 
+/*
+ * What follows is one slice of several of a run: its stages have numbers of their own, whatever
+ * became of those of the slices before it. `more`: others come after it, so that other ranks go on
+ * after its last stage.
+ */
+void farm_begin_slice(farm *f, size_t slice, int more);
+
+/* Whether the stage that was interrupted last was left to other shards, so that other slices can be
+   begun. */
+int farm_left_to_shards(const farm *f);
+
 /* How tasks are divided among several programs, each with a journal; all zero: not at all. */
 typedef struct farm_share {
   size_t shard, shards; /* number of this shard, from 0, and how many there are: each computes every

@@ -19,6 +19,8 @@ struct farm {
   farm_share share;
   struct farm_trial *trial;  /* NULL: not a trial */
   size_t lost;               /* points that were given up */
+  size_t slice;              /* see farm_begin_slice() */
+  int more, complete;        /* slices come after it; what the share was told of journals */
   int left;                  /* a stage was left to other shards */
   int dismissed;             /* on ranks other than 0: rank 0 has announced that the scene has
                                 ended */

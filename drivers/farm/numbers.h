@@ -18,6 +18,8 @@ enum {
   WAIT_SELDOM = 10000,
   /* Sleeps, some seconds together, in which memory for a message may become free. */
   WAIT_PATIENCE = 1000,
+  /* More than a scene has, so that stages of different slices have different numbers. */
+  FARM_SLICE_STAGES = 1000000,
   JOURNAL_ATTEMPTS = 100, /* how often it may be removed or replaced between two checks */
   POINTS_BEFORE = 8,      /* a point is costly beside the mean of these at least */
   LOOK_EVERY = 20         /* milliseconds, at what threads do */

@@ -331,7 +331,7 @@ static void look_up(pool *c)
   const int shared = s->shards > 1 && apart;
   for (size_t i = 0; i < c->stage->tasks; i++) {
     if (journal_has(c->journal, c->number, i)) c->done[i] = JOURNALED;
-    else if (shared && i % s->shards != s->shard) c->done[i] = OTHERS;
+    else if (shared && (i + c->farm->slice) % s->shards != s->shard) c->done[i] = OTHERS;
     c->finished += c->done[i] == JOURNALED;
     c->others += c->done[i] == OTHERS;
   }
@@ -403,10 +403,13 @@ static int threads_for(const farm *f, const farm_stage *stage)
   return stage->tasks < (size_t)most ? (int)stage->tasks : most;
 }
 
-pendres_status farm_run(farm *f, const farm_stage *stage)
+pendres_status farm_run(farm *f, const farm_stage *of)
 {
   pool c;
+  farm_stage own = *of;
+  const farm_stage *stage = &own;
   const int threads = threads_for(f, stage);
+  if (f->more) own.last = 0;
   f->message[0] = '\0';
   if (stage->tasks == 0) return PENDRES_OK;
   if (f->trial != NULL) return trial_run(f, stage);

@@ -24,7 +24,7 @@ typedef struct stage_trial {
 void farm_set_trial(farm *f, farm_trial *t)
 {
   f->trial = t;
-  t->start = clock_process();
+  if (t != NULL) t->start = clock_process();
 }
 
 double farm_trial_outside(const farm_trial *t)

@@ -31,9 +31,9 @@ typedef struct farm_trial {
   int cut;             /* the trial ended in the middle of something: the times are lower bounds */
 } farm_trial;
 
-/* From now on the stages of this farm are tried; in *t, which is not owned, the first three fields
-   are set and the others are zero. farm_run returns PENDRES_INTERRUPTED when the trial has ended.
-   */
+/* From now on the stages of this farm are tried (NULL: no more); in *t, which is not owned, the
+   first three fields are set and the others are zero. farm_run returns PENDRES_INTERRUPTED when the
+   trial has ended. */
 void farm_set_trial(farm *f, farm_trial *t);
 
 /* Seconds outside of tasks since the start of the trial. */

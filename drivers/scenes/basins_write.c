@@ -106,9 +106,7 @@ static void write_cut(basins *b)
   state_rows(n, b->cut, rows);
   scene_dimension(b->run, "cut", DECK_AXIS_X);
   SCENE_WRITE(b->run, &table, b->column);
-  if (scene_going(b->run))
-    scene_stored(b->run, pendres_store_attribute(b->run->store, "cut", NULL, "description",
-                                                      "the line v = 0"));
+  results_attribute(b->run, "cut", NULL, "description", "the line v = 0");
 }
 
 /* ---- attractors ---------------------------------------------------------------------------- */

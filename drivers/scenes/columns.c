@@ -187,8 +187,7 @@ static pendres_status define(scene_run *run, const scene_table *t, const scene_c
   if (!scene_going(run)) return run->status;
   describe(run, t, c, &v);
   scene_define(run, &v.spec, words);
-  scene_stored(run, pendres_store_variable(run->store, &v.spec, &out->value,
-                                           c->type == SCENE_REAL ? &out->error : NULL));
+  results_variable(run, &v.spec, &out->value, c->type == SCENE_REAL ? &out->error : NULL);
   scene_mark_units(run, &v.spec, c->type == SCENE_REAL);
   return run->status;
 }
@@ -202,10 +201,7 @@ typedef struct piece {
 static void write_one(scene_run *run, const piece *p, int pairs, int id, const void *data)
 {
   const size_t n = pairs ? 2 * p->table.n : p->table.n;
-  if (!scene_going(run)) return;
-  scene_stored(run, p->table.first > 0
-                      ? pendres_store_write_rows(run->store, id, p->first, p->values, data, n)
-                      : pendres_store_write(run->store, id, data, n));
+  results_write(run, id, p->first, p->table.first > 0 ? p->values : 0, data, n);
 }
 
 static void write_piece(scene_run *run, const piece *p, const scene_column *c,

@@ -124,10 +124,12 @@ void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
   if (run->told_count == SCENE_MOST_TOLD) return;
   char *line = run->told[run->told_count++];
   va_list args;
+  snprintf(line, SCENE_TOLD, "%s%s", run->where, run->where[0] != '\0' ? ", " : "");
+  size_t used = strlen(line);
   va_start(args, format);
-  (void)vsnprintf(line, SCENE_TOLD, format, args);
+  (void)vsnprintf(line + used, SCENE_TOLD - used, format, args);
   va_end(args);
-  const size_t used = strlen(line);
+  used = strlen(line);
   snprintf(line + used, SCENE_TOLD - used, ": %s", words != NULL ? words : reasons[reason].words);
 }
 

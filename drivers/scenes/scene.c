@@ -112,6 +112,15 @@ void scene_compute(scene_run *run, const farm_stage *stage)
   if (status != PENDRES_OK) scene_fail(run, status, "%s", farm_message(run->farm));
 }
 
+static void put_on_tape(scene_run *run, const pendres_store_spec *spec, const void *values,
+                        const double *errors, size_t n)
+{
+  int id = -1, error_id = -1;
+  results_variable(run, spec, &id, errors != NULL ? &error_id : NULL);
+  results_write(run, id, 0, 0, values, n);
+  if (errors != NULL) results_write(run, error_id, 0, 0, errors, n);
+}
+
 void scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
                const double *errors, size_t n)
 {
@@ -119,7 +128,8 @@ void scene_put(scene_run *run, const pendres_store_spec *spec, const void *value
   pendres_store_spec defined = *spec;
   if (!scene_going(run)) return;
   scene_define(run, &defined, words);
-  scene_stored(run, pendres_store_put(run->store, &defined, values, errors, n));
+  if (run->tape != NULL) put_on_tape(run, &defined, values, errors, n);
+  else scene_stored(run, pendres_store_put(run->store, &defined, values, errors, n));
   scene_mark_units(run, &defined, errors != NULL);
 }
 
@@ -130,11 +140,9 @@ void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const v
   pendres_store_spec defined = *spec;
   if (!scene_going(run)) return;
   scene_define(run, &defined, words);
-  pendres_status status = pendres_store_dimension(run->store, &defined, n, values);
-  if (status == PENDRES_OK && defined.comment != NULL)
-    status = pendres_store_attribute(run->store, spec->group, spec->name, "comment",
-                                     defined.comment);
-  scene_stored(run, status);
+  results_dimension(run, &defined, n, values);
+  if (defined.comment != NULL)
+    results_attribute(run, spec->group, spec->name, "comment", defined.comment);
   scene_mark_units(run, &defined, 0);
 }
 
@@ -147,8 +155,7 @@ typedef struct scene_held {
   max_align_t elements[];
 } scene_held;
 
-/* A file without a name, of that length; -1 after a failure, which is on record. */
-static int open_unnamed(scene_run *run, size_t bytes)
+int scene_unnamed(scene_run *run, size_t bytes)
 {
   char path[DECK_PATH + 32];
   const char *folder = getenv("TMPDIR"), *output = run->deck->output;
@@ -161,7 +168,7 @@ static int open_unnamed(scene_run *run, size_t bytes)
   const int file = mkstemp(path);
   int why = file < 0 || unlink(path) != 0 ? errno : 0;
   /* A signal that asks a run to stop is heeded between tasks, not here. */
-  if (why == 0) do why = posix_fallocate(file, 0, (off_t)bytes); while (why == EINTR);
+  if (why == 0 && bytes > 0) do why = posix_fallocate(file, 0, (off_t)bytes); while (why == EINTR);
   if (why == 0) return file;
   (void)scene_fail(run, PENDRES_IO, "a temporary file, %s: %s", path, strerror(why));
   if (file >= 0) (void)close(file);
@@ -170,7 +177,7 @@ static int open_unnamed(scene_run *run, size_t bytes)
 
 static scene_held *map_file(scene_run *run, size_t bytes)
 {
-  const int file = open_unnamed(run, bytes);
+  const int file = scene_unnamed(run, bytes);
   if (file < 0) return NULL;
   scene_held *held = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   (void)close(file);
@@ -313,6 +320,17 @@ double scene_fixed(const deck *d, deck_axis_id axis)
   return value != 0.0 || info->plain ? value : NAN;
 }
 
+/* Whether the outer axis varies it: frequency and period of the drive are one. */
+static int is_outer(const deck *d, deck_axis_id axis)
+{
+  char name[2 * DECK_NAME];
+  if (deck_slices(d) == 0) return 0;
+  deck_outer_name(d, name);
+  if (deck_is_clock(axis))
+    return strcmp(name, "drive_frequency") == 0 || strcmp(name, "drive_period") == 0;
+  return strcmp(name, deck_axis_name(axis)) == 0;
+}
+
 /* A parameter that the deck holds fixed; its name is added to those of coordinates. */
 static void write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
 {
@@ -321,7 +339,7 @@ static void write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
   const int coefficient = pendres_parameter_of(deck_axis_parameter(axis))->coefficient;
   pendres_store_spec spec = { .name = deck_axis_name(axis), .long_name = words_of(axis),
                               .units = units_of(axis) };
-  if (isnan(value)) return;
+  if (isnan(value) || is_outer(d, axis)) return;
   if (deck_fit_has(d, spec.name)) return; /* a guess, or not the value that is used */
   /* In other scenes the temperature is a dimension, even with one value. */
   if (axis == DECK_AXIS_TEMPERATURE && !scene_find(d->kind)->one_temperature) return;
@@ -338,8 +356,7 @@ static void write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
 
 static void put_attribute(scene_run *run, const char *name, const char *text)
 {
-  if (scene_going(run))
-    scene_stored(run, pendres_store_attribute(run->store, "", NULL, name, text));
+  results_attribute(run, "", NULL, name, text);
 }
 
 void scene_write_identity(scene_run *run)

@@ -36,6 +36,8 @@ typedef struct scene_run {
   pendres_status status; /* the first failure; nothing is computed or written any more after it */
   char message[512];     /* what it was */
   scene_room room;         /* see scene_array() */
+  struct results_tape *tape; /* where results go, while it is one slice of an outer axis; or NULL */
+  char where[80];            /* which slice that is; "": none */
 } scene_run;
 
 typedef struct scene_more {
@@ -127,14 +129,34 @@ void scene_room_end(scene_room *room);
    which is then on record as the failure, or if something has failed before. */
 void *scene_array(scene_run *run, size_t n, size_t size);
 
+/* A file without a name, in TMPDIR or else in the folder of the output, which vanishes with the run
+   however that ends; this many bytes of the disk are taken at once. -1: why is on record. */
+int scene_unnamed(scene_run *run, size_t bytes);
+
 /* The same for what may be larger than memory: from SCENE_MEMORY bytes on an array is in a file
-   without a name, in TMPDIR or else in the folder of the output, which vanishes with the run
-   however that ends. Its room on the disk is taken at once. */
+   without a name. */
 enum { SCENE_MEMORY = 64 << 20 };
 void *scene_large(scene_run *run, size_t n, size_t size);
 
 /* Run a stage on the run's farm; on failure the run has the farm's words. */
 void scene_compute(scene_run *run, const farm_stage *stage);
+
+/*
+ * Where results go: into the store or, while a scene is computed for one value of an outer axis,
+ * onto a tape (tape.h). They are the functions of <pendres/store.h> of these names; what fails is
+ * on record in the run.
+ */
+void results_dimension(scene_run *run, const pendres_store_spec *spec, uint64_t n,
+                       const void *values);
+void results_variable(scene_run *run, const pendres_store_spec *spec, int *id, int *error_id);
+/* rows 0: all of the variable. */
+void results_write(scene_run *run, int id, uint64_t first, uint64_t rows, const void *data,
+                   size_t n);
+void results_attribute(scene_run *run, const char *group, const char *object, const char *name,
+                       const char *text);
+void results_number(scene_run *run, const char *group, const char *object, const char *name,
+                    double number);
+int results_has(scene_run *run, const char *group, const char *name);
 
 /* Write a variable, with its errors unless they are NULL, or a dimension of n values (NULL: numbers
    from 0 on); see pendres/store.h. */

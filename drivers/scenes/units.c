@@ -15,11 +15,9 @@ enum { MOST_PRINTED = 20 };
 
 void scene_mark_si(scene_run *run, const char *group, const char *name, const deck_si *si)
 {
-  if (!scene_going(run) || !pendres_store_has(run->store, group, name)) return;
-  const pendres_status status =
-    pendres_store_attribute_number(run->store, group, name, "si_factor", si->factor);
-  if (scene_stored(run, status) == PENDRES_OK)
-    scene_stored(run, pendres_store_attribute(run->store, group, name, "si_units", si->units));
+  if (!scene_going(run) || !results_has(run, group, name)) return;
+  results_number(run, group, name, "si_factor", si->factor);
+  results_attribute(run, group, name, "si_units", si->units);
 }
 
 void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors)

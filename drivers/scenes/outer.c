@@ -1,0 +1,197 @@
+/* outer.c -- the scenes of an outer axis, one after another; see outer.h. */
+#include "scenes/outer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/columns.h"
+#include "scenes/failed.h"
+#include "scenes/tape.h"
+
+typedef struct outer {
+  const deck *whole;
+  const scene_kind *scene;
+  results_tape *tape;
+  scene_failed *failed; /* [slices] */
+  int left;             /* some tasks of a slice are other shards' */
+} outer;
+
+static const deck_axis *axis_of(const deck *d)
+{
+  return &d->axis[DECK_AXIS_OUTER];
+}
+
+/* ---- one slice ----------------------------------------------------------------------------- */
+
+static int read_slice(scene_run *run, const deck *whole, size_t slice, deck *one)
+{
+  namelist_errors errors = { 0 };
+  const pendres_status status = deck_slice(whole, slice, one, &errors);
+  if (status != PENDRES_OK)
+    (void)scene_fail(run, status, "%s", status == PENDRES_OUT_OF_MEMORY
+                     ? "out of memory for a deck" : errors.count > 0 ? errors.item[0].text : "");
+  namelist_errors_free(&errors);
+  return status == PENDRES_OK;
+}
+
+/* Compute one slice; its results go onto the tape, which is the run's while it lasts. */
+static pendres_status compute(scene_run *run, outer *o, size_t slice)
+{
+  deck one = { 0 };
+  char name[2 * DECK_NAME];
+  if (!read_slice(run, o->whole, slice, &one)) return run->status;
+  snprintf(run->where, sizeof run->where, "%s %.10g", deck_outer_name(o->whole, name),
+           axis_of(o->whole)->value[slice]);
+  if (run->table != NULL)
+    fprintf(run->table, "%s%s:\n", slice > 0 ? "\n" : "", run->where);
+  run->deck = &one;
+  run->tape = o->tape;
+  results_tape_begin(o->tape, slice);
+  const pendres_status status = o->scene->run(run);
+  run->tape = NULL;
+  run->deck = o->whole;
+  scene_room_end(&run->room);
+  deck_free(&one);
+  return status;
+}
+
+/* What has become of it: one that fails for reasons of its own is marked, and the others go on. */
+static void judge(scene_run *run, outer *o, size_t slice)
+{
+  const scene_failure reason = scene_failure_of(run->status);
+  if (scene_going(run)) return;
+  if (run->status == PENDRES_INTERRUPTED && farm_left_to_shards(run->farm)) {
+    o->left = 1;
+  } else if (reason != SCENE_FAILURE_NONE) {
+    o->failed[slice].reason = reason;
+    run->failed_points++;
+    scene_failure_tell(run, reason, run->message[0] != '\0' ? run->message : NULL, "%s",
+                       deck_kind_name(o->whole->kind));
+  } else {
+    return;
+  }
+  results_tape_forget(o->tape, slice);
+  run->status = PENDRES_OK;
+  run->message[0] = '\0';
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+static void write_axis(scene_run *run, const char *group)
+{
+  char name[2 * DECK_NAME];
+  const deck *d = run->deck;
+  scene_put_dimension(run, &(pendres_store_spec){ .group = group,
+                                                  .name = deck_outer_name(d, name),
+                                                  .long_name = deck_outer_words(d) },
+                      axis_of(d)->value, axis_of(d)->count);
+}
+
+static void write_failed(scene_run *run, const outer *o)
+{
+  char name[2 * DECK_NAME];
+  const scene_table table = { .dimensions = { deck_outer_name(o->whole, name) },
+                              .n = deck_slices(o->whole), .stride = sizeof *o->failed,
+                              .rows = o->failed };
+  scene_columns_write_failed(run, &table, "outer_failed",
+                             "why there is no result for a value of the outer axis");
+}
+
+static void write_all(scene_run *run, const outer *o)
+{
+  char name[2 * DECK_NAME];
+  size_t failed = 0;
+  for (size_t i = 0; i < deck_slices(o->whole); i++)
+    failed += o->failed[i].reason != SCENE_FAILURE_NONE;
+  if (scene_going(run) && failed == deck_slices(o->whole)) {
+    (void)scene_fail(run, PENDRES_NOT_FOUND, "there are no results at any value of %s; %s",
+                     deck_outer_name(o->whole, name), run->told_count > 0 ? run->told[0] : "");
+    return;
+  }
+  if (!scene_going(run)) return;
+  write_axis(run, "");
+  results_attribute(run, "", NULL, "outer_axis", deck_outer_name(o->whole, name));
+  results_tape_write(run, o->tape, deck_outer_name(o->whole, name), write_axis);
+  write_failed(run, o);
+}
+
+static pendres_status run_slices(scene_run *run, outer *o, size_t first, size_t last)
+{
+  for (size_t i = first; i <= last && scene_going(run); i++) {
+    farm_begin_slice(run->farm, i, i < last);
+    (void)compute(run, o, i);
+    judge(run, o, i);
+  }
+  run->where[0] = '\0';
+  return run->status;
+}
+
+static int begin(scene_run *run, const scene_kind *scene, outer *o)
+{
+  const size_t n = deck_slices(run->deck);
+  *o = (outer){ .whole = run->deck, .scene = scene, .failed = calloc(n, sizeof *o->failed) };
+  o->tape = o->failed != NULL ? results_tape_create(run, n) : NULL;
+  if (o->tape != NULL) return 1;
+  free(o->failed);
+  if (scene_going(run)) (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  return 0;
+}
+
+static void end(outer *o)
+{
+  results_tape_free(o->tape);
+  free(o->failed);
+}
+
+pendres_status scene_run_all(scene_run *run, const scene_kind *scene)
+{
+  outer o;
+  const size_t n = deck_slices(run->deck);
+  if (n == 0) return scene->run(run);
+  if (!begin(run, scene, &o)) return run->status;
+  (void)run_slices(run, &o, 0, n - 1);
+  if (o.left && scene_going(run))
+    (void)scene_fail(run, PENDRES_INTERRUPTED, "the rest is other shards'");
+  write_all(run, &o);
+  end(&o);
+  return run->status;
+}
+
+/* ---- --dry-run ----------------------------------------------------------------------------- */
+
+void scene_describe_all(const deck *d, const scene_kind *scene, FILE *out)
+{
+  deck one;
+  char name[2 * DECK_NAME];
+  namelist_errors errors = { 0 };
+  const deck_axis *a = axis_of(d);
+  if (deck_slices(d) == 0) {
+    scene->describe(d, out);
+    return;
+  }
+  fprintf(out, "for each of %zu values of %s, %g to %g; at the first of them:\n", a->count,
+          deck_outer_name(d, name), a->value[0], a->value[a->count - 1]);
+  if (deck_slice(d, 0, &one, &errors) == PENDRES_OK) scene->describe(&one, out);
+  namelist_errors_free(&errors);
+  deck_free(&one);
+}
+
+size_t scene_trials(const deck *d)
+{
+  const size_t n = deck_slices(d);
+  return n == 0 ? 1 : n < 3 ? n : 3;
+}
+
+pendres_status scene_try(scene_run *run, const scene_kind *scene, size_t i)
+{
+  outer o;
+  const size_t n = deck_slices(run->deck), tried = scene_trials(run->deck);
+  if (n == 0) return scene->run(run);
+  if (!begin(run, scene, &o)) return run->status;
+  const size_t slice = tried > 1 ? i * (n - 1) / (tried - 1) : 0;
+  farm_begin_slice(run->farm, slice, 0);
+  const pendres_status status = compute(run, &o, slice);
+  run->status = PENDRES_OK;
+  end(&o);
+  return status;
+}
