@@ -167,6 +167,66 @@ static void ringdown(void **state)
   pendres_store_free(s);
 }
 
+/* Results of our own sweeps are data, without a conversion: what they were computed with comes back
+   to a tenth of the errors told, and the jumps with them. */
+static void results_as_data(void **state)
+{
+  (void)state;
+  char text[700], path[100];
+  double value[3], error[3], unit = 0.0;
+  static const double truth[3] = {0.05, 0.05, 0.5};
+  scene_run_deck("&scene kind = 'hysteresis' /\n&units natural_frequency = '1 MHz' /\n"
+                 "&pendulum force = 'polynomial', force_coefficients = 1, 0, 0.5, damping = 0.05,\n"
+                 "  drive_amplitude = 0.05 /\n&hysteresis x = 0.1 /\n"
+                 "&sweep drive_frequency_range = 0.9, 1.4, 31 /\n", 1, "swept");
+  scene_path("swept", path);
+  for (int scaled = 0; scaled < 2; scaled++) {
+    snprintf(text, sizeof text, "&scene kind = 'fit' /\n%s"
+             "&pendulum force = 'polynomial', force_coefficients = 1 /\n"
+             "&data file = '%s', error = 1e-3, observable = 'amplitude', 'phase_lag' /\n"
+             "&fit free = 'damping', 'drive_amplitude', 'a3' /\n",
+             scaled ? "&units natural_frequency = '1 MHz' /\n" : "", path);
+    scene_run_deck(text, 1, "again");
+    pendres_store *s = scene_open("again");
+    read_numbers(s, "value", value, 3);
+    read_numbers(s, "value_error", error, 3);
+    for (int i = 0; i < 3; i++) check_near(value[i], truth[i], 0.1 * error[i]);
+    int rank = 0;
+    uint64_t size[PENDRES_STORE_RANK];
+    check_ok(pendres_store_shape(s, NULL, "observed", &rank, size));
+    assert_int_equal(size[0], 4 * 31); /* two observables, both ways */
+    assert_int_equal(pendres_store_read_attribute_double(s, NULL, "datum_axis", "si_factor", &unit),
+                     scaled ? PENDRES_OK : PENDRES_NOT_FOUND);
+    pendres_store_free(s);
+  }
+}
+
+/* Noise is no resonance: the best values are given, and that they are not converged is told. */
+static void no_convergence(void **state)
+{
+  (void)state;
+  char text[500], path[100];
+  double value[3];
+  int8_t converged = 1;
+  scene_path("noise", path);
+  FILE *f = fopen(path, "w");
+  assert_non_null(f);
+  for (unsigned i = 0; i < 60; i++)
+    fprintf(f, "%.2f %.2f 0.01\n", 0.7 + 0.01 * i, 0.01 * (i * i * 7919u % 101u));
+  assert_int_equal(fclose(f), 0);
+  snprintf(text, sizeof text, "&scene kind = 'fit' /\n"
+           "&pendulum force = 'polynomial', force_coefficients = 1, 0, 1 /\n"
+           "&data file = '%s', columns = '1', '2', '3' /\n"
+           "&fit free = 'damping', 'drive_amplitude', 'a3' /\n", path);
+  assert_int_equal(scene_run_marked(NULL, text, 1, "none"), 1); /* exit code 3 */
+  assert_non_null(strstr(scene_told, "did not converge"));
+  pendres_store *s = scene_open("none");
+  check_ok(pendres_store_read(s, NULL, "converged", PENDRES_STORE_INT8, &converged, 1));
+  read_numbers(s, "value", value, 3);
+  assert_true(converged == 0 && isfinite(value[0]) && value[0] > 0.0);
+  pendres_store_free(s);
+}
+
 /* Run on a data file with this text; the message of the failure. */
 static void check_told(const char *data, const char *keys, const char *words)
 {
@@ -204,6 +264,8 @@ static void bad_data(void **state)
   check_told("", "", "there are no data");
   check_told("0.8 0.1\n", "observable = 'amplitude', 'rms'", "no column of 'rms' is known");
   check_told("drive_frequency amplitude\n0.8 0.1\n0.9\n", "", "data.txt:3: the line has 1 col");
+  check_told("drive_frequency\t amplitude\n0.8\t 0.1\n", "", "1 data do not"); /* blanks are none */
+  check_told("\211HDF and no more", "", "the file of results cannot be read");
   check_told("0.8 0.1\n0.9 x1\n", "", "data.txt:2: 'x1' in column 2 is no number");
   check_told("0.8;0.1\n0.9;0,2\n", "", "decimals have a point");
   check_told("0.8 0.1\n# a comment\n0.9 nan\n", "", "data.txt:3: the amplitude in column 2 is not");
@@ -262,6 +324,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(three_drives), cmocka_unit_test(known_scales),
                                      cmocka_unit_test(ringdown),
+                                     cmocka_unit_test(results_as_data),
+                                     cmocka_unit_test(no_convergence),
                                      cmocka_unit_test(bad_data), cmocka_unit_test(bad_keys)};
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -41,7 +41,7 @@ static size_t split(char *text, char separator, char *cell[MOST_COLUMNS])
   size_t n = 0;
   char *at = text;
   while (n < MOST_COLUMNS) {
-    at += strspn(at, " \t\r" + (separator == '\t' ? 2 : 0));
+    at += strspn(at, separator == '\t' ? " \r" : " \t\r");
     if (separator == ' ' && *at == '\0') break;
     char *end = at + strcspn(at, separator == ' ' ? " \t" : (char[]){separator, '\0'});
     const int last = *end == '\0';
@@ -360,6 +360,21 @@ static void read_lines(reader *r, FILE *in)
   free(line);
 }
 
+/* A file of results instead of text, by its first bytes; its variables in place of it. */
+static FILE *read_store(reader *r, FILE *in, char **text)
+{
+  char first[4] = "";
+  const size_t n = fread(first, 1, sizeof first, in);
+  rewind(in);
+  if (n < sizeof first || memcmp(first, "\211HDF", sizeof first) != 0) return in;
+  (void)fclose(in);
+  *text = fit_store_text(r->run, r->out->path);
+  if (*text == NULL || !scene_going(r->run)) return NULL;
+  FILE *lines = fmemopen(*text, strlen(*text), "r");
+  if (lines == NULL) (void)scene_fail(r->run, PENDRES_OUT_OF_MEMORY, "out of memory for data");
+  return lines;
+}
+
 void fit_data_read(scene_run *run, fit_data *out)
 {
   const deck *d = run->deck;
@@ -375,10 +390,14 @@ void fit_data_read(scene_run *run, fit_data *out)
         r.kind[r.observables++] = (pendres_fit_observable)k;
   if (r.observables == 0)
     r.kind[r.observables++] = fit_is_decay(d) ? PENDRES_FIT_DISPLACEMENT : PENDRES_FIT_AMPLITUDE;
+  char *text = NULL;
   FILE *in = open_file(&r);
-  if (in == NULL) return;
-  read_lines(&r, in);
-  (void)fclose(in);
+  if (in != NULL) in = read_store(&r, in, &text);
+  if (in != NULL) {
+    read_lines(&r, in);
+    (void)fclose(in);
+  }
+  free(text);
   if (scene_going(run) && out->of.n == 0)
     FAIL(&r, "%s: there are no data in the file", out->path);
   if (!scene_going(run)) return;

@@ -27,6 +27,10 @@ typedef struct fit_work {
   pendres_fit *fit;
 } fit_work;
 
+/* The variables of a file of results that a fit may need as lines of text with a line of names, to
+   be freed; NULL: the run has failed. */
+char *fit_store_text(scene_run *run, const char *path);
+
 /* Read the deck's file; what is wrong is the run's failure: file, line, and what to do. */
 void fit_data_read(scene_run *run, fit_data *out);
 
