@@ -35,10 +35,15 @@ static void duffing(void **state)
   double *f = scene_values(s, "frequency", &n), *error = scene_values(s, "frequency_error", &n);
   assert_int_equal(n, 300);
   check_exact(a, f, error, n);
-  for (size_t i = 0; i < n; i++) check_near(low[i], -a[i], 1e-15 * a[i]);
+  double *off = scene_values(s, "turning_point_low_error", &n);
+  for (size_t i = 0; i < n; i++) {
+    check_near(low[i], -a[i], 1e-15 * a[i]);
+    assert_true(off[i] > 0.0 && off[i] < 1e-15 * a[i]);
+  }
   assert_false(pendres_store_has(s, NULL, "frequency_exact"));
   free(a);
   free(low);
+  free(off);
   free(f);
   free(error);
   pendres_store_free(s);

@@ -32,7 +32,7 @@ DIMENSIONS = [
     (r".*mean_power", POWER),
     (r".*(loop_area|dissipation|torque_work|parametric_work|temperature|energy.*)", AREA),
     (r".*(damping|frequency|lyapunov|lyapunov_exponent|rate(_.*)?)", RATE),
-    (r".*(amplitude|cosine|sine|mean_angle|(_|^)x)", LENGTH),
+    (r".*(amplitude|cosine|sine|mean_angle|(_|^)x|turning_point_.*)", LENGTH),
     (r"distance|.*(velocity|(_|^)v)", SPEED),
 ]
 
@@ -42,6 +42,8 @@ ENSEMBLE = "&ensemble members = 8, x_first = <-1|1,0>, x_last = <1.5|1,0> /"
 
 # Name, deck, dimension of the parameter that moves.
 DECKS = [
+    ("free", DUFFING + """, torque = <0.1|1,-2> /
+      &scene kind = 'free_oscillation' / &sweep amplitude = <0.1|1,0>, <0.7|1,0>, <2|1,0> /""", PURE),
     ("orbit", DUFFING + """, damping = <0.1|0,-1>, drive_amplitude = <0.3|1,-2>,
       drive_frequency = <1.5|0,-1> /
       &scene kind = 'orbit' / &orbit x = <0.2|1,0>, v = <0.1|1,-1>, periods = 2 /""", PURE),

@@ -19,6 +19,7 @@ typedef struct row {
   double frequency_kittel, frequency_kittel_error, frequency_belendez, frequency_belendez_error;
   double frequency_integrated, frequency_integrated_error;
   double frequency, frequency_error, turning_point_low, turning_point_high;
+  double turning_point_error; /* of both */
 } row;
 
 /* ---- the plain pendulum ---- */
@@ -68,6 +69,7 @@ static pendres_status compute_force(const scene_some *some, const double *amplit
     rows[i].frequency_error = free[i].frequency_error;
     rows[i].turning_point_low = free[i].low;
     rows[i].turning_point_high = free[i].high;
+    rows[i].turning_point_error = free[i].turn_error;
     status = scene_mark_status(some, i, outcome[i], outcome[i] != PENDRES_NOT_FOUND ? NULL
                                : "there is no well, or the amplitude reaches the separatrix");
   }
@@ -98,7 +100,8 @@ static int is_other(const deck *d)
 
 #define PLAIN(field, words) {SCENE_AS(#field, row, field, words, NULL), .when = deck_is_plain}
 #define TURNING(field, words) \
-  {SCENE_TYPED(SCENE_REAL, #field, row, field, words), .units = "rad", .when = is_other}
+  {SCENE_TYPED(SCENE_REAL, #field, row, field, words), .units = "rad", .when = is_other, \
+   .error = offsetof(row, turning_point_error)}
 
 static const scene_column columns[] = {
   PLAIN(frequency_exact, "frequency by the elliptic integral"),

@@ -70,7 +70,9 @@ typedef struct pendres_free_oscillation {
   double low;             /**< turning point: the lowest x, ... */
   double high;            /**< ... and the highest; twice the amplitude apart */
   double frequency;       /**< angular: 2 pi / period */
-  double frequency_error; /**< by what twice as many points change, and rounding */
+  double frequency_error; /**< by what twice as many points change, rounding, and what that of the
+                               turning points does, which grows towards the separatrix */
+  double turn_error;      /**< of both turning points: rounding, that of the amplitude included */
 } pendres_free_oscillation;
 
 /**
@@ -78,7 +80,7 @@ typedef struct pendres_free_oscillation {
  * amplitude (half the peak-to-peak), about the well in which a pendulum comes to rest that is let
  * go at the model's origin, as pendres_backbone_find() takes it. By quadrature of the period
  * (Landau and Lifshitz, Mechanics, section 11), which has nothing in common with an integration of
- * the equation of motion.
+ * the equation of motion. What passes over a barrier belongs to no well, and is none of these.
  *
  * @param ctx       belongs to one thread at a time
  * @param n         how many

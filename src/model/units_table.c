@@ -197,7 +197,7 @@ TABLE(ramp_jump, pendres_ramp_jump, ramp_jump);
 #define FREE(field, l, t) ROW(pendres_free_oscillation, field, l, t)
 static const pendres_dimension free_oscillation[] = {
   FREE(well, 1, 0), FREE(low, 1, 0), FREE(high, 1, 0), FREE(frequency, 0, -1),
-  FREE(frequency_error, 0, -1)};
+  FREE(frequency_error, 0, -1), FREE(turn_error, 1, 0)};
 TABLE(free_oscillation, pendres_free_oscillation, free_oscillation);
 
 #define D(field, l, t) ROW(pendres_phase_point, field, l, t)

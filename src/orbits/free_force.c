@@ -44,16 +44,19 @@ int pendres_free_well(const pendres_pendulum *p, double *y)
 
 /* ---- means of the force ---- */
 
-/* A pendulum, and the points of Gauss and Legendre for means of its force. */
+/* Where it swings, and by how much these places may be off. */
+typedef struct span {
+  double low, high, off;
+} span;
+
+/* A pendulum, where it rests, from where the force drives it there, and the points of Gauss and
+   Legendre for means of the force. */
 typedef struct spring {
   const pendres_pendulum *p;
+  double well;
+  span in;
   gsl_integration_glfixed_table *table;
 } spring;
-
-/* Where it swings. */
-typedef struct span {
-  double low, high;
-} span;
 
 static double push(const pendres_pendulum *p, double y)
 {
@@ -81,31 +84,43 @@ static double mean_force(const spring *s, double from, double to, double *strain
 /* How far from a well, to one side and up to `most`, the force drives back to it. */
 static double reach(const pendres_pendulum *p, double well, double side, double most)
 {
-  double inside = 0.0, outside = most;
-  int i = 1;
-  while (i <= FREE_FINENESS && side * push(p, well + side * most * i / FREE_FINENESS) > 0.0) i++;
-  if (i > FREE_FINENESS) return most;
-  inside = most * (i - 1) / FREE_FINENESS;
-  outside = most * i / FREE_FINENESS;
+  const double first = fmin(most, free_near) / FREE_FINENESS;
+  double inside = 0.0, outside = first;
+  while (outside < most && side * push(p, well + side * outside) > 0.0) {
+    inside = outside;
+    outside += fmax(first, outside / FREE_FINENESS);
+  }
+  outside = fmin(outside, most);
+  if (side * push(p, well + side * outside) > 0.0) return most;
   for (double middle = 0.5 * (inside + outside); middle > inside && middle < outside;
        middle = 0.5 * (inside + outside))
     *(side * push(p, well + side * middle) > 0.0 ? &inside : &outside) = middle;
   return inside;
 }
 
-/* The turning points of an amplitude: as far apart, and the mean force between them is 0. 0: the
-   amplitude is that of the separatrix, or beyond. `in` is where the force drives to the well. */
-static int turning_points(const spring *s, double well, double amplitude, span in, span *out)
+/* The turning points of an amplitude: about a centre of symmetry if the well is one, and else as
+   far apart, where the mean force between them is 0; the rounding of that moves them the more, the
+   slower it changes. 0: the amplitude is that of the separatrix, or beyond. */
+static int turning_points(const spring *s, double amplitude, span *out)
 {
-  const double across = 2.0 * amplitude;
-  double below = fmax(in.low, well - across), above = fmin(well, in.high - across);
-  if (!(below <= above) || mean_force(s, below, below + across, NULL) > 0.0 ||
-      mean_force(s, above, above + across, NULL) < 0.0)
+  const double well = s->well;
+  const span in = s->in;
+  const double across = 2.0 * amplitude, centre = pendres_model_centre(s->p, well);
+  const int odd = fabs(centre - well) < well_near;
+  double below = fmax(in.low, well - across), above = fmin(well, in.high - across), strain = 0.0;
+  if (odd && in.low <= centre - amplitude && centre + amplitude <= in.high)
+    below = above = centre - amplitude;
+  else if (!(below <= above) || mean_force(s, below, below + across, NULL) > 0.0 ||
+           mean_force(s, above, above + across, NULL) < 0.0)
     return 0;
   for (double middle = 0.5 * (below + above); middle > below && middle < above;
        middle = 0.5 * (below + above))
     *(mean_force(s, middle, middle + across, NULL) < 0.0 ? &below : &above) = middle;
-  *out = (span){below, below + across};
+  *out = (span){below, odd ? centre + amplitude : below + across, 0.0};
+  if (!odd) (void)mean_force(s, out->low, out->high, &strain);
+  out->off = last_place_of_one *
+             (fabs(out->low) + fabs(out->high) + across +
+              strain * across / (push(s->p, out->high) - push(s->p, out->low)));
   return 1;
 }
 
@@ -131,31 +146,41 @@ static double frequency_by(const spring *s, span at, int points, double *roundin
   return points / sum;
 }
 
-/* Twice as many points of both kinds, until that changes nothing beyond rounding. */
-static pendres_status find_one(pendres_context *ctx, const pendres_pendulum *p, double amplitude,
-                                 pendres_free_oscillation *out)
+/* The frequency of an amplitude by so many points; NaN: it does not swing so far. */
+static double swing(const spring *s, double amplitude, int points, span *at, double *rounding)
 {
-  double well, before = NAN;
-  if (!pendres_free_well(p, &well)) return PENDRES_NOT_FOUND;
-  const span in = {well - reach(p, well, -1.0, 2.0 * amplitude),
-                   well + reach(p, well, 1.0, 2.0 * amplitude)};
+  return turning_points(s, amplitude, at) ? frequency_by(s, *at, points, rounding) : NAN;
+}
+
+/* Swing by twice as many points of both kinds, until that changes nothing beyond rounding. What
+   displaced turning points do is seen by an amplitude that is smaller by four times as much: the
+   frequency falls ever faster towards the separatrix, so that beyond it is no measure. */
+static pendres_status find_one(pendres_context *ctx, const pendres_pendulum *p, double amplitude,
+                               pendres_free_oscillation *out)
+{
+  double before = NAN;
+  spring s = {.p = p};
+  if (!pendres_free_well(p, &s.well)) return PENDRES_NOT_FOUND;
+  s.in.low = s.well - reach(p, s.well, -1.0, 2.0 * amplitude);
+  s.in.high = s.well + reach(p, s.well, 1.0, 2.0 * amplitude);
   const double origin = pendres_model_origin(p);
-  for (int points = FREE_FEWEST; points <= FREE_MOST; points *= 2) {
-    span at;
-    double rounding = NAN, frequency = NAN;
+  for (int points = FREE_FEWEST, last = 0; !last; points *= 2) {
+    span at, nearer;
+    double rounding = NAN, unused, there = NAN;
     const int order = points < FREE_ORDER ? points : FREE_ORDER;
-    spring s = {p, gsl_integration_glfixed_table_alloc((size_t)order)};
+    s.table = gsl_integration_glfixed_table_alloc((size_t)order);
     if (s.table == NULL)
       return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a quadrature");
-    const int swings = turning_points(&s, well, amplitude, in, &at);
-    if (swings) frequency = frequency_by(&s, at, points, &rounding);
+    const double frequency = swing(&s, amplitude, points, &at, &rounding);
+    const double change = fabs(frequency - before);
+    last = change <= rounding || points >= FREE_MOST || isnan(frequency);
+    if (last && !isnan(frequency))
+      there = swing(&s, amplitude - 4.0 * at.off, points, &nearer, &unused);
     gsl_integration_glfixed_table_free(s.table);
     if (isnan(frequency)) return PENDRES_NOT_FOUND;
-    const double change = fabs(frequency - before);
     before = frequency;
-    *out = (pendres_free_oscillation){well + origin, at.low + origin, at.high + origin, frequency,
-                                      change + rounding};
-    if (change <= rounding) break;
+    *out = (pendres_free_oscillation){s.well + origin, at.low + origin, at.high + origin, frequency,
+                                      change + rounding + fabs(there - frequency), at.off};
   }
   return out->frequency_error <= ctx->options.tolerance ? PENDRES_OK
                                                         : PENDRES_TOLERANCE_UNREACHABLE;
@@ -165,7 +190,7 @@ static pendres_status find_all(pendres_context *ctx, size_t n, const pendres_pen
                                const double *amplitude, pendres_free_oscillation *out,
                                pendres_status *outcome)
 {
-  static const pendres_free_oscillation none = {NAN, NAN, NAN, NAN, NAN};
+  static const pendres_free_oscillation none = {NAN, NAN, NAN, NAN, NAN, NAN};
   if (n > 0 && (p == NULL || amplitude == NULL || out == NULL || outcome == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, amplitude, out and outcome");
   for (size_t i = 0; i < n; i++) {

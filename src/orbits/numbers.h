@@ -292,8 +292,9 @@ static const double chaos_confidence = 0.999, chaos_escape_confidence = 0.95;
 
 enum {
   WELL_ROLLS = 1000, /* steps downhill after which no well is expected any more */
-  /* Parts of the way across an oscillation in which its well's rims are looked for: finer than any
-     two zeros of a polynomial of degree five that matter, and than waves of 2 pi, up to 80 rad. */
+  /* Parts of the way to free_near in which a well's rim is looked for, and beyond a part's share of
+     the distance: a rim that is stepped over is a hill over so short a way that it stops next to no
+     amplitude, whatever the largest one is that is asked for. */
   FREE_FINENESS = 256,
   /* Points for an oscillation's period: as few as a harmonic one needs, and as many as one needs
      that comes within rounding of the separatrix, where they grow as one over the root of the
@@ -310,5 +311,8 @@ static const double well_longest = 0.1, well_last_step = 1e-12;
 
 /* So close to a place the force is linear to a few millionths. */
 static const double well_near = 1e-3;
+
+/* So far from a well its rims are looked for in equal parts, beyond in parts that grow. */
+static const double free_near = 1.0;
 
 #endif
