@@ -548,6 +548,10 @@ def test_scenes_wrong():
         return
     wrong, deck = pendres.InvalidArgument, {**DUFFING, "force": [1, 0, 1]}
     assert "did you mean 'damping'" in raised(TypeError, pendres.hysteresis, dampng=1)
+    assert "did you mean 'drive_frequency'" in raised(TypeError, pendres.hysteresis, omega=1)
+    assert "did you mean 'damping'" in raised(TypeError, pendres.hysteresis, gamma=1)
+    assert "drive_frequency_range=(first" in raised(TypeError, pendres.hysteresis, damping=0.1,
+                                                    drive_frequency=(0.5, 1.0, 11))
     assert "for basins" in raised(TypeError, pendres.hysteresis, refine=1)
     assert "no keyword 'kind'" in raised(TypeError, lambda: pendres.hysteresis(kind="orbit"))
     assert "&noise" in raised(TypeError, pendres.response, seed=1)

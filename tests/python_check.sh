@@ -37,5 +37,10 @@ assert "site" in pendres.__file__
 p = pendres.pendulum(damping=0.24, drive_amplitude=0.2)
 assert abs(pendres.resonance(p).frequency - 0.9441721) < 1e-7') ||
     { echo "python_check: the installed package does not work"; exit 1; }
+  # The library of a prefix of one's own is found beside the program on PATH.
+  mkdir "$scratch/bin" "$scratch/lib" && cp "$PENDRES_LIBRARY" "$scratch/lib/libpendres.so.1" &&
+    printf '#!/bin/sh\n' >"$scratch/bin/resonance" && chmod +x "$scratch/bin/resonance" || exit 1
+  (cd / && unset PENDRES_LIBRARY && PATH=$scratch/bin:$PATH PYTHONPATH=$scratch/site "$python" -c '
+import pendres') || { echo "python_check: no library beside the program"; exit 1; }
 fi
 exit 0

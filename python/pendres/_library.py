@@ -56,6 +56,9 @@ def _candidates(constants):
     folder = _pkg_config("libdir")
     if folder:
         yield os.path.join(folder, name)
+    program = shutil.which("resonance")  # PREFIX/bin, beside PREFIX/lib
+    if program:
+        yield os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(program))), "lib", name)
     yield ctypes.util.find_library("pendres")
 
 
@@ -67,7 +70,7 @@ def _open(ffi, constants):
         try:
             found = ffi.dlopen(path)
         except OSError as why:
-            tried.append(f"  {why}")
+            tried.append("  " + str(why).split(".  Additionally")[0])  # cffi's guess is no help
             if path == os.environ.get("PENDRES_LIBRARY"):
                 break
             continue
@@ -76,8 +79,9 @@ def _open(ffi, constants):
             raise ImportError(f"{path} is version {version}, and this package was made for "
                               f"{constants['PENDRES_VERSION']}: install it anew")
         return found
-    raise ImportError("libpendres was not found. Install it (make install, then ldconfig), or say "
-                      "where it is: PENDRES_LIBRARY=/folder/libpendres.so\n" + "\n".join(tried))
+    raise ImportError("libpendres was not found. Install it (make install, then ldconfig), put "
+                      "PREFIX/bin on PATH, or say where it is: "
+                      "PENDRES_LIBRARY=/folder/libpendres.so\n" + "\n".join(tried))
 
 
 declared = _headers.Declarations(headers())

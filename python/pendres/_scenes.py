@@ -179,6 +179,7 @@ def _sorted_into_groups(kind, given):
         if key not in where:
             raise TypeError(f"{kind}() has no keyword '{key}'{_instead(kind, key)}")
         fitting = where[key]
+        _check_values(key, value, where)
         if "sweep" in fitting and len(fitting) > 1:
             several = isinstance(_plain(key, value), list)
             fitting = ["sweep"] if several else [g for g in fitting if g != "sweep"]
@@ -196,7 +197,24 @@ def _instead(kind, key):
     except errors[lib.PENDRES_INVALID_ARGUMENT] as why:
         meant = re.search(r"\(did you mean '.*?'\?\)", str(why))
         return (" " + meant.group() if meant else "") + f"; help(pendres.{kind}) tells those it has"
-    return f", which is for {scenes}" if scenes and scenes != "all" else ""
+    if scenes:
+        return f", which is for {scenes}" if scenes != "all" else ""
+    # A word of the docs, as a symbol of the literature: the reader of decks knows what stands for it.
+    answer = subprocess.run([program(), "--dump-namelist", "-"], capture_output=True, check=False,
+                            input=f"&scene kind='{kind}' /\n&pendulum {key}=1 /\n", **TEXT)
+    meant = re.search(rf"'{key}' is not a key of &pendulum( \(did you mean .*?\))", answer.stderr)
+    return (meant.group(1) if meant else "") + f"; help(pendres.{kind}) tells those it has"
+
+
+def _check_values(key, value, its):
+    """A range that was meant is not taken for three values."""
+    if not (isinstance(value, tuple) and len(value) == 3 and f"{key}_range" in its):
+        return
+    first, last, count = value
+    whole = isinstance(count, numbers.Integral) and not isinstance(count, bool) and count > 1
+    if whole and not (isinstance(first, numbers.Integral) and isinstance(last, numbers.Integral)):
+        raise TypeError(f"{key}={value!r:.60}: a range is {key}_range=(first, last, count), and "
+                        "values are a list")
 
 
 def _as_keywords(complaints, keys):
