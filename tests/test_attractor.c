@@ -398,6 +398,32 @@ static void names(void **state)
   assert_null(pendres_name_get(PENDRES_NAMES_LABEL, PENDRES_LABEL_COUNT));
 }
 
+/*
+ * With a quality factor of 1e5 a pendulum that starts far from the small orbit swings far for long,
+ * and no orbit is next to it: the small one has to be known before. Of the drive's force f its
+ * amplitude is f / (1 - omega^2), but for terms of its third power, 1e-13.
+ */
+static void weak_damping(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 1e-5, .drive_amplitude = 1e-5, .drive_frequency = 0.9};
+  const double x = 0.0, v = 0.0, omega = p.drive_frequency;
+  pendres_outcome outcome;
+  pendres_attractors *set = NULL;
+  pendres_cost cost;
+  check_ok(pendres_settle(*state, 1, &p, &x, &v, &outcome, &set));
+  assert_int_equal(pendres_attractors_count(set), 1);
+  assert_int_equal(outcome.attractor, 0);
+  const pendres_orbit *o = &pendres_attractors_get(set, 0)->orbit;
+  check_near(o->amplitude, p.drive_amplitude / (1.0 - omega * omega), 1e-12);
+  /* Free amplitudes decay as exp(-gamma t / 2): from pi/2 to one, about the size of the region
+     around the orbit, in 2 ln(pi/2) / gamma, 13,000 periods. It may be a quarter as large. */
+  pendres_context_cost(*state, &cost);
+  assert_in_range(outcome.settling_periods, 1000, 60000);
+  assert_true(cost.pendulum_periods < 4e6);
+  pendres_attractors_free(set);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -412,6 +438,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(ghost_of_a_fold, setup, teardown),
     cmocka_unit_test_setup_teardown(rest, setup, teardown),
     cmocka_unit_test_setup_teardown(strong_damping, setup, teardown),
+    cmocka_unit_test_setup_teardown(weak_damping, setup, teardown),
     cmocka_unit_test(one_multiplier),
     cmocka_unit_test_setup_teardown(budget, setup, teardown),
     cmocka_unit_test_setup_teardown(mistakes, setup, teardown),

@@ -245,6 +245,40 @@ static void lines_name_the_remedy(void **state)
   }
 }
 
+/*
+ * With a quality factor of 1e5 members take too long to settle, but orbits and what they lead to
+ * need no settling: within a budget branches go all the way round the peak. There the drive's work
+ * is that of friction, so that the amplitude is f / (gamma omega) but for harmonics, which make
+ * less than a hundredth at one radian.
+ */
+static void branches_of_weak_damping(void **state)
+{
+  static const char deck[] = "&scene kind = 'branches' /\n&pendulum drive_amplitude = 1e-5 /\n"
+    "&sweep damping = 1e-5, drive_frequency_range = 0.9, 1.005, 4 /\n"
+    "&ensemble members = 2 /\n&precision period_budget = %d /\n";
+  char text[300];
+  int codes[4];
+  size_t n = 0, top = 0;
+  (void)state;
+  snprintf(text, sizeof text, deck, 0);
+  assert_int_equal(scene_run_marked(NULL, text, 1, "none"), 4);
+  assert_non_null(strstr(scene_told, "precision.period_budget bounds them"));
+  snprintf(text, sizeof text, deck, 100);
+  assert_true(scene_run_marked(NULL, text, 1, "weak") <= 4);
+  get_codes("weak", "failed", codes, 4);
+  for (int i = 0; i < 4; i++) assert_true(codes[i] != SCENE_FAILURE_TOO_LONG);
+  pendres_store *store = scene_open("weak");
+  double *amplitude = scene_values(store, "branch_amplitude", &n);
+  double *omega = scene_values(store, "branch_frequency", &n);
+  for (size_t i = 0; i < n; i++)
+    if (amplitude[i] > amplitude[top]) top = i;
+  assert_true(n > 100);
+  check_near(amplitude[top] * omega[top], 1.0, 1e-2);
+  free(amplitude);
+  free(omega);
+  pendres_store_free(store);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -256,6 +290,7 @@ int main(void)
     cmocka_unit_test(others_mark_what_takes_too_long),
     cmocka_unit_test(states_are_marked),
     cmocka_unit_test(lines_name_the_remedy),
+    cmocka_unit_test(branches_of_weak_damping),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -210,9 +210,10 @@ static void do_rounds(scene_lines *l)
 static void leave_out(scene_lines *l)
 {
   for (size_t i = 0; i < l->points.n; i++) {
-    char words[120];
+    char words[SCENE_TOLD];
     const pendres_pendulum p = scene_lines_pendulum(l, i);
-    if (!scene_failure_too_long(&p, LINES_RUNS_A_POINT, words, sizeof words)) continue;
+    if (!scene_settling_too_long(l->run->deck, &p, LINES_RUNS_A_POINT, words, sizeof words))
+      continue;
     (void)pendres_phase_diagram_leave_out(l->diagram, i);
     scene_failure_mark(l->run, &l->points.failed[i], SCENE_FAILURE_TOO_LONG, words);
   }

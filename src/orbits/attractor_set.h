@@ -81,6 +81,15 @@ size_t pendres_attractor_set_starts(const pendres_pendulum *p,
                                     double x[PENDRES_ATTRACTOR_SET_STARTS],
                                     double v[PENDRES_ATTRACTOR_SET_STARTS]);
 
+/*
+ * The bottoms of the wells of a pendulum whose transients last longer than initial guesses are
+ * followed; of another, none. The small orbit that may be there is reached by none of those,
+ * however close to it the pendulum is in the end. Returns their number.
+ */
+enum { PENDRES_ATTRACTOR_SET_BOTTOMS = 4 };
+size_t pendres_attractor_set_bottoms(const pendres_pendulum *p,
+                                     double y[PENDRES_ATTRACTOR_SET_BOTTOMS]);
+
 /* Integrate initial guesses (their period and winding are not read, but overwritten), and add the
    orbits that they lead to. */
 pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,

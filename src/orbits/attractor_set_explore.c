@@ -40,11 +40,16 @@ static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   return moved < guess_at_rest || lane->period >= s->periods[me->set];
 }
 
-/* Periods after which a transient has faded to a hundredth, but at least 4 and at most 60. */
+/* Periods after which a transient has faded to a hundredth. */
+static double fading_periods(const pendres_pendulum *p)
+{
+  return 4.6 / (0.5 * p->damping * two_pi / p->drive_frequency);
+}
+
+/* At least 4 of them, and at most 60. */
 static long guess_periods(const pendres_pendulum *p)
 {
-  const double rate = 0.5 * p->damping * two_pi / p->drive_frequency;
-  return (long)ceil(fmin(fmax(4.6 / rate, 4.0), guess_longest));
+  return (long)ceil(fmin(fmax(fading_periods(p), 4.0), guess_longest));
 }
 
 pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
@@ -84,6 +89,17 @@ enum { POINTS = 2 * GUESS_FAR * GUESS_FINENESS + 1 };
 static double place(int i)
 {
   return (double)(i - GUESS_FAR * GUESS_FINENESS) / GUESS_FINENESS;
+}
+
+static void potentials(const pendres_pendulum *p, double u[POINTS])
+{
+  for (int i = 0; i < POINTS; i++)
+    u[i] = pendres_model_potential(p, pendres_model_origin(p) + place(i));
+}
+
+static int is_bottom(const double u[POINTS], int i)
+{
+  return u[i] < u[i - 1] && u[i] <= u[i + 1];
 }
 
 /* Where the potential, going from point i one way, first turns down again; -1: nowhere. */
@@ -131,13 +147,26 @@ size_t pendres_attractor_set_starts(const pendres_pendulum *p,
     }
   if (pendres_model_of(p->force)->period > 0.0) return n;
   double u[POINTS];
-  for (int i = 0; i < POINTS; i++)
-    u[i] = pendres_model_potential(p, pendres_model_origin(p) + place(i));
+  potentials(p, u);
   for (int i = 1, wells = 0; i + 1 < POINTS && wells < MOST_WELLS; i++) {
-    if (!(u[i] < u[i - 1] && u[i] <= u[i + 1])) continue;
+    if (!is_bottom(u, i)) continue;
     const size_t more = in_well(p, u, i, x + n, v + n);
     n += more;
     wells += more > 0;
   }
+  return n;
+}
+
+size_t pendres_attractor_set_bottoms(const pendres_pendulum *p,
+                                     double y[PENDRES_ATTRACTOR_SET_BOTTOMS])
+{
+  double u[POINTS];
+  size_t n = 0;
+  y[0] = 0.0;
+  if (!(fading_periods(p) > guess_longest)) return 0;
+  if (pendres_model_of(p->force)->period > 0.0) return 1;
+  potentials(p, u);
+  for (int i = 1; i + 1 < POINTS && n < PENDRES_ATTRACTOR_SET_BOTTOMS; i++)
+    if (is_bottom(u, i)) y[n++] = place(i);
   return n;
 }

@@ -20,15 +20,18 @@
 
 /* ---- batches ---- */
 
-/* Integrate some pendulums of each set first, equally spaced among those of the set. */
+/* Integrate some pendulums of each set first, equally spaced among those of the set, and look at
+   rest. */
 static pendres_status send_guesses(pendres_context *ctx, size_t sets,
                                    pendres_attractor_set *attractor_sets,
                                    size_t n, const size_t *set, const pendres_strobe_lane *lanes)
 {
+  enum { BOTTOMS = PENDRES_ATTRACTOR_SET_BOTTOMS };
+  double bottom[BOTTOMS];
   size_t count = 0;
   pendres_room room = pendres_room_open(ctx, "guesses");
   pendres_initial_guess *guesses =
-    pendres_room_take(&room, sets * GUESS_PENDULUMS, sizeof *guesses);
+    pendres_room_take(&room, sets * (GUESS_PENDULUMS + BOTTOMS), sizeof *guesses);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t first = 0, last; first < n; first = last) {
     last = first;
@@ -40,6 +43,9 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
       const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
       guesses[count++] = (pendres_initial_guess){.set = set[first], .y = l->y, .w = l->w};
     }
+    const size_t wells = pendres_attractor_set_bottoms(lanes[first].pendulum, bottom);
+    for (size_t k = 0; k < wells; k++)
+      guesses[count++] = (pendres_initial_guess){.set = set[first], .y = bottom[k]};
   }
   return pendres_room_close(
     &room, pendres_attractor_set_explore(ctx, sets, attractor_sets, count, guesses));
