@@ -152,10 +152,7 @@ def build(folder):
     # Which coefficients a force has, what its parameters are, and its units.
     sources += [os.path.join(TOP, 'src', 'model', f)
                 for f in ('model.c', 'parameter.c', 'units.c', 'units_table.c')]
-    # Names of what a fit finds; the rest of that file needs more than there is here, and is left out.
-    sources.append(os.path.join(TOP, 'src', 'analysis', 'fit', 'model.c'))
-    subprocess.run(cc + ['-std=c11', '-O1', '-ffunction-sections', '-Wl,--gc-sections',
-                         '-I' + os.path.join(TOP, 'include'),
+    subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),
                          '-I' + os.path.join(TOP, 'src'),
                          '-I' + os.path.join(TOP, 'drivers'), '-o', folder + '/ours'] + sources + ['-lm'], check=True)
 
