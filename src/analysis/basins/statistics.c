@@ -180,16 +180,21 @@ static void add_shares(pendres_basin_sums *s, size_t row)
     if (s->tally.place[i].well.states > 0) add_share(s, row, &s->tally.place[i].sums);
 }
 
+/* How many states differ from one of those so far before and after them. A number or its negative
+   has the highest bit set unless it is zero: without a comparison lanes count side by side. */
 static void count_unlike(pendres_basin_sums *s, const int64_t *a)
 {
   for (int k = 0; k < s->scales; k++) {
     const size_t far = (size_t)1 << k;
     const int64_t *before = a, *here = a + far, *after = here + far;
     const size_t n = s->nv > 2 * far ? s->nv - 2 * far : 0;
-    unsigned unlike = 0;
-    for (size_t j = 0; j < n; j++) unlike += (before[j] != here[j]) | (after[j] != here[j]);
-    s->group[k] += unlike;
-    s->counts[k] += unlike;
+    uint64_t unlike = 0;
+    for (size_t j = 0; j < n; j++) {
+      const uint64_t off = (uint64_t)((before[j] ^ here[j]) | (after[j] ^ here[j]));
+      unlike += (off | (0 - off)) >> 63;
+    }
+    s->group[k] += (double)unlike;
+    s->counts[k] += (double)unlike;
   }
 }
 
