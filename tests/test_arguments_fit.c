@@ -81,11 +81,10 @@ static void refusals(void **state)
   assert_null(pendres_fit_point_get(NULL, 0));
   assert_null(pendres_fit_jump_get(NULL, 0));
   assert_null(pendres_fit_note_get(NULL, 0));
-  assert_int_equal(pendres_fit_jump_count(NULL), 0);
   assert_int_equal(pendres_fit_summary_get(NULL).data, 0);
-  assert_string_equal(pendres_fit_quantity_name(PENDRES_FIT_FREQUENCY_SCALE), "frequency_scale");
-  assert_null(pendres_fit_quantity_name(-1));
-  assert_null(pendres_fit_observable_name(PENDRES_FIT_OBSERVABLE_COUNT));
+  for (int q = 0; q < PENDRES_PARAMETER_FOLLOWED; q++)
+    assert_string_equal(pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, q),
+                        pendres_name_get(PENDRES_NAMES_PARAMETER, q));
   pendres_context_free(ctx);
 }
 

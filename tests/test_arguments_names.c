@@ -13,7 +13,7 @@
 #include <pendres/pendres.h>
 #include <pendres/store.h>
 
-enum { MOST_NAMES = 16 };
+enum { MOST_NAMES = 24 };
 
 static const struct {
   const char *what;
@@ -57,6 +57,14 @@ static const struct {
    {"sa", "la", "coexistence", "single", "other"}},
   {"special", PENDRES_NAMES_SPECIAL, PENDRES_SPECIAL_COUNT,
    {"regular", "fold", "period_doubling", "symmetry_breaking", "branch_point"}},
+  {"fit_observable", PENDRES_NAMES_FIT_OBSERVABLE, PENDRES_FIT_OBSERVABLE_COUNT,
+   {"amplitude", "rms", "first_harmonic_amplitude", "phase_lag", "in_phase", "quadrature",
+    "loop_area", "displacement"}},
+  {"fit_quantity", PENDRES_NAMES_FIT_QUANTITY, PENDRES_FIT_QUANTITY_COUNT,
+   {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2",
+    "a3", "a4", "a5", "frequency_scale", "drive_scale", "amplitude_scale", "offset",
+    "phase_offset", "background_in_phase", "background_quadrature", "start_displacement",
+    "start_velocity"}},
   {"step_end", PENDRES_NAMES_STEP_END, PENDRES_STEP_END_COUNT, {"left", "seen", "range"}},
   {"store_type", PENDRES_NAMES_STORE_TYPE, PENDRES_STORE_TYPE_COUNT,
    {"double", "int8", "int32", "int64", "string"}},

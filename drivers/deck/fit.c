@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include <pendres/fit.h>
+#include <pendres/names.h>
 
 static const char between[] = " \t,:=";
 
@@ -105,9 +106,7 @@ int deck_fit_entry(const deck *d, const char *text, const char *form, deck_fit_v
 
 static int is_quantity(const char *name)
 {
-  for (int q = 0; q < PENDRES_FIT_QUANTITY_COUNT; q++)
-    if (strcmp(pendres_fit_quantity_name(q), name) == 0) return q != PENDRES_DRIVE_FREQUENCY;
-  return 0;
+  return pendres_name_find(PENDRES_NAMES_FIT_QUANTITY, name) > (int)PENDRES_DRIVE_FREQUENCY;
 }
 
 static void check_entries(deck_builder *b, const char *key, const deck_names *entries,

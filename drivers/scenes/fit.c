@@ -13,9 +13,7 @@
 
 static int quantity_of(const char *name)
 {
-  for (int q = 0; q < FIT_MOST; q++)
-    if (strcmp(pendres_fit_quantity_name(q), name) == 0) return q;
-  return -1;
+  return pendres_name_find(PENDRES_NAMES_FIT_QUANTITY, name);
 }
 
 static pendres_fit_unknown *unknown_of(fit_work *w, int quantity)
@@ -73,7 +71,7 @@ static void set_unknowns(fit_work *w)
   /* A free decay begins anywhere, unless its start is told. */
   for (int q = PENDRES_FIT_START_DISPLACEMENT; fit_is_decay(d) && q <= PENDRES_FIT_START_VELOCITY;
        q++)
-    if (!deck_fit_has(d, pendres_fit_quantity_name(q)))
+    if (!deck_fit_has(d, pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, q)))
       w->unknown[w->n++] = (pendres_fit_unknown){.quantity = q, .guess = NAN};
   w->free = w->n;
   read_entries(w, &d->fit.fixed, "NAME VALUE", 1, set_fixed);
@@ -123,7 +121,7 @@ static void print_values(FILE *out, const fit_work *w)
   fprintf(out, "%-22s %18s %11s   %-*scorrelations\n", "quantity", "value", "error", width,
           width > 0 ? "   in SI" : "");
   for (size_t i = 0; i < w->free; i++) {
-    const char *name = pendres_fit_quantity_name(w->unknown[i].quantity);
+    const char *name = pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, w->unknown[i].quantity);
     const double value = pendres_fit_value(w->fit, i), error = fit_error(w, i);
     fprintf(out, "%-22s %18.10g %11.2g  %-*s", name, value, error, width,
             in_si(&si, deck_fit_si(w->d, name, &si), value, error, text));
@@ -154,7 +152,7 @@ static void print_table(FILE *out, const fit_work *w)
   fprintf(out, "chi-square %.6g, degrees of freedom %g", s.chi_square, s.degrees_of_freedom);
   if (isnan(s.probability)) fprintf(out, " (errors follow from the scatter)\n");
   else fprintf(out, ", probability %.3g\n", s.probability);
-  for (size_t i = 0; i < pendres_fit_jump_count(w->fit); i++)
+  for (size_t i = 0; pendres_fit_jump_get(w->fit, i) != NULL; i++)
     print_jump(out, w, pendres_fit_jump_get(w->fit, i));
   for (size_t i = 0; pendres_fit_note_get(w->fit, i) != NULL; i++)
     fprintf(out, "note: %s\n", pendres_fit_note_get(w->fit, i));

@@ -121,7 +121,7 @@ static int take_role(reader *r, const char *role, int column)
     return 1;
   }
   for (size_t i = 0; i < r->observables; i++) {
-    const char *name = pendres_fit_observable_name((int)r->kind[i]);
+    const char *name = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
     const size_t n = strlen(name);
     if (strncmp(role, name, n) != 0) continue;
     if (role[n] == '\0') r->observable[i] = column;
@@ -196,7 +196,7 @@ static void find_columns(reader *r)
   const char *missing = r->axis == NONE ? r->d->data.axis : NULL;
   for (size_t i = 0; i < r->observables; i++)
     if (r->observable[i] == NONE && missing == NULL)
-      missing = pendres_fit_observable_name((int)r->kind[i]);
+      missing = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
   if (missing != NULL)
     FAIL(r, "%s:%zu: no column of '%s' is known: name it in the first line, or tell the columns in "
          "data.columns", r->out->path, r->line, missing);
@@ -275,7 +275,7 @@ static void read_line(reader *r, char *line)
   for (size_t i = 0; i < r->observables && scene_going(r->run); i++) {
     one.observable = r->kind[i];
     one.observed = read_number(r, n, cell, r->observable[i],
-                               pendres_fit_observable_name((int)r->kind[i]));
+                               pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]));
     one.error = r->error[i] != NONE
                   ? read_number(r, n, cell, r->error[i], "standard error")
                   : hypot(d->data.error, d->data.relative_error * one.observed);
@@ -385,9 +385,8 @@ void fit_data_read(scene_run *run, fit_data *out)
       out->of.axis = (pendres_parameter)k;
   for (int k = 0; k < PENDRES_FIT_OBSERVABLE_COUNT; k++) r.observable[k] = r.error[k] = NONE;
   for (size_t i = 0; i < d->data.observables.count; i++)
-    for (int k = 0; k < PENDRES_FIT_OBSERVABLE_COUNT; k++)
-      if (strcmp(d->data.observables.name[i], pendres_fit_observable_name(k)) == 0)
-        r.kind[r.observables++] = (pendres_fit_observable)k;
+    r.kind[r.observables++] = (pendres_fit_observable)pendres_name_find(
+      PENDRES_NAMES_FIT_OBSERVABLE, d->data.observables.name[i]);
   if (r.observables == 0)
     r.kind[r.observables++] = fit_is_decay(d) ? PENDRES_FIT_DISPLACEMENT : PENDRES_FIT_AMPLITUDE;
   char *text = NULL;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <pendres/fit.h>
+#include <pendres/names.h>
 
 #include "scenes/scene.h"
 

@@ -24,7 +24,7 @@ static int units_of_observable(const fit_work *w, pendres_fit_observable o, deck
 {
   const int is_reading = o != PENDRES_FIT_PHASE_LAG && o != PENDRES_FIT_LOOP_AREA;
   return is_reading ? deck_fit_si(w->d, "offset", out)
-                    : deck_si_of(w->d, pendres_fit_observable_name((int)o), out);
+                    : deck_si_of(w->d, pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)o), out);
 }
 
 /* ---- data ---------------------------------------------------------------------------------- */

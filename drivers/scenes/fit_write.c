@@ -32,7 +32,7 @@ static void write_values(const fit_work *w)
   for (size_t i = 0; i < w->free; i++) {
     rows[i] = (value_row){.value = pendres_fit_value(w->fit, i), .value_error = fit_error(w, i)};
     snprintf(rows[i].name, sizeof rows[i].name, "%s",
-             pendres_fit_quantity_name(w->unknown[i].quantity));
+             pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, w->unknown[i].quantity));
     deck_si si = {.factor = NAN};
     if (deck_fit_si(w->d, rows[i].name, &si)) memcpy(rows[i].units, si.units, sizeof si.units);
     rows[i].value_si = si.factor * rows[i].value;
@@ -56,7 +56,7 @@ typedef struct datum_row {
 
 static const char *observable_names(int value)
 {
-  return pendres_fit_observable_name(value);
+  return pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, value);
 }
 
 SCENE_NAMES(beyond_names, "on_a_state", "beyond_its_end")
@@ -109,7 +109,8 @@ static void write_jumps(const fit_work *w)
     {SCENE_TYPED(SCENE_NUMBER, "direction", pendres_fit_jump, direction,
                  "1: the axis grows, -1: it falls")},
   };
-  const size_t n = pendres_fit_jump_count(w->fit);
+  size_t n = 0;
+  while (pendres_fit_jump_get(w->fit, n) != NULL) n++;
   pendres_fit_jump *rows = scene_array(w->run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"jump"}, .prefix = "jump", SCENE_ROWS(rows, n)};
   for (size_t i = 0; i < n && rows != NULL; i++) rows[i] = *pendres_fit_jump_get(w->fit, i);

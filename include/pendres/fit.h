@@ -89,11 +89,6 @@ typedef enum pendres_fit_quantity {
   PENDRES_FIT_QUANTITY_COUNT /**< how many there are; not a quantity */
 } pendres_fit_quantity;
 
-/** Name of a quantity, as in decks; NULL out of range. Thread safe. */
-const char *pendres_fit_quantity_name(int quantity);
-/** Name of an observable; NULL out of range. Thread safe. */
-const char *pendres_fit_observable_name(int observable);
-
 /** A quantity whose value is sought, or one that has a value other than the pendulum's. */
 typedef struct pendres_fit_unknown {
   int quantity;       /**< which one; see pendres_fit_quantity */
@@ -212,9 +207,7 @@ double pendres_fit_value(const pendres_fit *fit, size_t unknown);
 double pendres_fit_covariance(const pendres_fit *fit, size_t first, size_t second);
 /** Datum number i in the order of the call, owned by the fit; NULL out of range. */
 const pendres_fit_point *pendres_fit_point_get(const pendres_fit *fit, size_t i);
-/** How many jumps there are. */
-size_t pendres_fit_jump_count(const pendres_fit *fit);
-/** Jump number i, owned by the fit; NULL out of range. */
+/** Jump number i, owned by the fit; NULL beyond the last. */
 const pendres_fit_jump *pendres_fit_jump_get(const pendres_fit *fit, size_t i);
 /** Sentences about what the numbers do not show, as what the data leave open: number i, owned by
     the fit; NULL beyond the last. */

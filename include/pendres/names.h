@@ -41,6 +41,8 @@ typedef enum pendres_names {
   PENDRES_NAMES_SWITCHING_VERDICT,  /**< pendres_switching_verdict */
   PENDRES_NAMES_STORE_TYPE,         /**< pendres_store_type */
   PENDRES_NAMES_STEP_END,           /**< pendres_step_end */
+  PENDRES_NAMES_FIT_OBSERVABLE,     /**< pendres_fit_observable */
+  PENDRES_NAMES_FIT_QUANTITY,       /**< pendres_fit_quantity */
   PENDRES_NAMES_COUNT               /**< how many lists there are; not a list */
 } pendres_names;
 

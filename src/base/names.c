@@ -4,9 +4,10 @@
 
 #include <pendres/pendres.h>
 
-enum { MOST_NAMES = 16 };
+enum { MOST_NAMES = 24 };
 
 #define SECOND(code, name) name,
+#define SECOND_OF_THREE(code, name, ...) name,
 #define NUMBERED(code, number, name, ...) [number] = name,
 
 /* [value]; of bits [which bit]. */
@@ -47,6 +48,11 @@ static const struct {
               "unbalanced"}},
   [PENDRES_NAMES_STORE_TYPE] = {.name = {"double", "int8", "int32", "int64", "string"}},
   [PENDRES_NAMES_STEP_END] = {.name = {PENDRES_STEP_END_LIST(SECOND)}},
+  [PENDRES_NAMES_FIT_OBSERVABLE] = {.name = {PENDRES_FIT_OBSERVABLE_LIST(SECOND)}},
+  /* The parameters that are followed, by their numbers, and scales. */
+  [PENDRES_NAMES_FIT_QUANTITY] =
+    {.name = {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude",
+              "a1", "a2", "a3", "a4", "a5", PENDRES_FIT_SCALE_LIST(SECOND_OF_THREE)}},
 };
 
 static int value_of(pendres_names list, int place)

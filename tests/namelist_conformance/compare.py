@@ -148,10 +148,10 @@ def build(folder):
     sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
     sources.append(os.path.join(TOP, 'drivers', 'system', 'grow.c'))
     sources.append(os.path.join(TOP, 'src', 'analysis', 'sweeps', 'sweep.c'))  # what lists and ranges make of an axis
-    sources.append(os.path.join(TOP, 'src', 'analysis', 'fit', 'names.c'))  # what a fit may free
     # Which coefficients a force has, what its parameters are, and its units.
     sources += [os.path.join(TOP, 'src', 'model', f)
                 for f in ('model.c', 'parameter.c', 'units.c', 'units_table.c')]
+    sources.append(os.path.join(TOP, 'src', 'base', 'names.c'))  # of what a fit may free
     subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),
                          '-I' + os.path.join(TOP, 'src'),
                          '-I' + os.path.join(TOP, 'drivers'), '-o', folder + '/ours'] + sources + ['-lm'], check=True)

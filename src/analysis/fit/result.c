@@ -9,6 +9,8 @@
 
 #include <gsl/gsl_cdf.h>
 
+#include <pendres/names.h>
+
 #include "base/angles.h"
 
 void pendres_fit_free(pendres_fit *fit)
@@ -52,7 +54,7 @@ static void note_open(const fit_problem *p, const fit_result *best, pendres_fit 
     const size_t at = strlen(words);
     if (fabs(part) > 1e-3)
       snprintf(words + at, sizeof words - at, "%s%s by %+.3g", at > 0 ? ", " : "",
-               pendres_fit_quantity_name(p->free[k].quantity), part);
+               pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, p->free[k].quantity), part);
   }
   note(fit, "the data do not determine all unknowns: they stay as well fitted where these change "
        "together, as shares of their values: %s; fix one of them, or give it a prior", words);
@@ -84,7 +86,7 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
   for (size_t k = 0; k < p->unknowns; k++)
     if (best->at_bound[k])
       note(fit, "%s is at its bound: its error is that of a value held there",
-           pendres_fit_quantity_name(p->free[k].quantity));
+           pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, p->free[k].quantity));
   if (!s->converged)
     note(fit, "the fit has not converged: chi-square may still fall by %.2g; begin nearer by, or "
          "fix some unknowns", s->remaining);
@@ -252,11 +254,6 @@ double pendres_fit_covariance(const pendres_fit *fit, size_t a, size_t b)
 const pendres_fit_point *pendres_fit_point_get(const pendres_fit *fit, size_t i)
 {
   return fit != NULL && i < fit->summary.data ? &fit->point[i] : NULL;
-}
-
-size_t pendres_fit_jump_count(const pendres_fit *fit)
-{
-  return fit != NULL ? fit->jumps : 0;
 }
 
 const pendres_fit_jump *pendres_fit_jump_get(const pendres_fit *fit, size_t i)
