@@ -481,7 +481,7 @@ figures: $(PROGRAM)
 	plot *.h5 && plot --surface f10.h5 && exit $$failed
 
 # The few pictures that docs/gallery.md and the README show, from what `make figures` left.
-GALLERY := f05 f07 f08 f09 duffing resonator fit hysteresis josephson cascade
+GALLERY := f05 f07 f08 f09 integrity duffing drives resonator fit hysteresis josephson cascade
 gallery:
 	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 200 -o docs/gallery \
 	  $(GALLERY:%=$(BUILD)/figures/%.h5)

@@ -19,6 +19,7 @@ import h5py
 import curves
 import fits
 import maps
+import outer
 import validation
 from style import Run, plt
 
@@ -98,7 +99,8 @@ def title(run):
 
 
 def draw(path, options):
-    """The figure of a file; ValueError says why there is none."""
+    """The figures of a file, mostly one, with what is added to their names; ValueError says why
+    there is none."""
     try:
         file = h5py.File(path, "r")
     except FileNotFoundError:
@@ -111,14 +113,18 @@ def draw(path, options):
         if drawer is None:
             raise ValueError("this is not a run of resonance that can be drawn")
         try:
-            figure = drawer(run, path)
+            if "outer_axis" in file.attrs:
+                figures = outer.draw(run, path, drawer)
+            else:
+                figures = [("", "", drawer(run, path))]
         except KeyError as missing:
             raise ValueError(f"something is missing from it: {missing}") from None
-        most = max(20, int(120 * figure.get_size_inches()[0] / plt.rcParams["font.size"]))
-        if options.title:
-            figure.suptitle(balanced(title(run), most),
-                            fontsize=plt.rcParams["font.size"])
-        return figure
+        for _, more, figure in figures:
+            most = max(20, int(120 * figure.get_size_inches()[0] / plt.rcParams["font.size"]))
+            if options.title:
+                figure.suptitle(balanced(title(run) + (f", {more}" if more else ""), most),
+                                fontsize=plt.rcParams["font.size"])
+        return [(suffix, figure) for suffix, _, figure in figures]
 
 
 def main():
@@ -127,16 +133,17 @@ def main():
     os.makedirs(options.output, exist_ok=True)
     for path in options.files:
         try:
-            figure = draw(path, options)
+            figures = draw(path, options)
         except ValueError as why:
             print(f"{path}: {why}", file=sys.stderr)
             failed = 1
             continue
         name = os.path.splitext(os.path.basename(path))[0]
-        target = os.path.join(options.output, f"{name}.{options.format}")
-        figure.savefig(target, dpi=options.dpi)
-        plt.close(figure)
-        print(target)
+        for suffix, figure in figures:
+            target = os.path.join(options.output, f"{name}{suffix}.{options.format}")
+            figure.savefig(target, dpi=options.dpi)
+            plt.close(figure)
+            print(target)
     return failed
 
 

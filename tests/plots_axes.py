@@ -58,7 +58,7 @@ check("gap", gaps, [((1.5, 0.0), (2.0, 1.0))])
 def labels(name):
     """The labels of the axes of a picture, and of its legend's entries."""
     options = types.SimpleNamespace(unit=None, frequency=False, size=None, boundary=True, title=True)
-    figure = plot.draw(name, options)
+    (_, figure), = plot.draw(name, options)
     found = [text for ax in figure.axes for text in (ax.get_xlabel(), ax.get_ylabel())]
     return found, [text for ax in figure.axes for text in ax.get_legend_handles_labels()[1]]
 

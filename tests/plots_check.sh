@@ -81,6 +81,19 @@ deck kelvin switching "$beam &sweep temperature = '300 K', '350 K' /
 deck metres basins "$beam &sweep x_range = '-9 nm', '9 nm', 8, v_range = '-1 m/s', '1 m/s', 6 /"
 
 plot() { "$python" -W error::UserWarning "$top/plots/plot.py" "$@" >out 2>err; }
+# An outer axis is curves or shares in one picture; of other kinds a picture a value.
+outer='&outer key = "drive_amplitude", values = 0.1, 0.2, 0.3'
+deck outer_response response "&pendulum damping = 0.2 / &sweep drive_frequency = 0.7, 0.8, 0.9 / $e $outer /"
+deck outer_curve resonance_curve "&sweep damping = 0.2, 0.3 / $e $outer /"
+deck outer_branches branches "&pendulum damping = 0.15 / &sweep drive_frequency = 0.7, 0.8, 0.9 / $e $outer /"
+deck outer_sweep hysteresis "&pendulum damping = 0.15 / &sweep drive_frequency = 0.7, 0.8, 0.9 /
+  &hysteresis start = 'sa' / $outer /"
+deck outer_basins basins "&pendulum damping = 0.12, drive_period = 8 / &sweep x_range = -1.5, 4.7, 10,
+  v_range = -2, 2, 10 / $outer /"
+deck outer_orbit orbit "&pendulum damping = 0.12, drive_period = 8 / &orbit x = 0 / $outer /"
+plot outer_orbit.h5 -o pictures || { cat err; exit 1; }
+[ -s pictures/outer_orbit-3.png ] && [ "$(wc -l <out)" -eq 3 ] || { echo "not a picture a value"; exit 1; }
+rm outer_orbit.h5
 plot ./*.h5 -o pictures || { cat err; exit 1; }
 plot ./*.h5 -o narrow -f svg --size 3.4,3 --unit 1.2MHz --frequency --no-boundary --ensemble --surface --no-title ||
   { cat err; exit 1; }
