@@ -62,6 +62,9 @@ static const job jobs[] = {
   { "weak_sweep", "hysteresis", 2,
     { "pendulum.damping=2e-4", "pendulum.drive_amplitude=1e-4",
       "sweep.drive_frequency_range=0.998,1.002,81" } },
+  { "weaker_sweep", "hysteresis", 2,
+    { "pendulum.damping=1e-5", "pendulum.drive_amplitude=1e-5",
+      "sweep.drive_frequency_range=0.9,1.005,51" } },
 };
 
 static double seconds_now(void)
