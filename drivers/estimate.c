@@ -119,7 +119,7 @@ static void print_basis(const farm_trial *t, int rule, FILE *out)
   else if (t->tried == 0) fputs(": a task is too long to be tried\n", out);
   else
     fprintf(out, ": %zu of %zu %s were tried%s\n", t->tried, t->tasks, t->what,
-            t->cut ? ", and another takes longer than a trial" : "");
+            t->cut ? ", and the next would have taken longer than a trial may" : "");
 }
 
 static void print_time(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)

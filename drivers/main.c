@@ -250,11 +250,11 @@ static int open_journal(job *j)
 static int leave_part(job *j)
 {
   const options *o = &j->options;
-  const size_t lost = farm_points_lost(j->farm);
+  const size_t lost = farm_points_lost(j->farm), own = journal_own(j->journal);
   journal_stay(j->journal);
-  progress_note(&j->progress, "part %zu of %zu is done: %zu finished tasks in %s; when all parts "
+  progress_note(&j->progress, "part %zu of %zu is done: %zu finished task%s in %s; when all parts "
                 "are, the same command with --merge instead of --shard writes %s", o->shard,
-                o->shards, journal_own(j->journal), journal_path(j->journal), j->deck.output);
+                o->shards, own, own == 1 ? "" : "s", journal_path(j->journal), j->deck.output);
   if (lost == 0) return DONE;
   progress_error(&j->progress, "%zu point%s ended by --budget, and %s to --merge --resume", lost,
                  lost == 1 ? " was" : "s were", lost == 1 ? "is left" : "are left");

@@ -131,7 +131,8 @@ static int open_at(const place *at, const char *path, const char *head, const op
                     "kept under another name)");
   if (words[0] != '\0') progress_error(p, "%s", words);
   const size_t own = journal_count(*out);
-  if (own > 0) progress_note(p, "going on from %zu finished tasks in %s", own, path);
+  if (own > 0)
+    progress_note(p, "going on from %zu finished task%s in %s", own, own == 1 ? "" : "s", path);
   if (o->shards > 0 || o->merge) code = add_parts(at, o, path, p, *out, &parts);
   if (code == 0 && o->merge && parts == 0) {
     progress_error(p, "there are no journals of parts, %s.I-of-N.journal, in the folder '%s'",

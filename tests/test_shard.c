@@ -174,6 +174,7 @@ static void not_all_there(void **state)
   check_code(RUN("-o", "parts.h5", "--shard=2/3", "deck.nml"), DONE);
   check_code(RUN("-o", "parts.h5", "--merge", "deck.nml"), 1);
   check_says(err, "some shard has not finished");
+  check_says(err, "compute what is missing with --merge --resume");
   assert_true(exists("parts.h5.2-of-3.journal") && !exists("parts.h5"));
   /* Of another build. */
   write_others("parts.h5.2-of-3.journal", "parts.h5.1-of-3.journal");

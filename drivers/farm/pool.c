@@ -342,14 +342,12 @@ static void look_up(pool *c)
 static pendres_status check_complete(pool *c)
 {
   const size_t tasks = c->stage->tasks;
-  size_t first = 0;
   if (!c->farm->share.complete || c->stage->cheap) return PENDRES_OK;
   c->farm->share.complete = 0;
   if (c->finished == tasks) return PENDRES_OK;
-  while (first < tasks && c->done[first] != NOT_DONE) first++;
-  snprintf(c->farm->message, sizeof c->farm->message, "%zu of %zu %s are in no journal, number "
-           "%zu the first: some shard has not finished", tasks - c->finished, tasks,
-           c->stage->what, first);
+  snprintf(c->farm->message, sizeof c->farm->message, "%zu of %zu %s are in no journal: some "
+           "shard has not finished. Run it again with --resume, or compute what is missing with "
+           "--merge --resume", tasks - c->finished, tasks, c->stage->what);
   return PENDRES_NOT_FOUND;
 }
 

@@ -394,7 +394,7 @@ static void print_table(FILE *out, const scene_lines *l)
     {.heading = "to", .format = "%-17s  ", .type = SCENE_TEXT, .value = offsetof(part, why[0])},
     SCENE_CELL(part, value[1], "", "%#.13g +- "),
     SCENE_CELL(part, error[1], "", "%.0e "),
-    {.heading = "", .format = "%-17s", .type = SCENE_TEXT, .value = offsetof(part, why[1])},
+    {.heading = "", .format = "%s", .type = SCENE_TEXT, .value = offsetof(part, why[1])},
   };
   const size_t n = take_parts(l, NULL);
   part *rows = scene_array(l->run, n, sizeof *rows);
