@@ -485,6 +485,19 @@ def test_scenes():
         os.chdir(home)
 
 
+def test_scenes_outer():
+    """Any scene at several values of one of its numbers, in one Dataset."""
+    if not has_files():
+        return
+    data = pendres.hysteresis(damping=0.15, drive_frequency=[0.75, 0.8], start="sa",
+                              outer={"key": "drive_amplitude", "values": [0.1, 0.2]})
+    alone = pendres.hysteresis(damping=0.15, drive_frequency=[0.75, 0.8], start="sa",
+                               drive_amplitude=0.2)
+    assert data.amplitude.dims == ("drive_amplitude", "direction", "drive_frequency")
+    assert (data.amplitude.sel(drive_amplitude=0.2).values == alone.amplitude.values).all()
+    assert data.attrs["outer_axis"] == "drive_amplitude"
+
+
 def test_scenes_known():
     """Functions of scenes, their keywords and their words are the program's: also of a kind, in a
     group, with a key, that this package has never heard of."""

@@ -252,6 +252,10 @@ static void what_is_no_outer_axis_is_told(void **state)
     snprintf(text, sizeof text, "%s%s", SWEEP, bad[i].rest);
     scene_check_refused(text, bad[i].words);
   }
+  scene_check_refused("&scene kind = 'hysteresis' /\n&hysteresis start = 'sa' /\n"
+                      "&pendulum damping = 0.1 /\n&sweep drive_frequency = 0.7, 0.8,\n"
+                      "  drive_amplitude = 0.1, 0.2 /\n",
+                      "&outer takes several values of one more");
   scene_check_refused("&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
                       "&sweep drive_frequency = 0.7, 0.8 /\n"
                       "&outer key = 'damping', values = 0.1, 0.2 /\n",

@@ -55,8 +55,9 @@ void deck_expand_axes(deck_builder *b)
 static void complain_of_axes(deck_builder *b, const char *words, int n, const deck_axis_id *axis)
 {
   static const char advice[] = "give several values of what is an axis in &sweep, and one value of "
-                               "each of the others in &pendulum";
-  char message[300], list[4 * DECK_NAME] = "none";
+                               "each of the others in &pendulum; &outer takes several values of "
+                               "one more";
+  char message[400], list[4 * DECK_NAME] = "none";
   const char *first = n > 0 ? deck_axis_name(axis[0]) : "";
   const deck_given *at = deck_given_of(b, "sweep", first);
   for (int i = 0, used = 0; i < n && i < DECK_AXES; i++)
