@@ -253,10 +253,51 @@ static void outliers(void **state)
   pendres_context_free(ctx);
 }
 
+/* Chi-square is that of the data and of the jumps, each from the middle of its gap in units of the
+   gap over the root of 12 and the error of jumps together. */
+static void jumps_count(void **state)
+{
+  (void)state;
+  static const set swept = {.quality = 20.0, .noise = 0.01, .bent = 4.0,
+                            .observable = PENDRES_FIT_FIRST_HARMONIC};
+  pendres_context *ctx = context();
+  pendres_fit_datum data[DATA];
+  measure(&swept, 1.0, 1.0, 77, data);
+  const lab l = lab_of(&swept);
+  const pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = l.damping},
+                                      {.quantity = PENDRES_A3, .guess = l.a3}};
+  const pendres_fit_model model = {
+    .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0},
+                 .drive_amplitude = l.drive}, .unknowns = 2, .unknown = open};
+  const pendres_fit_data all = {.n = DATA, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
+                                .other = PENDRES_PARAMETER_COUNT};
+  for (int k = 0; k < 2; k++) {
+    pendres_fit *fit = NULL;
+    const pendres_fit_options options = {.jump_error = 0.02 * k};
+    double sum = 0.0;
+    size_t jumps = 0;
+    check_ok(pendres_fit_find(ctx, &all, &model, &options, &fit));
+    for (size_t i = 0; i < DATA; i++)
+      sum += pow(pendres_fit_point_get(fit, i)->residual / data[i].error, 2.0);
+    for (const pendres_fit_jump *j; (j = pendres_fit_jump_get(fit, jumps)) != NULL; jumps++) {
+      const double middle = 0.5 * (j->measured[0] + j->measured[1]);
+      const double scale =
+        hypot((j->measured[1] - j->measured[0]) / sqrt(12.0), options.jump_error);
+      sum += pow((j->value - middle) / scale, 2.0);
+    }
+    assert_int_equal(jumps, 2);
+    check_near(pendres_fit_summary_get(fit).chi_square, sum, 1e-9 * sum);
+    assert_true(pendres_fit_summary_get(fit).degrees_of_freedom == DATA + 2 - 2);
+    pendres_fit_free(fit);
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sets_of_data),
                                      cmocka_unit_test(open_combination),
-                                     cmocka_unit_test(turned_phase), cmocka_unit_test(outliers)};
+                                     cmocka_unit_test(turned_phase), cmocka_unit_test(outliers),
+                                     cmocka_unit_test(jumps_count)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,8 +99,10 @@ static void random_sets(void **state)
   static set s;
   double sum = 0.0, squares = 0.0;
   size_t count = 0, said = 0;
-  for (uint64_t k = 0; k < SETS; k++) {
-    make(1000 + k, &s);
+  /* The first cycles of these two tell no damping, the later ones do. */
+  static const uint64_t slow[] = {1174, 1190};
+  for (uint64_t k = 0; k < SETS + 2; k++) {
+    make(k < SETS ? 1000 + k : slow[k - SETS], &s);
     pendres_fit *fit = NULL;
     pendres_fit_unknown open[OPEN] = {{.quantity = PENDRES_DAMPING, .guess = NAN},
                                       {.quantity = PENDRES_A1, .guess = NAN},
@@ -121,6 +123,7 @@ static void random_sets(void **state)
     const pendres_status status = pendres_fit_find(ctx, &all, &model, NULL, &fit);
     const pendres_fit_summary got = pendres_fit_summary_get(fit);
     const int good = status == PENDRES_OK && got.converged && got.probability > 1e-5;
+    assert_true(good || k < SETS);
     if (!good) {
       said++;
       print_message("set %d: status %d, chi-square %g of %g, Q %g, a3 %g, sine %d, n %zu\n", (int)k,
