@@ -8,6 +8,8 @@
 
 #include <gsl/gsl_sf_ellint.h>
 
+#include <pendres/continuation.h>
+
 /* Of x + x^3: 2 pi over 4 K(k) / sqrt(1 + a^2). */
 static double of_duffing(double a)
 {
@@ -96,9 +98,54 @@ static void beside_branches(void **state)
   pendres_store_free(s);
 }
 
+/* Lines that are drives, or coefficients, have each its own place on the backbone with damping:
+   by the library's own search, and with a lag of pi/2 there. */
+static void driven_lines(void **state)
+{
+  static const struct { const char *text, *name; double a3[2], drive[2]; } decks[] = {
+    {"force_coefficients = 1, 0, 1 /\n&sweep drive_amplitude = 0.1, 0.3", "drives", {1.0, 1.0},
+     {0.1, 0.3}},
+    {"force_coefficients = 1, drive_amplitude = 0.3 /\n&sweep a3 = 0.5, 2", "springs", {0.5, 2.0},
+     {0.3, 0.3}}};
+  (void)state;
+  for (size_t k = 0; k < sizeof decks / sizeof *decks; k++) {
+    char text[400];
+    size_t n = 0;
+    pendres_pendulum p[2];
+    pendres_orbit orbit[2];
+    pendres_status outcome[2];
+    pendres_options options = {.tolerance = 1e-8};
+    pendres_context *ctx = NULL;
+    snprintf(text, sizeof text, "&scene kind = 'branches' /\n&ensemble members = 2 /\n"
+             "&pendulum force = 'polynomial', damping = 0.1, %s,\n"
+             "  drive_frequency = 1.0, 1.5 /\n", decks[k].text);
+    scene_run_deck(text, 1, decks[k].name);
+    pendres_store *s = scene_open(decks[k].name);
+    double *f = scene_values(s, "backbone_frequency", &n);
+    double *error = scene_values(s, "backbone_frequency_error", &n);
+    assert_int_equal(n, 2);
+    for (int i = 0; i < 2; i++)
+      p[i] = (pendres_pendulum){.force = PENDRES_FORCE_POLYNOMIAL, .damping = 0.1,
+                                .force_coefficients = {1.0, 0.0, decks[k].a3[i]},
+                                .drive_amplitude = decks[k].drive[i], .drive_frequency = 1.0};
+    check_ok(pendres_context_create(&options, &ctx));
+    check_ok(pendres_backbone_find(ctx, 2, p, orbit, NULL, outcome));
+    for (int i = 0; i < 2; i++) {
+      check_near(f[i], orbit[i].pendulum.drive_frequency, error[i]);
+      check_near(orbit[i].phase_lag, 2.0 * atan(1.0), 1e-7);
+      assert_true(error[i] < 1e-8);
+    }
+    pendres_context_free(ctx);
+    free(f);
+    free(error);
+    pendres_store_free(s);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(duffing), cmocka_unit_test(beyond),
-                                     cmocka_unit_test(beside_branches)};
+                                     cmocka_unit_test(beside_branches),
+                                     cmocka_unit_test(driven_lines)};
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -133,29 +133,49 @@ static const scene_column of_backbone[] = {
   SCENE_COLUMN(backbone_row, loop_area, "loop area of that orbit", "1"),
 };
 
+/* Where it is looked for: n pendulums, and the values in which they differ. */
+typedef struct backbone_points {
+  size_t n;
+  pendres_pendulum p[BACKBONE];
+  double value[BACKBONE];
+} backbone_points;
+
 /* Dampings in a geometric series, from below where the backbone begins to twice the deck's own; but
    not to where too many steps are needed, and the pendulum has long been a linear one. */
-static void backbone_dampings(const scene_lines *l, pendres_pendulum *p, double *damping)
+static void backbone_dampings(const scene_lines *l, backbone_points *at)
 {
   const double first = l->grid.line_value[0], last = l->grid.line_value[l->grid.lines - 1];
   const double rate = 1.0 / pendres_units_of(&l->grid.pendulum).time, low = 0.5 * first;
   const double high = fmax(fmax(rate, 2.0 * first), fmin(2.0 * last, 100.0 * rate));
+  at->n = BACKBONE;
   for (int i = 0; i < BACKBONE; i++) {
-    damping[i] = low * pow(high / low, i / (BACKBONE - 1.0));
-    p[i] = l->grid.pendulum;
-    p[i].damping = damping[i];
+    at->value[i] = low * pow(high / low, i / (BACKBONE - 1.0));
+    at->p[i] = l->grid.pendulum;
+    at->p[i].damping = at->value[i];
   }
 }
 
-/* Find the backbone at all dampings at once or, where that fails, at each of them alone. */
-static pendres_status find_backbone(pendres_context *ctx, const pendres_pendulum *p,
+/* The lines' own pendulums, where they are few: each has a curve of its own over the damping, which
+   takes as long as all points of one. None where one of them is not driven or damped. */
+static void backbone_lines(const scene_lines *l, backbone_points *at)
+{
+  at->n = l->grid.lines <= BACKBONE ? l->grid.lines : 0;
+  for (size_t i = 0; i < at->n; i++) {
+    at->value[i] = l->grid.line_value[i];
+    at->p[i] = scene_lines_pendulum(l, i * l->grid.values);
+    if (!(at->p[i].drive_amplitude > 0.0 && at->p[i].damping > 0.0)) at->n = 0;
+  }
+}
+
+/* Find the backbone at all of them at once or, where that fails, at each of them alone. */
+static pendres_status find_backbone(pendres_context *ctx, const backbone_points *at,
                                     pendres_orbit *orbit, double *error, pendres_status *outcome)
 {
-  pendres_status status = pendres_backbone_find(ctx, BACKBONE, p, orbit, error, outcome);
+  pendres_status status = pendres_backbone_find(ctx, at->n, at->p, orbit, error, outcome);
   if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
   status = PENDRES_OK;
-  for (int i = 0; i < BACKBONE && status == PENDRES_OK; i++) {
-    status = pendres_backbone_find(ctx, 1, &p[i], &orbit[i], &error[i], &outcome[i]);
+  for (size_t i = 0; i < at->n && status == PENDRES_OK; i++) {
+    status = pendres_backbone_find(ctx, 1, &at->p[i], &orbit[i], &error[i], &outcome[i]);
     if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
     outcome[i] = PENDRES_NOT_FOUND; /* the backbone ends, or cannot be followed, there */
     status = PENDRES_OK;
@@ -163,29 +183,35 @@ static pendres_status find_backbone(pendres_context *ctx, const pendres_pendulum
   return status;
 }
 
+/* Over damping, also between lines and beyond; over any other parameter at the lines. */
 static void write_backbone(const scene_lines *l)
 {
-  pendres_pendulum p[BACKBONE];
   pendres_status outcome[BACKBONE];
-  double error[BACKBONE], damping[BACKBONE];
+  double error[BACKBONE];
   backbone_row rows[BACKBONE];
-  const scene_table table = {.dimensions = {"backbone_damping"}, .prefix = "backbone",
-                             SCENE_ROWS(rows, BACKBONE)};
+  backbone_points at;
+  const int over_damping = l->points.axis[0] == DECK_AXIS_DAMPING;
   const pendres_store_spec along = {.name = "backbone_damping",
                                     .long_name = "friction coefficient"};
+  if (over_damping && !(l->grid.pendulum.drive_amplitude > 0.0)) return;
+  if (over_damping) backbone_dampings(l, &at);
+  else backbone_lines(l, &at);
+  if (at.n == 0) return;
+  const scene_table table = {
+    .dimensions = {over_damping ? along.name : deck_axis_name(l->points.axis[0])},
+    .prefix = "backbone", SCENE_ROWS(rows, at.n)};
   pendres_context *ctx = scene_context(l->run);
-  pendres_orbit *orbit = scene_array(l->run, BACKBONE, sizeof *orbit);
+  pendres_orbit *orbit = scene_array(l->run, at.n, sizeof *orbit);
   if (orbit == NULL) return;
-  backbone_dampings(l, p, damping);
-  if (scene_asked(l->run, find_backbone(ctx, p, orbit, error, outcome)) != PENDRES_OK) return;
-  for (int i = 0; i < BACKBONE; i++) {
+  if (scene_asked(l->run, find_backbone(ctx, &at, orbit, error, outcome)) != PENDRES_OK) return;
+  for (size_t i = 0; i < at.n; i++) {
     const pendres_orbit *o = &orbit[i];
     const int has = outcome[i] == PENDRES_OK || outcome[i] == PENDRES_TOLERANCE_UNREACHABLE;
     rows[i] = (backbone_row){o->pendulum.drive_frequency, error[i], o->amplitude,
                              o->amplitude_error, o->loop_area, o->loop_area_error};
     if (!has) SCENE_BLANK(of_backbone, &rows[i]);
   }
-  scene_put_dimension(l->run, &along, damping, BACKBONE);
+  if (over_damping) scene_put_dimension(l->run, &along, at.value, at.n);
   SCENE_WRITE(l->run, &table, of_backbone);
 }
 
@@ -416,10 +442,7 @@ static void write_results(const scene_lines *l)
   write_branches(l);
   scene_lines_write_doubts(l);
   scene_curves_write(l);
-  /* The backbone is one over damping, at one drive amplitude. */
-  if (l->points.axis[0] == DECK_AXIS_DAMPING && l->points.axis[1] == DECK_AXIS_DRIVE_FREQUENCY &&
-      l->grid.pendulum.drive_amplitude > 0.0)
-    write_backbone(l);
+  if (l->points.axis[1] == DECK_AXIS_DRIVE_FREQUENCY) write_backbone(l);
   write_free(l);
   scene_curves_write_paper(l);
 }
