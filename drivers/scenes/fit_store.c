@@ -151,6 +151,7 @@ char *fit_store_text(scene_run *run, const char *path)
     (void)scene_fail(run, bad ? PENDRES_INVALID_ARGUMENT : status,
                      "%s: the file of results cannot be read: it is broken, or no file of this "
                      "program: write it anew", path);
+    pendres_store_free(t.store);
     return NULL;
   }
   find_variables(&t);
