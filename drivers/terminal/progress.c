@@ -87,7 +87,8 @@ void progress_start(progress *p, const char *what, size_t total, size_t done)
   snprintf(p->what, sizeof p->what, "%s", what);
   p->total = total;
   p->before = done;
-  p->percent = (int)(100.0 * (double)done / (double)total);
+  /* All tasks may be those of other shards. */
+  p->percent = total > 0 ? (int)(100.0 * (double)done / (double)total) : 100;
   p->start = p->spoken = clock_wall();
   p->drawn = -1.0;
   p->name[0] = '\0';
