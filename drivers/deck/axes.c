@@ -112,15 +112,20 @@ pendres_pendulum deck_pendulum(const deck *d)
   return p;
 }
 
+double deck_axis_largest(const deck_axis *a)
+{
+  double most = 0.0;
+  for (size_t k = 0; k < a->count; k++)
+    if (fabs(a->value[k]) > fabs(most)) most = a->value[k];
+  return most;
+}
+
 pendres_units deck_pendulum_units(const deck *d)
 {
   pendres_pendulum p = d->pendulum;
-  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++) {
-    double most = 0.0;
-    for (size_t k = 0; k < d->axis[i].count; k++)
-      if (fabs(d->axis[i].value[k]) > fabs(most)) most = d->axis[i].value[k];
-    if (d->axis[i].count > 0) pendres_parameter_set(parameters[i], most, &p);
-  }
+  for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++)
+    if (d->axis[i].count > 0)
+      pendres_parameter_set(parameters[i], deck_axis_largest(&d->axis[i]), &p);
   return pendres_units_of(&p);
 }
 

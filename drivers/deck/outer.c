@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pendres/names.h>
+
 enum { MOST_SLICES = 1000 };
 
 /* ---- the number that is meant -------------------------------------------------------------- */
@@ -29,8 +31,8 @@ static int may_vary(const deck_key *key, unsigned scene)
 /* k of "a1" to "a5"; 0: it is no coefficient. */
 static int coefficient_of(const char *name)
 {
-  const int k = name[0] == 'a' && name[1] != '\0' && name[2] == '\0' ? name[1] - '0' : 0;
-  return k >= 1 && k <= PENDRES_FORCE_COEFFICIENTS ? k : 0;
+  const int p = pendres_name_find(PENDRES_NAMES_PARAMETER, name);
+  return p >= 0 ? pendres_parameter_of((pendres_parameter)p)->coefficient : 0;
 }
 
 /* The row of "damping", "hysteresis.rate" or "a3", which is an element of its key. */
@@ -140,14 +142,6 @@ static int is_given_twice(deck_builder *b)
   return 0;
 }
 
-static double largest_of(const deck_axis *a)
-{
-  double most = a->value[0];
-  for (size_t i = 1; i < a->count; i++)
-    if (fabs(a->value[i]) > fabs(most)) most = a->value[i];
-  return most;
-}
-
 static const char *refuse_values(const deck *d)
 {
   const deck_axis *a = &d->axis[DECK_AXIS_OUTER];
@@ -186,7 +180,7 @@ void deck_outer_apply(deck_builder *b)
     return;
   }
   const int used = d->outer.coefficient == 0 && deck_table[d->outer.row].type == DECK_SWEEP_VALUE;
-  set_value(d, largest_of(&d->axis[DECK_AXIS_OUTER]), listed);
+  set_value(d, deck_axis_largest(&d->axis[DECK_AXIS_OUTER]), listed);
   if (!used) free(listed);
 }
 

@@ -36,8 +36,8 @@ typedef enum deck_type {
   X(AT_RANDOM, "only with shape = 'random'", "'shape' is not 'random'")                            \
   X(WITH_SEARCH, "only where a resonance is looked for",                                           \
     "no resonance is looked for: that takes lines along the drive's frequency or period")          \
+  X(WITH_OUTER, NULL, NULL)   /* with an outer axis */                                             \
   /* Those that another key may give instead: */                                                   \
-  X(WITH_OUTER, NULL, NULL)   /* with an outer axis */                                            \
   X(UNLESS_AXIS, NULL, NULL)  /* unless the key's axis has values in &sweep */                     \
   X(BY_FREQUENCY, NULL, NULL) /* unless the drive is given by its period */                        \
   X(BY_PERIOD, NULL, NULL)    /* the reverse */
@@ -189,6 +189,9 @@ int deck_is_there(const deck_given *at);
 void deck_expand_axes(deck_builder *b);
 void deck_expand_axis(deck_builder *b, deck_axis_id axis);
 void deck_check_axes(deck_builder *b);
+
+/* axes.c: the value of the largest size; 0 of an axis without values. */
+double deck_axis_largest(const deck_axis *a);
 
 /* outer.c: */
 /* Find the number that &outer names, once the kind of scene is known. */

@@ -99,13 +99,10 @@ static int column_of(const reader *r, const char *word)
 /* The parameter that differs between sweeps. */
 static int is_parameter(const reader *r, const char *role, pendres_parameter *p)
 {
-  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
-    if (strcmp(pendres_parameter_of((pendres_parameter)k)->name, role) == 0 &&
-        (pendres_parameter)k != r->out->of.axis) {
-      *p = (pendres_parameter)k;
-      return 1;
-    }
-  return 0;
+  const int k = pendres_name_find(PENDRES_NAMES_PARAMETER, role);
+  if (k < 0 || k >= PENDRES_PARAMETER_FOLLOWED || k == (int)r->out->of.axis) return 0;
+  *p = (pendres_parameter)k;
+  return 1;
 }
 
 /* Take a column in a role by name; 0: it is none. */

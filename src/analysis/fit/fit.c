@@ -170,6 +170,13 @@ static int is_better(const fit_result *a, const fit_result *b)
   return a->chi_square < b->chi_square;
 }
 
+/* What comes next is computed from the beginnings of the curves on. */
+static void forget_curves(fit_problem *p)
+{
+  for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
+  p->known = 0;
+}
+
 /* Put the starts into the order of their chi-square: guesses know nothing of jumps. Those without a
    model come last. */
 static pendres_status order_starts(fit_problem *p, int starts, fit_values *start)
@@ -180,14 +187,8 @@ static pendres_status order_starts(fit_problem *p, int starts, fit_values *start
     memcpy(at, start[k], sizeof at);
     scale_values(p->m, at, v);
     p->m->usual_steps = 0;
-    p->known = 0;
-    for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
-    double sum = INFINITY;
-    if (pendres_fit_evaluate(p, v)) {
-      sum = 0.0;
-      for (size_t i = 0; i < pendres_fit_all_rows(p); i++)
-        sum += p->rows.residual[i] * p->rows.residual[i];
-    }
+    forget_curves(p);
+    const double sum = pendres_fit_evaluate(p, v) ? pendres_fit_sum_of_squares(p) : INFINITY;
     if (p->status != PENDRES_OK) return p->status;
     int to = k;
     for (; to > 0 && chi[to - 1] > sum; to--) {
@@ -222,7 +223,7 @@ static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int 
   const size_t window = p->m->active;
   for (int k = 0; k < starts && status == PENDRES_OK; k++) {
     scale_values(p->m, start[k], now->v);
-    for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
+    forget_curves(p);
     p->m->usual_steps = 0;
     p->m->active = window;
     status = pendres_fit_solve(p, c->options.iterations, now);
@@ -316,8 +317,7 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
                                 "the model could not be computed from any start%s%s: give guesses "
                                 "of the unknowns", m->lost != NULL ? "; the last: " : "",
                                 m->lost != NULL ? m->lost : "");
-  for (size_t i = 0; i < m->curves; i++) m->curve[i].ready = 0;
-  p.known = 0;
+  forget_curves(&p);
   status = pendres_fit_conclude(&p, &best);
   if (status != PENDRES_OK) return status;
   status = pendres_fit_result(c, &p, &best);

@@ -105,7 +105,7 @@ int pendres_fit_evaluate(fit_problem *p, const fit_values v)
   return !p->lost;
 }
 
-static double sum_of_squares(const fit_problem *p)
+double pendres_fit_sum_of_squares(const fit_problem *p)
 {
   double sum = 0.0;
   for (size_t i = 0; i < pendres_fit_all_rows(p); i++)
@@ -158,7 +158,7 @@ static pendres_status run(fit_problem *p, int iterations, fit_result *out)
   p->known = 0;
   values_of(p, p->x, v, slope);
   if (!pendres_fit_evaluate(p, v)) return p->status;
-  p->worst = sum_of_squares(p) + 1.0;
+  p->worst = pendres_fit_sum_of_squares(p) + 1.0;
   gsl_multifit_nlinear_fdf f = {.f = residuals, .df = slopes, .n = pendres_fit_all_rows(p),
                                 .p = p->unknowns, .params = p};
   gsl_multifit_nlinear_workspace *w =
@@ -277,7 +277,7 @@ pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out)
   }
   if (status == PENDRES_OK) {
     read_decomposition(p, j, v, s, length, out);
-    out->chi_square = sum_of_squares(p);
+    out->chi_square = pendres_fit_sum_of_squares(p);
     out->freedom = freedom_of(p);
     out->computed = 1;
     const double one = fmax(1.0, out->chi_square / fmax(1.0, out->freedom));

@@ -47,6 +47,9 @@ static inline size_t pendres_fit_all_rows(const fit_problem *p)
 /* Compute the residuals at values, unless that was just done; 0: the model cannot be. */
 int pendres_fit_evaluate(fit_problem *p, const fit_values v);
 
+/* Chi-square of the rows that were computed last. */
+double pendres_fit_sum_of_squares(const fit_problem *p);
+
 /* Least squares from values on, which are replaced. */
 pendres_status pendres_fit_solve(fit_problem *p, int iterations, fit_result *out);
 
