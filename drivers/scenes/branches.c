@@ -248,8 +248,8 @@ static size_t find_plain(free_curve *c)
   return FREE;
 }
 
-/* That of any force, somewhat higher than the branches, or up to the separatrix; none where lines
-   have different forces. */
+/* That of any force, somewhat higher than the branches, with a gap between swings about a well and
+   those across barriers; none where lines have different forces. */
 static size_t find_free(const scene_lines *l, free_curve *c)
 {
   pendres_pendulum p[FREE];
@@ -272,9 +272,10 @@ static size_t find_free(const scene_lines *l, free_curve *c)
   if (scene_asked(l->run, pendres_free_oscillation_find(ctx, FREE, p, c->amplitude, of, outcome)) !=
       PENDRES_OK)
     return 0;
-  for (; n < FREE && isfinite(of[n].frequency); n++) {
-    c->frequency[n] = of[n].frequency;
-    c->error[n] = of[n].frequency_error;
+  for (size_t i = 0; i < FREE; i++) {
+    c->frequency[i] = of[i].frequency;
+    c->error[i] = of[i].frequency_error;
+    if (isfinite(of[i].frequency)) n = i + 1;
   }
   return n;
 }

@@ -70,8 +70,9 @@ static pendres_status compute_force(const scene_some *some, const double *amplit
     rows[i].turning_point_low = free[i].low;
     rows[i].turning_point_high = free[i].high;
     rows[i].turning_point_error = free[i].turn_error;
-    status = scene_mark_status(some, i, outcome[i], outcome[i] != PENDRES_NOT_FOUND ? NULL
-                               : "there is no well, or the amplitude reaches the separatrix");
+    const char *none = "no oscillation has this amplitude, or it is that of a separatrix";
+    status = scene_mark_status(some, i, outcome[i],
+                               outcome[i] != PENDRES_NOT_FOUND ? NULL : none);
   }
   return status;
 }

@@ -66,7 +66,7 @@ pendres_status pendres_free_find(pendres_context *ctx, size_t n,
 
 /** A free oscillation under any force. Plain data. */
 typedef struct pendres_free_oscillation {
-  double well;            /**< where the pendulum rests: x */
+  double well;            /**< where the pendulum rests: x; low and high may embrace others, too */
   double low;             /**< turning point: the lowest x, ... */
   double high;            /**< ... and the highest; twice the amplitude apart */
   double frequency;       /**< angular: 2 pi / period */
@@ -78,9 +78,14 @@ typedef struct pendres_free_oscillation {
 /**
  * The backbone without damping and drive, of any force: the frequency of free oscillations of an
  * amplitude (half the peak-to-peak), about the well in which a pendulum comes to rest that is let
- * go at the model's origin, as pendres_backbone_find() takes it. By quadrature of the period
- * (Landau and Lifshitz, Mechanics, section 11), which has nothing in common with an integration of
- * the equation of motion. What passes over a barrier belongs to no well, and is none of these.
+ * go at the model's origin, as pendres_backbone_find() takes it, or across this well and others. By
+ * quadrature of the period (Landau and Lifshitz, Mechanics, section 11), which has nothing in
+ * common with an integration of the equation of motion.
+ *
+ * The largest swings about a well and the smallest across a barrier are the separatrix' two sides,
+ * on which the frequency falls to 0; no swing has an amplitude between theirs. Within some 1e-8 of
+ * a separatrix, as a share of the amplitude, the frequency is not known. A pendulum that passes its
+ * barrier rotates: that is no oscillation.
  *
  * @param ctx       belongs to one thread at a time
  * @param n         how many
@@ -88,8 +93,8 @@ typedef struct pendres_free_oscillation {
  * @param amplitude [n], above 0, as x is (rad); not kept
  * @param out       [n], written; NaN where there is none
  * @param outcome   [n], written: PENDRES_OK, PENDRES_TOLERANCE_UNREACHABLE (the error tells), or
- *                  PENDRES_NOT_FOUND: there is no well, or the amplitude is that of the separatrix,
- *                  where the frequency has fallen to 0, or larger
+ *                  PENDRES_NOT_FOUND: there is no well, no swing of this amplitude, or it is that
+ *                  of a separatrix
  * @return PENDRES_INVALID_ARGUMENT or PENDRES_OUT_OF_MEMORY; then out is not meaningful
  */
 pendres_status pendres_free_oscillation_find(pendres_context *ctx, size_t n,

@@ -7,6 +7,12 @@
  * spaced points give the mean with an error that falls exponentially. q is a mean of the force
  * between x and a turning point, over the distance to the other one, so that no difference of
  * potentials is needed, which would lose the digits of small oscillations.
+ *
+ * Motions that contain the well are nested: the more energy, the wider. Their turning points lie
+ * where the potential is higher than anywhere between. On either side these places are intervals,
+ * with gaps from the top of a barrier to where, behind it, the potential is as high again. Within
+ * one interval on either side the amplitude grows smoothly, and it leaps where the lower one of two
+ * barriers is passed.
  */
 #include "orbits/free_force.h"
 
@@ -49,12 +55,12 @@ typedef struct span {
   double low, high, off;
 } span;
 
-/* A pendulum, where it rests, from where the force drives it there, and the points of Gauss and
-   Legendre for means of the force. */
+/* A pendulum, where it rests, the turning points that it may have (from in.low to inner.low, and
+   from inner.high to in.high), and the points of Gauss and Legendre for means of the force. */
 typedef struct spring {
   const pendres_pendulum *p;
   double well;
-  span in;
+  span in, inner;
   gsl_integration_glfixed_table *table;
 } spring;
 
@@ -81,46 +87,91 @@ static double mean_force(const spring *s, double from, double to, double *strain
   return sum;
 }
 
-/* How far from a well, to one side and up to `most`, the force drives back to it. */
-static double reach(const pendres_pendulum *p, double well, double side, double most)
+/* What drives it back at a place. */
+static double drives_back(const spring *s, double from, double at)
+{
+  (void)from;
+  return push(s->p, at);
+}
+
+/* What makes the potential there lower than where it came from. */
+static double runs_lower(const spring *s, double from, double at)
+{
+  return -mean_force(s, from, at, NULL);
+}
+
+/* How far from a place, to one side and up to `most`, one of these holds. */
+static double reach(const spring *s, double from, double side, double most,
+                    double (*holds)(const spring *s, double from, double at))
 {
   const double first = fmin(most, free_near) / FREE_FINENESS;
   double inside = 0.0, outside = first;
-  while (outside < most && side * push(p, well + side * outside) > 0.0) {
+  while (outside < most && side * holds(s, from, from + side * outside) > 0.0) {
     inside = outside;
     outside += fmax(first, outside / FREE_FINENESS);
   }
   outside = fmin(outside, most);
-  if (side * push(p, well + side * outside) > 0.0) return most;
+  if (side * holds(s, from, from + side * outside) > 0.0) return most;
   for (double middle = 0.5 * (inside + outside); middle > inside && middle < outside;
        middle = 0.5 * (inside + outside))
-    *(side * push(p, well + side * middle) > 0.0 ? &inside : &outside) = middle;
+    *(side * holds(s, from, from + side * middle) > 0.0 ? &inside : &outside) = middle;
   return inside;
 }
 
-/* The turning points of an amplitude: about a centre of symmetry if the well is one, and else as
-   far apart, where the mean force between them is 0; the rounding of that moves them the more, the
-   slower it changes. 0: the amplitude is that of the separatrix, or beyond. */
+/* The turning points of an amplitude: about a centre of symmetry if they are on both sides of one,
+   and else as far apart, where the mean force between them is 0; the rounding of that moves them
+   the more, the slower it changes. 0: there are none. */
 static int turning_points(const spring *s, double amplitude, span *out)
 {
-  const double well = s->well;
-  const span in = s->in;
-  const double across = 2.0 * amplitude, centre = pendres_model_centre(s->p, well);
-  const int odd = fabs(centre - well) < well_near;
-  double below = fmax(in.low, well - across), above = fmin(well, in.high - across), strain = 0.0;
-  if (odd && in.low <= centre - amplitude && centre + amplitude <= in.high)
-    below = above = centre - amplitude;
+  const span in = s->in, inner = s->inner;
+  const double across = 2.0 * amplitude, centre = pendres_model_centre(s->p, s->well);
+  const double left = centre - amplitude, right = centre + amplitude;
+  const int odd = in.low <= left && left <= inner.low + well_near &&
+                  inner.high - well_near <= right && right <= in.high;
+  double below = fmax(in.low, inner.high - across), above = fmin(inner.low, in.high - across);
+  double strain = 0.0;
+  if (odd)
+    below = above = left;
   else if (!(below <= above) || mean_force(s, below, below + across, NULL) > 0.0 ||
            mean_force(s, above, above + across, NULL) < 0.0)
     return 0;
   for (double middle = 0.5 * (below + above); middle > below && middle < above;
        middle = 0.5 * (below + above))
     *(mean_force(s, middle, middle + across, NULL) < 0.0 ? &below : &above) = middle;
-  *out = (span){below, odd ? centre + amplitude : below + across, 0.0};
+  *out = (span){below, odd ? right : below + across, 0.0};
   if (!odd) (void)mean_force(s, out->low, out->high, &strain);
   out->off = last_place_of_one *
              (fabs(out->low) + fabs(out->high) + across +
               strain * across / (push(s->p, out->high) - push(s->p, out->low)));
+  return 1;
+}
+
+/* Pass over the lower one of the barriers, to the turning points behind it that are at most so far
+   from the well. 0: there are none, as where the coordinate has a period. */
+static int pass_over(spring *s, double most)
+{
+  const double side = mean_force(s, s->in.low, s->in.high, NULL) <= 0.0 ? 1.0 : -1.0;
+  double *rim = side > 0.0 ? &s->in.high : &s->in.low;
+  double *behind = side > 0.0 ? &s->inner.high : &s->inner.low;
+  const double left = most - fabs(*rim - s->well);
+  if (pendres_model_of(s->p->force)->period > 0.0 || !(left > 0.0)) return 0;
+  const double valley = reach(s, *rim, side, left, runs_lower);
+  if (!(valley < left)) return 0;
+  *behind = *rim + side * valley;
+  *rim = *behind + side * reach(s, *behind, side, left - valley, drives_back);
+  return 1;
+}
+
+/* Find between which places it turns round at an amplitude; 0: at this one it does not. */
+static int find_barriers(spring *s, double amplitude)
+{
+  const double most = 2.0 * amplitude;
+  span unused;
+  s->inner = (span){s->well, s->well, 0.0};
+  s->in.low = s->well - reach(s, s->well, -1.0, most, drives_back);
+  s->in.high = s->well + reach(s, s->well, 1.0, most, drives_back);
+  while (!turning_points(s, amplitude, &unused))
+    if (!pass_over(s, most)) return 0;
   return 1;
 }
 
@@ -152,33 +203,44 @@ static double swing(const spring *s, double amplitude, int points, span *at, dou
   return turning_points(s, amplitude, at) ? frequency_by(s, *at, points, rounding) : NAN;
 }
 
+static pendres_status out_of_memory(pendres_context *ctx)
+{
+  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a quadrature");
+}
+
 /* Swing by twice as many points of both kinds, until that changes nothing beyond rounding. What
-   displaced turning points do is seen by an amplitude that is smaller by four times as much: the
-   frequency falls ever faster towards the separatrix, so that beyond it is no measure. */
+   displaced turning points do is seen by an amplitude that is smaller by four times as much: about
+   a well the frequency falls ever faster towards the separatrix, so that beyond it is no measure;
+   and across barriers it does so the other way, so that what has none there is too close to tell.
+   So is what the last doubling still changes as much as the one before. */
 static pendres_status find_one(pendres_context *ctx, const pendres_pendulum *p, double amplitude,
                                pendres_free_oscillation *out)
 {
-  double before = NAN;
+  double before = NAN, changed = INFINITY;
   spring s = {.p = p};
   if (!pendres_free_well(p, &s.well)) return PENDRES_NOT_FOUND;
-  s.in.low = s.well - reach(p, s.well, -1.0, 2.0 * amplitude);
-  s.in.high = s.well + reach(p, s.well, 1.0, 2.0 * amplitude);
+  s.table = gsl_integration_glfixed_table_alloc(FREE_ORDER);
+  if (s.table == NULL) return out_of_memory(ctx);
+  const int turns = find_barriers(&s, amplitude);
+  gsl_integration_glfixed_table_free(s.table);
+  if (!turns) return PENDRES_NOT_FOUND;
   const double origin = pendres_model_origin(p);
   for (int points = FREE_FEWEST, last = 0; !last; points *= 2) {
-    span at, nearer;
+    span at = {NAN, NAN, NAN}, nearer;
     double rounding = NAN, unused, there = NAN;
     const int order = points < FREE_ORDER ? points : FREE_ORDER;
     s.table = gsl_integration_glfixed_table_alloc((size_t)order);
-    if (s.table == NULL)
-      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a quadrature");
+    if (s.table == NULL) return out_of_memory(ctx);
     const double frequency = swing(&s, amplitude, points, &at, &rounding);
     const double change = fabs(frequency - before);
-    last = change <= rounding || points >= FREE_MOST || isnan(frequency);
+    last = change <= rounding || points >= FREE_MOST || (isnan(frequency) && order == FREE_ORDER);
     if (last && !isnan(frequency))
       there = swing(&s, amplitude - 4.0 * at.off, points, &nearer, &unused);
     gsl_integration_glfixed_table_free(s.table);
-    if (isnan(frequency)) return PENDRES_NOT_FOUND;
+    if (last && (isnan(there) || (change > rounding && change > 0.5 * changed)))
+      return PENDRES_NOT_FOUND;
     before = frequency;
+    changed = change;
     *out = (pendres_free_oscillation){s.well + origin, at.low + origin, at.high + origin, frequency,
                                       change + rounding + fabs(there - frequency), at.off};
   }
