@@ -80,6 +80,8 @@ static void hysteresis(void **state)
   const pendres_state start = { 1.0, 0.0 };
   const pendres_hysteresis_path path = { along, 2, value };
   pendres_hysteresis *h = NULL;
+  REFUSED(pendres_hysteresis_states_find(f->ctx, NULL, &start, &path, &h));
+  REFUSED(pendres_hysteresis_states_find(f->ctx, &good, &start, NULL, &h));
   REFUSED(pendres_hysteresis_find(f->ctx, NULL, &start, &path, &h));
   REFUSED(pendres_hysteresis_find(f->ctx, &good, NULL, &path, &h));
   REFUSED(pendres_hysteresis_find(f->ctx, &good, &start, NULL, &h));

@@ -332,7 +332,8 @@ const deck_key deck_table[] = {
   { LOGICAL("bifurcation_diagram", "attractors", diagram.attractors), IN(DIAGRAM), .number = 1,
     SAYS(NULL, "count the attractors at each value") },
   { LOGICAL("bifurcation_diagram", "bifurcations", diagram.bifurcations), IN(DIAGRAM), .number = 1,
-    SAYS(NULL, "write the bifurcations on the way, and find the cascade of doublings") },
+    SAYS(NULL, "write the bifurcations on the way, and find the cascade of doublings; without "
+               "them states are found at the values alone, in less time") },
   { LOGICAL("bifurcation_diagram", "exponents", diagram.exponents), IN(DIAGRAM), .number = 1,
     SAYS(NULL, "write Lyapunov exponents; without them chaos is only told, in less time") },
 

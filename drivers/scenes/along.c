@@ -169,7 +169,8 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   if (status != PENDRES_OK) return status;
   farm_point(out, way->n, "the path of %zu values of %s from %.10g on", way->n,
              deck_axis_name(way->axis), way->value[0]);
-  status = pendres_hysteresis_find(ctx, &p, &from, &path, &h);
+  status = way->states_only ? pendres_hysteresis_states_find(ctx, &p, &from, &path, &h)
+                            : pendres_hysteresis_find(ctx, &p, &from, &path, &h);
   if (farm_gave_up(out, status)) status = leave_rest(h, out);
   if (status == PENDRES_OK) status = keep(h, out);
   pendres_hysteresis_free(h);

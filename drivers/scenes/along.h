@@ -33,6 +33,7 @@ typedef struct scene_along_way {
   deck_axis_id axis;
   size_t n;
   const double *value;
+  int states_only; /* jumps are not asked for */
 } scene_along_way;
 
 /* The state that the deck's pendulum starts from along a way; message[SCENE_MESSAGE] says why there

@@ -293,7 +293,8 @@ static pendres_status run_scene(scene_run *run)
   deck_axis_id axis[DECK_AXES];
   (void)deck_axes(d, axis);
   const deck_axis *a = &d->axis[axis[0]];
-  work w = {.d = d, .way = {axis[0], a->count, a->value}, .strobes = strobes,
+  work w = {.d = d, .way = {axis[0], a->count, a->value, !d->diagram.bifurcations},
+            .strobes = strobes,
             .counts = {.size = sizeof(int), .chunk = TASK_ATTRACTORS, .what = "attractors",
                        .compute = count_attractors, .leave_out = no_attractors,
                        .check = check_count, .arg = &w},

@@ -13,7 +13,7 @@ static void compute(scene_run *run, deck_axis_id axis, scene_along_path *path)
   const size_t n = SCENE_DIRECTIONS * a->count;
   double *value = scene_array(run, n, sizeof *value);
   for (size_t i = 0; value != NULL && i < a->count; i++) value[i] = value[n - 1 - i] = a->value[i];
-  scene_along_compute(run, &(scene_along_way){axis, n, value}, path, 0, NULL);
+  scene_along_compute(run, &(scene_along_way){axis, n, value, 0}, path, 0, NULL);
   pendres_hysteresis_point *back = path->point + a->count;
   for (size_t i = 0; scene_going(run) && i < a->count / 2; i++) {
     const pendres_hysteresis_point kept = back[i];

@@ -186,6 +186,17 @@ pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendu
                                        const pendres_state *start,
                                        const pendres_hysteresis_path *path,
                                        pendres_hysteresis **out);
+/**
+ * The same for a picture: states at the values of the path alone, without jumps. Chaos is not asked
+ * where it ends or grows, and of doublings only the first ones are followed: what the pendulum goes
+ * to is met at the next value. Where several states attract it may there be another one than if
+ * every end on the way were found. Steps have no ends that are known better than by these values.
+ * Arguments, errors and thread safety: as of pendres_hysteresis_find.
+ */
+pendres_status pendres_hysteresis_states_find(pendres_context *ctx, const pendres_pendulum *p,
+                                              const pendres_state *start,
+                                              const pendres_hysteresis_path *path,
+                                              pendres_hysteresis **out);
 /** Free a path; NULL is allowed. */
 void pendres_hysteresis_free(pendres_hysteresis *h);
 

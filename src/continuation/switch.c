@@ -100,9 +100,10 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   map->mirror = PENDRES_MIRROR_NONE;
   map->period = once.mirror ? once.period : 2 * once.period;
   map->winding = once.mirror ? 0 : 2 * once.winding;
-  /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time. */
+  /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time, or by its
+     square, 6.3, where the Poincare point is not the one of the orbit's that moves most. */
   const double reach = switch_away * pow(once.period, -1.3);
-  static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0};
+  static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0, 1.0 / 64, 1.0 / 256};
   for (size_t k = 0; k < sizeof tries / sizeof *tries && reach * tries[k] < 0.5; k++) {
     const double away = reach * tries[k];
     pendres_curve_node node = {.tangent = {v[0], v[1], 0.0, 0.0}};

@@ -153,6 +153,28 @@ static pendres_status settle_alone(path *w, size_t i)
   return pendres_settled_find(w->ctx, &p, from.x, from.v, PENDRES_CARE_FULL, &w->state);
 }
 
+/* What the pendulum has done between the last value and number i, which it has come to from a state
+   that is not followed. */
+static pendres_status tell_way(path *w, size_t i, const pendres_settled *old)
+{
+  const pendres_attractor *from = &old->attractor, *to = &w->state.attractor;
+  const int ends = pendres_chaos_ends(from, to);
+  pendres_status status = PENDRES_OK;
+  if (!w->settled) return status;
+  if (ends && !w->states_only) {
+    if (w->tried != i) w->tries = 0;
+    w->tried = i;
+    w->tries++;
+    pendres_path_allow(w); /* where it ended is a question of its own */
+    status = end_chaos(w, i, old);
+  } else if (from->label == PENDRES_LABEL_CHAOTIC && to->label == PENDRES_LABEL_CHAOTIC &&
+             !w->states_only) {
+    status = go_on_in_chaos(w, i, old);
+  }
+  if (ends) pendres_path_leave(w);
+  return status;
+}
+
 /* Find what the pendulum settles on at value number *i, from its present state, unless it is known,
    or the orbit that it goes to on the way there, which is to be followed first. */
 static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known)
@@ -162,23 +184,11 @@ static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known
   if (known->attractor.label != PENDRES_LABEL_UNRESOLVED) w->state = *known;
   else status = settle_alone(w, *i);
   /* An orbit that could not be followed any further has not ended: the value is left out. */
-  if (status == PENDRES_OK && pendres_path_short(&old.attractor) &&
+  if (status == PENDRES_OK && pendres_path_short(w, &old.attractor) &&
       w->state.attractor.label == PENDRES_LABEL_UNRESOLVED)
     return PENDRES_UNRESOLVED;
   if (status == PENDRES_OK) status = begin_path(w, old.x, old.v);
-  if (status == PENDRES_OK && w->settled &&
-      pendres_chaos_ends(&old.attractor, &w->state.attractor)) {
-    if (w->tried != *i) w->tries = 0;
-    w->tried = *i;
-    w->tries++;
-    pendres_path_allow(w); /* where it ended is a question of its own */
-    status = end_chaos(w, *i, &old);
-    pendres_path_leave(w);
-  } else if (status == PENDRES_OK && w->settled &&
-             old.attractor.label == PENDRES_LABEL_CHAOTIC &&
-             w->state.attractor.label == PENDRES_LABEL_CHAOTIC) {
-    status = go_on_in_chaos(w, *i, &old);
-  }
+  if (status == PENDRES_OK) status = tell_way(w, *i, &old);
   w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
   if (status == PENDRES_OK && w->at == w->value[*i])
     pendres_path_put(w, (*i)++, &w->state.attractor);
@@ -204,7 +214,7 @@ static pendres_status go_on(path *w, size_t *i)
     stay_away(w, i);
     return PENDRES_OK;
   }
-  if (pendres_path_short(&w->state.attractor)) status = pendres_path_orbit(w, i);
+  if (pendres_path_short(w, &w->state.attractor)) status = pendres_path_orbit(w, i);
   else if (rotates) status = pendres_path_unlocked(w, i, &known);
   /* Nothing is left to settle if the pendulum has gone to a free rotation, or to infinity. */
   if (status != PENDRES_OK || *i > before || rotates_freely(&w->state.attractor) ||
@@ -287,7 +297,7 @@ pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hys
 
 static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
                               const pendres_state *start, const pendres_hysteresis_path *along,
-                              pendres_hysteresis **out)
+                              int states_only, pendres_hysteresis **out)
 {
   if (p == NULL || start == NULL || along == NULL || out == NULL ||
       (along->n > 0 && along->value == NULL))
@@ -296,14 +306,13 @@ static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
   const char *why = pendres_parameter_refuses(along->parameter, p->force);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   path w = {.ctx = ctx, .pendulum = *p, .parameter = along->parameter, .all = along->value,
-            .n = along->n, .value = along->value};
+            .n = along->n, .value = along->value, .states_only = states_only};
   return pendres_path_run(&w, start->x, start->v, out);
 }
 
-pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendulum *p,
-                                       const pendres_state *start,
-                                       const pendres_hysteresis_path *along,
-                                       pendres_hysteresis **out)
+static pendres_status find(pendres_context *ctx, const pendres_pendulum *p,
+                           const pendres_state *start, const pendres_hysteresis_path *along,
+                           int states_only, pendres_hysteresis **out)
 {
   pendres_hysteresis_path inside = {.n = 0};
   if (along != NULL) inside = *along;
@@ -311,11 +320,28 @@ pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendu
   PENDRES_DOOR_IN(&d, pendulum, 1, p);
   PENDRES_DOOR_IN(&d, state, 1, start);
   inside.value = pendres_door_in(&d, &pendres_dim_first, inside.n, inside.value);
-  PENDRES_DOOR_CALL(&d, checked(ctx, p, start, along != NULL ? &inside : NULL, out));
+  PENDRES_DOOR_CALL(&d, checked(ctx, p, start, along != NULL ? &inside : NULL, states_only,
+                               out));
   if ((d.status == PENDRES_OK || d.status == PENDRES_INTERRUPTED) && *out != NULL) {
     pendres_units_out(&d.scales, &pendres_dim_hysteresis_point, (*out)->count, (*out)->point);
     pendres_units_out(&d.scales, &pendres_dim_jump, (*out)->jumps, (*out)->jump);
     pendres_units_out(&d.scales, &pendres_dim_step, (*out)->steps, (*out)->step);
   }
   return pendres_door_close(&d);
+}
+
+pendres_status pendres_hysteresis_find(pendres_context *ctx, const pendres_pendulum *p,
+                                       const pendres_state *start,
+                                       const pendres_hysteresis_path *along,
+                                       pendres_hysteresis **out)
+{
+  return find(ctx, p, start, along, 0, out);
+}
+
+pendres_status pendres_hysteresis_states_find(pendres_context *ctx, const pendres_pendulum *p,
+                                              const pendres_state *start,
+                                              const pendres_hysteresis_path *along,
+                                              pendres_hysteresis **out)
+{
+  return find(ctx, p, start, along, 1, out);
 }

@@ -12,11 +12,12 @@
 #include "analysis/sweeps/numbers.h"
 
 /* Whether a part ends at one of the later doublings of a cascade. */
-static int cascades(const pendres_part *s)
+static int cascades(const pendres_path *w)
 {
+  const pendres_part *s = &w->part;
   return s->end == PENDRES_PART_BIFURCATION &&
          s->bifurcation.kind == PENDRES_PERIOD_DOUBLING &&
-         2 * pendres_part_period(s) > PENDRES_HYSTERESIS_PERIOD;
+         2 * pendres_part_period(s) > pendres_path_longest(w);
 }
 
 /* The part that a pendulum goes over to without a jump: that of an orbit born at the end of its
@@ -29,7 +30,7 @@ static pendres_status go_over(pendres_path *w, const pendres_bifurcation *end, d
       end->kind != PENDRES_BRANCH_POINT)
     return PENDRES_NOT_FOUND;
   if (w->part.end != PENDRES_PART_BIRTH)
-    return doubled * end->orbit.period <= PENDRES_HYSTERESIS_PERIOD
+    return doubled * end->orbit.period <= pendres_path_longest(w)
              ? pendres_part_born(w->ctx, end, limit, next)
              : PENDRES_NOT_FOUND;
   const pendres_status status =
@@ -109,7 +110,7 @@ static pendres_status end_part(pendres_path *w, size_t step, double limit)
     j.share = 1.0;
     j.to = w->state.attractor.label;
     j.to_period = pendres_part_period(&next);
-  } else if (status == PENDRES_NOT_FOUND && cascades(&w->part)) {
+  } else if (status == PENDRES_NOT_FOUND && cascades(w)) {
     /* What it goes to is found at the next value. */
     w->state.attractor = pendres_settled_nothing(&end.orbit.pendulum);
     w->state.x = end.orbit.x;
@@ -197,9 +198,9 @@ static double turning_point(const pendres_path *w, size_t i)
   return w->value[i];
 }
 
-int pendres_path_short(const pendres_attractor *a)
+int pendres_path_short(const pendres_path *w, const pendres_attractor *a)
 {
-  return pendres_settled_closed(a) && a->orbit.period <= PENDRES_HYSTERESIS_PERIOD;
+  return pendres_settled_closed(a) && a->orbit.period <= pendres_path_longest(w);
 }
 
 pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
@@ -233,7 +234,7 @@ pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
     } else {
       status = end_part(w, *i, limit);
     }
-    if (status != PENDRES_OK || !pendres_path_short(&w->state.attractor)) return status;
+    if (status != PENDRES_OK || !pendres_path_short(w, &w->state.attractor)) return status;
   }
   return PENDRES_OK;
 }

@@ -9,7 +9,7 @@
 #include "analysis/sweeps/hysteresis_path.h"
 
 /* Whether an attractor is an orbit that can be followed. */
-int pendres_path_short(const pendres_attractor *a);
+int pendres_path_short(const pendres_path *w, const pendres_attractor *a);
 
 /*
  * Follow a pendulum on such an orbit to value number *i and as far beyond as possible, through

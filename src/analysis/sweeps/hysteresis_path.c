@@ -19,6 +19,11 @@ int pendres_path_direction(const pendres_path *w, size_t i)
   return w->value[i] >= from ? 1 : -1;
 }
 
+int pendres_path_longest(const pendres_path *w)
+{
+  return w->states_only ? SWEEP_STATES_PERIOD : PENDRES_HYSTERESIS_PERIOD;
+}
+
 void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
 {
   pendres_hysteresis_point *p = &w->h->point[i];
@@ -56,6 +61,7 @@ void pendres_path_leave(pendres_path *w)
 pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j)
 {
   pendres_hysteresis *h = w->h;
+  if (w->states_only) return PENDRES_OK;
   if (h->jumps == h->jump_room) {
     const size_t room = 2 * h->jump_room + 8;
     if (!pendres_regrow(&h->jump, room, sizeof *h->jump) ||

@@ -24,6 +24,8 @@ typedef struct pendres_path {
   int settled;         /* whether the first of these values has been computed */
   int known, certain;  /* whether the state is known that the path begins on, and whether no error
                           of the integration can have chosen it */
+  int states_only;     /* no ends of states are asked for: what takes their place is met at the
+                          values themselves, wherever no choice is made on the way there */
   double most_slopes;  /* evaluations of the slope that one value may take; 0: the default */
   pendres_hysteresis *h;
   double at;               /* the present value of the parameter */
@@ -44,6 +46,9 @@ pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value);
 
 /* Whether the path goes up (1) or down (-1) to value number i. */
 int pendres_path_direction(const pendres_path *w, size_t i);
+
+/* Orbits of at most so many drive periods are followed by continuation. */
+int pendres_path_longest(const pendres_path *w);
 
 /* Put the attractor at value number i into the results; without a closed orbit, the pendulum's
    state. */

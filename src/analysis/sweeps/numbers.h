@@ -15,6 +15,9 @@
 static const double sweep_usual_slopes = 3e9;
 
 enum {
+  /* The longest orbits that are followed where no bifurcations are asked for: the last doublings of
+     a cascade, which lie within a hundredth of its length, take most of its work. */
+  SWEEP_STATES_PERIOD = 8,
   SWEEP_MOST_JUMPS = 256, /* between two values of the path */
   /* So many at once that the few lanes left at last, which slip past the end of a lock seldom, are
      those of all values of most paths. */
