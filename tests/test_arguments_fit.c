@@ -73,6 +73,22 @@ static void refusals(void **state)
   all.other = PENDRES_PARAMETER_COUNT;
   all.axis = PENDRES_DRIVE_FREQUENCY;
   REFUSED(&all, &model); /* displacements over a frequency, which have no start either */
+  /* Mean velocities: alone, over the torque of a pendulum, without a drive. */
+  for (int i = 0; i < 3; i++) data[i].observable = PENDRES_FIT_MEAN_VELOCITY;
+  open[1] = (pendres_fit_unknown){.quantity = PENDRES_FIT_TORQUE_SCALE, .guess = 1.0};
+  REFUSED(&all, &model); /* over a frequency */
+  all.axis = PENDRES_TORQUE;
+  data[1].observable = PENDRES_FIT_AMPLITUDE;
+  REFUSED(&all, &model);
+  data[1].observable = PENDRES_FIT_MEAN_VELOCITY;
+  model.pendulum.drive_amplitude = 0.1;
+  REFUSED(&all, &model);
+  model.pendulum.drive_amplitude = 0.0;
+  open[1].quantity = PENDRES_FIT_PHASE_OFFSET;
+  REFUSED(&all, &model);
+  open[1].quantity = PENDRES_FIT_TORQUE_SCALE;
+  all.axis = PENDRES_DAMPING; /* there are no torques in the data */
+  REFUSED(&all, &model);
 #undef REFUSED
   assert_int_equal(pendres_fit_find(ctx, &all, &model, NULL, NULL), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_fit_find(NULL, &all, &model, NULL, &fit), PENDRES_INVALID_ARGUMENT);

@@ -167,6 +167,46 @@ static void ringdown(void **state)
   pendres_store_free(s);
 }
 
+/* Currents and voltages of a junction whose critical current and capacitance are told: all is in
+   SI. */
+static void junction(void **state)
+{
+  (void)state;
+  enum { MEASURED = 40, FOUND = 2 };
+  const double current = 1e-5, flux = 6.62607015e-34 / (4.0 * PENDRES_PI * 1.602176634e-19);
+  const double rate = sqrt(current / (1e-12 * flux)), damping = 0.3;
+  char text[700], path[100];
+  double value[FOUND], error[FOUND];
+  pendres_rotation_onset onset;
+  check_ok(pendres_rotation_onset_find(damping, &onset));
+  scene_path("iv", path);
+  FILE *f = fopen(path, "w");
+  assert_non_null(f);
+  fprintf(f, "current, voltage, direction\n");
+  for (int i = 0; i < 2 * MEASURED; i++) {
+    const int up = i < MEASURED;
+    const double torque = 1.8 * (up ? i : 2 * MEASURED - 1 - i) / (MEASURED - 1);
+    const pendres_pendulum p = {.drive_frequency = 1.0, .damping = damping, .torque = torque};
+    pendres_rotation r = {0};
+    if (torque > (up ? 1.0 : onset.torque)) check_ok(pendres_rotation_find(&p, &r, NULL));
+    fprintf(f, "%.17g, %.17g, %d\n", torque * current, flux * rate * r.mean_velocity, up ? 1 : -1);
+  }
+  assert_int_equal(fclose(f), 0);
+  snprintf(text, sizeof text, "&scene kind = 'fit' /\n"
+           "&units critical_current = '10 uA', capacitance = '1 pF' /\n"
+           "&data file = '%s', columns = 'current', 'voltage', 'direction=direction',\n"
+           "  axis = 'torque', observable = 'mean_velocity', error = 1e-7 /\n"
+           "&fit free = 'damping', 'offset' /\n", path);
+  scene_run_deck(text, 1, "junction");
+  pendres_store *s = scene_open("junction");
+  read_numbers(s, "value_si", value, FOUND);
+  read_numbers(s, "value_si_error", error, FOUND);
+  check_near(value[0], damping * rate, 0.05 * error[0]); /* exact data */
+  check_near(value[1], 0.0, 0.05 * error[1]);
+  assert_false(pendres_store_has(s, NULL, "branch_axis"));
+  pendres_store_free(s);
+}
+
 /* Results of our own sweeps are data, without a conversion: what they were computed with comes back
    to a tenth of the errors told, and the jumps with them. */
 static void results_as_data(void **state)
@@ -299,6 +339,10 @@ static void bad_keys(void **state)
     {"free = 'damping', prior = 'damping 1 0'", "must be above 0"},
     {"free = 'damping', prior = 'damping x 0'", "is not of the form 'NAME MEAN ERROR'"},
   };
+  scene_check_refused("&scene kind = 'fit' /\n&data file = 'a', axis = 'torque' /\n"
+                      "&units critical_current = 1, capacitance = 1 /\n"
+                      "&fit free = 'torque_scale' /\n",
+                      "'torque_scale' is what 'critical_current'");
   scene_check_refused("&scene kind = 'fit' /\n&data file = 'a' /\n&fit free = 'dampin' /\n",
                       "did you mean 'damping'");
   scene_check_refused("&scene kind = 'fit' /\n&data file = 'a' /\n", "needs a group &fit with");
@@ -323,7 +367,7 @@ static void bad_keys(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(three_drives), cmocka_unit_test(known_scales),
-                                     cmocka_unit_test(ringdown),
+                                     cmocka_unit_test(ringdown), cmocka_unit_test(junction),
                                      cmocka_unit_test(results_as_data),
                                      cmocka_unit_test(no_convergence),
                                      cmocka_unit_test(bad_data), cmocka_unit_test(bad_keys)};

@@ -37,14 +37,19 @@ int deck_fit_has(const deck *d, const char *name)
 
 int deck_fit_si(const deck *d, const char *name, deck_si *out)
 {
+  /* Readings are of lengths, unless velocities are measured. */
+  const int turns = d->data.observables.count > 0 &&
+                    strcmp(d->data.observables.name[0], "mean_velocity") == 0;
+  const char *of_readings = turns ? "mean_velocity" : "amplitude";
   const int reading = strcmp(name, "offset") == 0 || strncmp(name, "background_", 11) == 0;
   deck_si of;
   if (reading && deck_fit_has(d, "amplitude_scale")) return 0;
-  if (reading) return deck_si_of(d, "amplitude", out);
+  if (reading) return deck_si_of(d, of_readings, out);
   if (strcmp(name, "drive_scale") == 0) return deck_si_of(d, "drive_amplitude", out);
+  if (strcmp(name, "torque_scale") == 0) return deck_si_of(d, "torque", out);
   if (strcmp(name, "frequency_scale") == 0 || strcmp(name, "phase_offset") == 0) return 0;
   if (strcmp(name, "amplitude_scale") != 0) return deck_si_of(d, name, out);
-  if (!deck_si_of(d, "amplitude", &of)) return 0;
+  if (!deck_si_of(d, of_readings, &of)) return 0;
   *out = (deck_si){ .factor = 1.0 / of.factor };
   snprintf(out->units, sizeof out->units, "%.20s-1", of.units);
   return 1;
@@ -155,5 +160,6 @@ void deck_check_fit(deck_builder *b)
   check_entries(b, "bounds", &d->fit.bounds, "NAME LOW HIGH");
   check_entries(b, "prior", &d->fit.prior, "NAME MEAN ERROR");
   if (!isnan(d->units.natural_frequency)) refuse_scale(b, "frequency_scale", "natural_frequency");
+  if (!isnan(d->units.critical_current)) refuse_scale(b, "torque_scale", "critical_current");
   if (!isnan(d->units.volts_per_length)) refuse_scale(b, "amplitude_scale", "volts_per_length");
 }

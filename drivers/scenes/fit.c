@@ -60,6 +60,7 @@ static void set_unknowns(fit_work *w)
   const deck *d = w->d;
   w->model = d->pendulum;
   w->model.temperature = 0.0;
+  if (fit_is_rotation(d) && isnan(w->model.drive_amplitude)) w->model.drive_amplitude = 0.0;
   for (size_t i = 0; i < d->fit.free.count; i++) {
     const int q = quantity_of(d->fit.free.name[i]);
     double guess = q < PENDRES_PARAMETER_FOLLOWED
@@ -93,7 +94,7 @@ static void check_model(fit_work *w)
     const pendres_parameter p = needed[i];
     if (!isnan(pendres_parameter_get(p, &w->model)) || p == w->data.of.axis ||
         p == w->data.of.other || unknown_of(w, (int)p) != NULL ||
-        (fit_is_decay(w->d) && p != PENDRES_DAMPING))
+        ((fit_is_decay(w->d) || fit_is_rotation(w->d)) && p != PENDRES_DAMPING))
       continue;
     (void)scene_fail(w->run, PENDRES_INVALID_ARGUMENT,
                      "%s: '%s' is neither in &pendulum, nor free, nor a column of the data: give "

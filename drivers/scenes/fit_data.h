@@ -41,6 +41,13 @@ static inline int fit_is_decay(const deck *d)
   return strcmp(d->data.axis, "time") == 0;
 }
 
+/* Whether they are mean velocities, of rest and rotations without a drive. */
+static inline int fit_is_rotation(const deck *d)
+{
+  return d->data.observables.count > 0 &&
+         strcmp(d->data.observables.name[0], "mean_velocity") == 0;
+}
+
 /* Standard error of unknown number i. */
 double fit_error(const fit_work *w, size_t i);
 

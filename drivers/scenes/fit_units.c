@@ -3,7 +3,7 @@
  * own units when they have been read; see fit_data.h.
  *
  * What is in an instrument's unit stays in it: drives beside a drive_scale that is sought or told,
- * and readings beside an amplitude_scale.
+ * torques beside a torque_scale, and readings beside an amplitude_scale.
  */
 #include <math.h>
 #include <string.h>
@@ -17,6 +17,7 @@ int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out)
   if (p == PENDRES_PARAMETER_COUNT)
     return fit_is_decay(w->d) && deck_si_of(w->d, "drive_period", out);
   if (p == PENDRES_DRIVE_AMPLITUDE && deck_fit_has(w->d, "drive_scale")) return 0;
+  if (p == PENDRES_TORQUE && deck_fit_has(w->d, "torque_scale")) return 0;
   return deck_si_of(w->d, pendres_parameter_of(p)->name, out);
 }
 

@@ -287,6 +287,6 @@ void fit_write(const fit_work *w)
   write_summary(w);
   write_data(w);
   write_jumps(w);
-  if (!fit_is_decay(w->d)) write_curves(w);
+  if (!fit_is_decay(w->d) && !fit_is_rotation(w->d)) write_curves(w);
   fit_units_mark(w);
 }

@@ -41,13 +41,16 @@ extern "C" {
   X(IN_PHASE, "in_phase")                                  \
   X(QUADRATURE, "quadrature")                              \
   X(LOOP_AREA, "loop_area")                                \
-  X(DISPLACEMENT, "displacement")
+  X(DISPLACEMENT, "displacement")                          \
+  X(MEAN_VELOCITY, "mean_velocity")
 
 /**
  * An observable. AMPLITUDE: half the peak-to-peak; RMS: the root mean square of the distance from
  * the mean; FIRST_HARMONIC: its amplitude; PHASE_LAG: by which the first harmonic lags behind the
  * drive, in rad; IN_PHASE and QUADRATURE: R cos(lag) and R sin(lag) of it; LOOP_AREA: work of the
- * drive a cycle; of free decays DISPLACEMENT: from the bottom of the well, at a time.
+ * drive a cycle; of free decays DISPLACEMENT: from the bottom of the well, at a time; of junctions,
+ * which are pendulums without a drive, over the torque, MEAN_VELOCITY: 0 at rest, and of rotations
+ * 2 pi over their period, with their sign.
  * PENDRES_FIT_OBSERVABLE_COUNT: how many there are.
  */
 typedef enum pendres_fit_observable {
@@ -67,7 +70,8 @@ typedef enum pendres_fit_observable {
   X(BACKGROUND_IN_PHASE, "background_in_phase", 0.0)        \
   X(BACKGROUND_QUADRATURE, "background_quadrature", 0.0)    \
   X(START_DISPLACEMENT, "start_displacement", 0.0)          \
-  X(START_VELOCITY, "start_velocity", 0.0)
+  X(START_VELOCITY, "start_velocity", 0.0)                  \
+  X(TORQUE_SCALE, "torque_scale", 1.0)
 
 /**
  * What a fit may find: the parameters by their numbers, pendres_parameter below
@@ -79,6 +83,8 @@ typedef enum pendres_fit_observable {
  * the quadratures; START_...: of a free decay the model's state at the first datum, displacements
  * being measured from the bottom of the well. For data over time FREQUENCY_SCALE, where it is an
  * unknown, makes seconds: the model's time is 2 pi FREQUENCY_SCALE times the data's.
+ * TORQUE_SCALE: the model's torque over the data's, of a junction one over its critical current;
+ * the AMPLITUDE_SCALE of mean velocities is a reading over the model's velocity.
  * PENDRES_FIT_QUANTITY_COUNT: how many there are.
  */
 typedef enum pendres_fit_quantity {

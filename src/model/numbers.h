@@ -48,6 +48,10 @@ static const double rotation_shortest = 1e-14;
    with the velocity apart. */
 static const double rotation_rounded_velocity = 4.0, rotation_rounded_period = 10.0;
 
+/* A rotation this share above the least torque, at which the change of the torque with the damping
+   is that of the least one to seven digits or so, and rounding takes no more of them. */
+static const double rotation_near_onset = 1e-8;
+
 /* The error of a polynomial, relative to the velocity; its slope is less exact. */
 static const double rotation_finest = 1e-15;
 

@@ -17,6 +17,7 @@
 
 #include "base/angles.h"
 #include "model/numbers.h"
+#include "model/rotation_slope.h"
 #include "model/rotation_stiff.h"
 
 enum { ORDER = 28 /* of series */ };
@@ -326,6 +327,99 @@ static double longer_by(const motion *m, double v, double change, double period)
   const double more = turn_from(m, v + change), less = turn_from(m, v - change);
   if (isnan(more) || isnan(less)) return period;
   return fmax(fabs(more - period), fabs(less - period));
+}
+
+/* ---- derivatives by torque and damping, at fixed angles ---- */
+
+/* Series of the velocity's derivative: (v d)' = what is added to the force - damping d. */
+static void derivative_series(const motion *m, const double v[ORDER + 1], int by,
+                              double d[ORDER + 1])
+{
+  for (int k = 0; k < m->how.order; k++) {
+    const double added = (by == ROTATION_BY_TORQUE && k == 0) - (by == ROTATION_BY_DAMPING) * v[k];
+    double rest = (added - m->damping * d[k]) / (k + 1);
+    for (int j = 1; j <= k + 1; j++) rest -= v[j] * d[k + 1 - j];
+    d[k + 1] = rest / v[0];
+  }
+}
+
+/* The integral of d / v^2 over a step. */
+static double slower(const motion *m, const double d[ORDER + 1], const double inverse[ORDER + 1],
+                     double h)
+{
+  double square[ORDER + 1] = {0.0}, sum[ORDER + 1] = {0.0};
+  for (int k = 0; k <= m->how.order; k++)
+    for (int j = 0; j <= k; j++) square[k] += inverse[j] * inverse[k - j];
+  for (int k = 0; k <= m->how.order; k++)
+    for (int j = 0; j <= k; j++) sum[k] += d[j] * square[k - j];
+  return integral_over(m, sum, h);
+}
+
+static double value_at(const motion *m, const double c[ORDER + 1], double h)
+{
+  double v = c[m->how.order];
+  for (int k = m->how.order - 1; k >= 0; k--) v = fma(v, h, c[k]);
+  return v;
+}
+
+/* Those of a turn that begins with the velocity v at y = 0. */
+static void turn_slopes(const motion *m, double v, rotation_slopes *out)
+{
+  const double to = start_of(m) + two_pi;
+  *out = (rotation_slopes){.velocity[ROTATION_BY_START] = 1.0};
+  for (double s = start_of(m); s < to;) {
+    double f[ORDER + 1], c[ORDER + 1] = {v}, inverse[ORDER + 1];
+    force_series(m, s, f);
+    velocity_series(m, f, c);
+    inverse_series(m, c, inverse);
+    const double step = fmin(longest(m, c), longest(m, inverse)), h = fmin(step, to - s);
+    for (int k = 0; k < ROTATION_SLOPES; k++) {
+      double d[ORDER + 1] = {out->velocity[k]};
+      derivative_series(m, c, k, d);
+      out->time[k] -= slower(m, d, inverse, h);
+      out->velocity[k] = value_at(m, d, h);
+    }
+    v = value_at(m, c, h);
+    s = step >= to - s ? to : s + h;
+    if (!(step > rotation_shortest)) out->time[0] = s = NAN;
+  }
+}
+
+int pendres_rotation_slope_at(double damping, double torque, pendres_rotation_slope *out)
+{
+  const motion m = at_torque(damping, torque, coarser);
+  rotation_slopes turn;
+  double period;
+  const double v = sound_damping(damping) && torque > 0.0 ? rotation_at(&m, &period) : NAN;
+  if (isnan(v) || !isfinite(period)) return 0;
+  if (by_collocation(&m))
+    (void)pendres_rotation_stiff_slopes(damping, torque, m.how.panel, v, &turn);
+  else turn_slopes(&m, v, &turn);
+  double by[ROTATION_SLOPES];
+  for (int k = 0; k < ROTATION_SLOPES; k++) {
+    /* The velocity at the start is the same after a turn; a deviation is less by the multiplier. */
+    const double start = turn.velocity[k] / -expm1(-damping * period);
+    by[k] = turn.time[k] + (k != ROTATION_BY_START ? start * turn.time[ROTATION_BY_START] : 0.0);
+  }
+  out->mean_velocity = two_pi / period;
+  out->by_torque = -out->mean_velocity / period * by[ROTATION_BY_TORQUE];
+  out->by_damping = -out->mean_velocity / period * by[ROTATION_BY_DAMPING];
+  return isfinite(out->by_torque) && isfinite(out->by_damping);
+}
+
+int pendres_rotation_onset_slope(double damping, double *torque, double *by_damping)
+{
+  pendres_rotation_onset onset;
+  pendres_rotation_slope at;
+  *by_damping = 0.0;
+  if (pendres_rotation_onset_find(damping, &onset) != PENDRES_OK) return 0;
+  *torque = onset.torque;
+  if (onset.end == PENDRES_ROTATION_SADDLE_NODE) return 1;
+  /* Along the rotations of a period; this one is so long that they are as far from the onset. */
+  const double near = onset.torque * (1.0 + rotation_near_onset);
+  if (!pendres_rotation_slope_at(damping, near, &at)) return 0;
+  *by_damping = -at.by_damping / at.by_torque;
+  return 1;
 }
 
 static const char *refuses(const pendres_pendulum *p)

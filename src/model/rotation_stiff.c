@@ -11,6 +11,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 #include "base/angles.h"
 #include "model/numbers.h"
@@ -30,6 +31,7 @@ typedef struct rule {
 typedef struct stiff {
   double damping, torque;
   rule rule;
+  rotation_slopes *slopes; /* carried along; NULL: not wanted */
 } stiff;
 
 static void swap(double *a, double *b)
@@ -143,6 +145,15 @@ static void guess(const stiff *m, double v, double h, const double force[NODES],
   }
 }
 
+/* The matrix of the panel's equations, derived by the slopes at the nodes. */
+static void matrix(const rule *r, double damping, double h, const double slope[NODES],
+                   const double velocity[NODES], double a[NODES][NODES])
+{
+  for (int i = 0; i < NODES; i++)
+    for (int j = 0; j < NODES; j++)
+      a[i][j] = (slope[i] + damping) * h * r->integral[i][j] + (i == j ? velocity[i] : 0.0);
+}
+
 /* Newton's method for the slopes at the nodes; whether it has converged. */
 static int improve(const stiff *m, double v, double h, const double force[NODES],
                    double slope[NODES], double velocity[NODES])
@@ -152,12 +163,9 @@ static int improve(const stiff *m, double v, double h, const double force[NODES]
   for (int k = 0; k < NEWTON_STEPS; k++) {
     double a[NODES][NODES], b[1][NODES];
     if (!(velocities(r, v, h, slope, velocity) > 0.0)) return 0;
-    for (int i = 0; i < NODES; i++) {
-      const double pull = slope[i] + m->damping;
-      b[0][i] = force[i] - velocity[i] * pull;
-      for (int j = 0; j < NODES; j++)
-        a[i][j] = pull * h * r->integral[i][j] + (i == j ? velocity[i] : 0.0);
-    }
+    matrix(r, m->damping, h, slope, velocity, a);
+    for (int i = 0; i < NODES; i++)
+      b[0][i] = force[i] - velocity[i] * (slope[i] + m->damping);
     solve(a, 1, b);
     before = change;
     change = 0.0;
@@ -169,6 +177,28 @@ static int improve(const stiff *m, double v, double h, const double force[NODES]
     if (change < 1e-11 || (change < 1e-8 && change > 0.1 * before)) break;
   }
   return change < 1e-8 && velocities(r, v, h, slope, velocity) > 0.0;
+}
+
+/* Derivatives of velocity and time over a panel that has been found. */
+static void carry(const stiff *m, double h, const double slope[NODES],
+                  const double velocity[NODES])
+{
+  const rule *r = &m->rule;
+  double a[NODES][NODES], b[ROTATION_SLOPES][NODES];
+  matrix(r, m->damping, h, slope, velocity, a);
+  for (int k = 0; k < ROTATION_SLOPES; k++)
+    for (int i = 0; i < NODES; i++)
+      b[k][i] = (k == ROTATION_BY_TORQUE) - (k == ROTATION_BY_DAMPING) * velocity[i] -
+                (slope[i] + m->damping) * m->slopes->velocity[k];
+  solve(a, ROTATION_SLOPES, b);
+  for (int k = 0; k < ROTATION_SLOPES; k++) {
+    double by[NODES], passed = 0.0;
+    (void)velocities(r, m->slopes->velocity[k], h, b[k], by);
+    for (int i = 0; i < NODES; i++)
+      passed += r->integral[NODES - 1][i] * by[i] / (velocity[i] * velocity[i]);
+    m->slopes->velocity[k] = by[NODES - 1];
+    m->slopes->time[k] -= h * passed;
+  }
 }
 
 /*
@@ -192,6 +222,7 @@ static double panel(const stiff *m, double s, double v, double h, double *time)
   if (missing(r, velocity) > rotation_finest * least ||
       missing(r, inverse) > rotation_finest * largest) return NAN;
   *time += h * passed;
+  if (m->slopes != NULL) carry(m, h, slope, velocity);
   return velocity[NODES - 1];
 }
 
@@ -234,6 +265,16 @@ double pendres_rotation_stiff_period(double damping, double torque, double wides
 {
   stiff m = {.damping = damping, .torque = torque};
   double period = NAN;
+  make_rule(&m.rule);
+  return isnan(turn(&m, v, widest, &period)) ? NAN : period;
+}
+
+double pendres_rotation_stiff_slopes(double damping, double torque, double widest, double v,
+                                     rotation_slopes *out)
+{
+  stiff m = {.damping = damping, .torque = torque, .slopes = out};
+  double period = NAN;
+  *out = (rotation_slopes){.velocity[ROTATION_BY_START] = 1.0};
   make_rule(&m.rule);
   return isnan(turn(&m, v, widest, &period)) ? NAN : period;
 }

@@ -19,4 +19,15 @@ double pendres_rotation_stiff(double damping, double torque, double widest, doub
 /* The time of a turn that begins with the velocity v at y = 0. */
 double pendres_rotation_stiff_period(double damping, double torque, double widest, double v);
 
+/* What a turn does to the velocity and takes of time, derived by the velocity at its start, the
+   torque and the damping. */
+enum { ROTATION_BY_START, ROTATION_BY_TORQUE, ROTATION_BY_DAMPING, ROTATION_SLOPES };
+typedef struct rotation_slopes {
+  double velocity[ROTATION_SLOPES], time[ROTATION_SLOPES];
+} rotation_slopes;
+
+/* Those of the turn of a rotation that begins with the velocity v; returns its time. */
+double pendres_rotation_stiff_slopes(double damping, double torque, double widest, double v,
+                                     rotation_slopes *out);
+
 #endif

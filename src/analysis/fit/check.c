@@ -15,6 +15,9 @@ static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_da
   if (d->axis == PENDRES_PARAMETER_COUNT && one->direction != 1) return "time goes one way";
   if ((d->axis == PENDRES_PARAMETER_COUNT) != (one->observable == PENDRES_FIT_DISPLACEMENT))
     return "a displacement is a datum over time, and nothing else is";
+  if ((one->observable == PENDRES_FIT_MEAN_VELOCITY) !=
+      (d->datum[0].observable == PENDRES_FIT_MEAN_VELOCITY))
+    return "mean velocities are fitted alone: leave the other observables out";
   if (d->axis != PENDRES_PARAMETER_COUNT && pendres_parameter_of(d->axis)->positive &&
       !(one->axis > 0.0))
     return "the swept parameter must be positive";
@@ -45,6 +48,25 @@ static const char *refuses_data(const pendres_fit_data *d)
   return NULL;
 }
 
+/* Mean velocities are those of rest and rotations, without a drive. */
+static const char *refuses_rotations(const pendres_fit_call *c)
+{
+  const pendres_pendulum *p = &c->model->pendulum;
+  const int of_damping = c->data->other == PENDRES_DAMPING;
+  if (c->data->axis != PENDRES_TORQUE || (c->data->other != PENDRES_PARAMETER_COUNT && !of_damping))
+    return "mean velocities are measured over the torque, at one or several dampings";
+  if (p->force != PENDRES_FORCE_PENDULUM) return "only the pendulum's force has rotations";
+  if (p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0)
+    return "mean velocities are those without a drive: its amplitude must be 0";
+  for (size_t i = 0; i < c->model->unknowns; i++) {
+    const int q = c->model->unknown[i].quantity;
+    if (q != PENDRES_DAMPING && q != PENDRES_FIT_TORQUE_SCALE && q != PENDRES_FIT_OFFSET &&
+        q != PENDRES_FIT_AMPLITUDE_SCALE)
+      return "mean velocities tell damping, torque_scale, amplitude_scale and offset alone";
+  }
+  return NULL;
+}
+
 static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_unknown *u)
 {
   const int q = u->quantity;
@@ -56,6 +78,9 @@ static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_
                      c->data->other == PENDRES_DRIVE_AMPLITUDE;
   if (q == PENDRES_FIT_DRIVE_SCALE && !drives)
     return "drive_scale is of drives that the data give, and they give none";
+  if (q == PENDRES_FIT_TORQUE_SCALE && c->data->axis != PENDRES_TORQUE &&
+      c->data->other != PENDRES_TORQUE)
+    return "torque_scale is of torques that the data give, and they give none";
   const int clocks = c->data->axis == PENDRES_DRIVE_FREQUENCY ||
                      c->data->other == PENDRES_DRIVE_FREQUENCY;
   if (q == PENDRES_FIT_FREQUENCY_SCALE && !clocks && !decays)
@@ -85,6 +110,9 @@ pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c
   const char *why =
     pendres_model_of(model->pendulum.force) == NULL ? "the pendulum has no force" : NULL;
   if (why == NULL) why = refuses_data(c->data);
+  if (why == NULL && c->data->n > 0 &&
+      c->data->datum[0].observable == PENDRES_FIT_MEAN_VELOCITY)
+    why = refuses_rotations(c);
   if (why == NULL && PENDRES_SIZED_REFUSES(&c->options) != NULL)
     why = PENDRES_SIZED_REFUSES(&c->options);
   if (why == NULL && !(c->options.huber >= 0.0 && c->options.jump_error >= 0.0 &&

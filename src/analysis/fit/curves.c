@@ -353,6 +353,7 @@ static void widen_pieces(const fit_model *m, fit_curve *c)
 pendres_status pendres_fit_curves(fit_model *m, const fit_values v)
 {
   pendres_status status = PENDRES_OK;
+  if (m->rotates) return pendres_fit_rotation_curves(m, v);
   m->lost = NULL;
   for (size_t k = 0; k < m->curves && status == PENDRES_OK; k++) {
     fit_curve *c = &m->curve[k];

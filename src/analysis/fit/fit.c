@@ -57,7 +57,7 @@ static pendres_pendulum typical(const pendres_fit_call *c, const fit_model *m, c
   for (int q = 0; q < PENDRES_PARAMETER_FOLLOWED; q++)
     pendres_parameter_set((pendres_parameter)q, v[q], &p);
   p.temperature = 0.0;
-  if (m->decays) {
+  if (m->decays || m->rotates) {
     p.drive_frequency = 1.0;
     p.drive_amplitude = p.parametric_amplitude = 0.0;
     return p;
@@ -75,7 +75,8 @@ static void set_units(fit_model *m, const pendres_units *u)
     m->unit[q] = pendres_units_of_parameter(u, (pendres_parameter)q);
   m->unit[PENDRES_FIT_FREQUENCY_SCALE] = u->time;
   m->unit[PENDRES_FIT_DRIVE_SCALE] = m->unit[PENDRES_DRIVE_AMPLITUDE];
-  m->unit[PENDRES_FIT_AMPLITUDE_SCALE] = 1.0 / u->length;
+  m->unit[PENDRES_FIT_TORQUE_SCALE] = m->unit[PENDRES_TORQUE];
+  m->unit[PENDRES_FIT_AMPLITUDE_SCALE] = (m->rotates ? u->time : 1.0) / u->length;
   m->unit[PENDRES_FIT_START_DISPLACEMENT] = u->length;
   m->unit[PENDRES_FIT_START_VELOCITY] = u->length / u->time;
   m->area = u->length * u->length / (u->time * u->time);
@@ -283,8 +284,9 @@ static int find_starts(const pendres_fit_call *c, fit_model *m,
           c->model->unknown[i].quantity != PENDRES_FIT_OFFSET)
         open[c->model->unknown[i].quantity] = NAN;
   }
-  count += m->decays ? pendres_fit_decay_guess(m, open, start + count)
-                     : pendres_fit_guess(m, open, start + count);
+  count += m->decays    ? pendres_fit_decay_guess(m, open, start + count)
+           : m->rotates ? pendres_fit_rotation_guess(m, open, start + count)
+                        : pendres_fit_guess(m, open, start + count);
   for (int k = 0; k < count; k++)
     for (int q = 0; q < FIT_QUANTITIES; q++)
       if (isnan(start[k][q])) start[k][q] = 0.0;
@@ -318,8 +320,10 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
                                 "of the unknowns", m->lost != NULL ? "; the last: " : "",
                                 m->lost != NULL ? m->lost : "");
   forget_curves(&p);
+  const int converged = best.converged; /* also where derivatives do not tell */
   status = pendres_fit_conclude(&p, &best);
   if (status != PENDRES_OK) return status;
+  best.converged |= converged;
   status = pendres_fit_result(c, &p, &best);
   if (status == PENDRES_NOT_CONVERGED)
     (void)pendres_context_fail(ctx, status, "the fit has not converged; the values are the best");

@@ -33,6 +33,7 @@ typedef struct fit_lane {
   double base[FIT_BASES]; /* the observables, in canonical units */
   double slope[FIT_BASES][PENDRES_PARAMETER_FOLLOWED]; /* along the curve, by parameters */
   double axis_slope[PENDRES_PARAMETER_FOLLOWED];       /* of the axis, within the border's plane */
+  int gradual; /* of the end of a piece: what follows begins there as it ends */
   double start_slope[2], time_slope; /* of decays: of the displacement, by the state at their start,
                                         and by the logarithm of the time */
 } fit_lane;
@@ -54,6 +55,7 @@ typedef struct fit_piece {
   int stable;
   int fold[2];
   double low, high; /* of the axis */
+  int state; /* of rotations the way that they turn, 0: at rest */
 } fit_piece;
 
 /* The orbits over the axis at one value of the other parameter. */
@@ -100,6 +102,8 @@ typedef struct fit_model {
   fit_track *track;
   fit_station *station;
   int decays;    /* the data are over time */
+  int rotates;   /* they are mean velocities */
+  size_t left;   /* data that do not count, next to where a rotation ends */
   size_t active; /* of these the stations that count */
   int measured[FIT_BASES];
   /* Parameters by which derivatives are wanted, and the blocks that give them. */
@@ -205,6 +209,17 @@ enum { FIT_GUESSES = 16 };
 
 /* The motion at all stations that count. */
 pendres_status pendres_fit_decay(fit_model *m, const fit_values v);
+
+/* ---- rotations.c ---- */
+
+/* The pieces over the torque of rest and rotations. */
+pendres_status pendres_fit_rotation_curves(fit_model *m, const fit_values v);
+
+/* Mean velocities of all lanes. */
+void pendres_fit_rotations(fit_model *m);
+
+/* Values to begin with; how many there are. */
+int pendres_fit_rotation_guess(const fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
 
 /* ---- decay_guess.c ---- */
 

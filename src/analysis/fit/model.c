@@ -14,6 +14,7 @@ static int scale_of(pendres_parameter p)
 {
   return p == PENDRES_DRIVE_FREQUENCY   ? (int)PENDRES_FIT_FREQUENCY_SCALE
          : p == PENDRES_DRIVE_AMPLITUDE ? (int)PENDRES_FIT_DRIVE_SCALE
+         : p == PENDRES_TORQUE          ? (int)PENDRES_FIT_TORQUE_SCALE
                                         : -1;
 }
 
@@ -82,7 +83,7 @@ static double by_scale(pendres_parameter p, const fit_values v, const fit_lane *
 {
   const double value = l->u[PENDRES_U_OMEGA + (int)p];
   return p == PENDRES_DRIVE_FREQUENCY ? -value / v[PENDRES_FIT_FREQUENCY_SCALE]
-                                      : value / v[PENDRES_FIT_DRIVE_SCALE];
+                                      : value / v[scale_of(p)];
 }
 
 double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lane *l,
@@ -187,6 +188,7 @@ pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
   m->datum = data->datum;
   m->axis = data->axis;
   m->decays = data->axis == PENDRES_PARAMETER_COUNT;
+  m->rotates = data->datum[0].observable == PENDRES_FIT_MEAN_VELOCITY;
   m->other = data->other;
   for (size_t k = 0; k < n; k++)
     s[k] = (sorted){&data->datum[k],

@@ -29,6 +29,7 @@ enum {
   FIT_GUESS_SIZES = 17,   /* and largest amplitudes, four a decade from 3 down */
   FIT_GUESS_STARTS = 10,  /* that are improved */
   FIT_GUESS_RAW = 6, /* that are tried as they are as well */
+  FIT_GUESS_DAMPINGS = 10, /* of junctions, from fit_guess_damping on */
   /* Data of a free decay that a guess looks at: at first, and until there are a few cycles. The
      latter takes a tenth of a second. */
   FIT_DECAY_FIRST = 32,
@@ -91,6 +92,17 @@ static const double fit_correlated = 5.0;
 
 /* Data below this share of the largest are left out of a guess: noise would count most there. */
 static const double fit_guess_least = 0.3;
+
+/* A junction shows a voltage from this share of the largest on. */
+static const double fit_guess_voltage = 0.1;
+
+/* About the velocity of a rotation next to its end over that of the two before it. At a damping of
+   0.1 and gaps of 0.03 it is 0.53 a tenth of a gap from the end. */
+static const double fit_last_voltage = 0.5;
+
+/* The first damping that is tried of a junction, and the factor to the next: what bends the curve
+   above the critical current and moves its lower end changes by as much. */
+static const double fit_guess_damping = 0.02, fit_guess_dampings = 2.0;
 
 /* Cycles that tell the frequency of a free decay to some per cent. */
 static const double fit_decay_cycles = 3.0;

@@ -189,9 +189,11 @@ static void take_jumps(const fit_problem *p, const fit_result *best, pendres_fit
       const fit_curve *c = &m->curve[t->curve];
       const fit_piece *piece = &c->piece[t->piece[j]];
       const int fold = piece->fold[(piece->way > 0) == (t->direction > 0)];
+      const fit_lane *l = &m->lane[c->fold[fold].lane];
       fit_values slope;
+      if (l->gradual) continue;
       pendres_fit_jump *to = &fit->jump[fit->jumps++];
-      to->value = pendres_fit_fold_at(m, best->v, &m->lane[c->fold[fold].lane], slope);
+      to->value = pendres_fit_fold_at(m, best->v, l, slope);
       to->value_error = error_of(p, best, slope);
       to->direction = t->direction;
       to->other = m->other != PENDRES_PARAMETER_COUNT ? c->other : NAN;

@@ -27,7 +27,7 @@ static double encode(fit_free *f, double value)
   const int q = f->quantity;
   const int positive = q == PENDRES_DAMPING || q == PENDRES_FIT_FREQUENCY_SCALE ||
                        q == PENDRES_FIT_AMPLITUDE_SCALE || q == PENDRES_FIT_DRIVE_SCALE ||
-                       q == PENDRES_DRIVE_AMPLITUDE;
+                       q == PENDRES_FIT_TORQUE_SCALE || q == PENDRES_DRIVE_AMPLITUDE;
   f->form = positive && value > 0.0 ? FIT_LOGARITHM : FIT_PLAIN;
   f->unit = value != 0.0 ? fabs(value) : 1.0;
   return f->form == FIT_LOGARITHM ? log(value) : value / f->unit;
@@ -198,6 +198,9 @@ pendres_status pendres_fit_solve(fit_problem *p, int iterations, fit_result *out
       break;
     }
   }
+  /* Where data come to be left out chi-square has steps, about which the solver goes to and fro. */
+  if (status == PENDRES_OK && out->computed && p->m->left > 0)
+    out->converged |= out->remaining < fit_kinked;
   return status;
 }
 
@@ -248,7 +251,7 @@ static void read_decomposition(const fit_problem *p, const gsl_matrix *u, const 
 
 static double freedom_of(const fit_problem *p)
 {
-  double count = (double)p->m->data - (double)p->unknowns;
+  double count = (double)(p->m->data - p->m->left) - (double)p->unknowns;
   for (size_t i = 0; i < pendres_fit_rows(p->m) - p->m->data; i++) count += p->rows.used[i] == 1;
   for (size_t k = 0; k < p->unknowns; k++)
     count += (p->free[k].prior_error > 0.0) + p->free[k].at_bound;

@@ -57,7 +57,12 @@ static void set_lane(fit_model *m, const fit_values v, const fit_track *t, fit_s
   }
   fit_lane *l = &m->lane[m->lanes];
   *l = (fit_lane){.border = {0.0, 0.0, 1.0}};
-  pendres_fit_between(m, c, p, axis, l->u);
+  if (m->rotates) {
+    pendres_fit_point_at(m, c, v, axis, l->u);
+    l->u[PENDRES_U_W] = p->state;
+  } else {
+    pendres_fit_between(m, c, p, axis, l->u);
+  }
   s->lane[stage] = (long)m->lanes++;
 }
 
@@ -117,7 +122,7 @@ pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
 {
   int steps = 0;
   if (m->decays) return pendres_fit_decay(m, v);
-  pendres_status status = choose_steps(m, &steps);
+  pendres_status status = m->rotates ? PENDRES_OK : choose_steps(m, &steps);
   if (status != PENDRES_OK) return status;
   if (m->usual_steps == 0) m->usual_steps = steps;
   if (steps > FIT_MORE_STEPS * m->usual_steps || steps > FIT_MOST_STEPS) {
@@ -131,7 +136,8 @@ pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
     for (size_t i = t->first; i < t->first + t->count; i++)
       for (int j = 0; j < t->stages; j++) set_lane(m, v, t, &m->station[i], j);
   }
-  status = pendres_fit_orbits(m, steps, m->lanes, m->lane);
+  if (m->rotates) pendres_fit_rotations(m);
+  else status = pendres_fit_orbits(m, steps, m->lanes, m->lane);
   for (size_t k = 0; k < m->tracks && status == PENDRES_OK; k++) {
     const fit_track *t = &m->track[k];
     for (size_t i = t->first; i < t->first + t->count; i++)
@@ -185,6 +191,25 @@ static void gap_before(const fit_model *m, const fit_track *t, size_t i, double 
   gap[1] = i < t->count ? m->station[t->first + i].axis : NAN;
 }
 
+/*
+ * The deviation, in gaps, of where data jump that hardly tell a rotation from rest, between station
+ * i - 1 and i. A datum on the wrong state costs d^2 of chi-square, where d is by how many errors
+ * the data on both sides differ; n of them are exp(-d^2/2)^n as likely as none, on either side.
+ * Next to the gap the velocity of a rotation falls steeply: the data there are not read.
+ */
+static double blur(const fit_model *m, const fit_terms *terms, const fit_track *t, size_t i)
+{
+  double observed[4];
+  if (!m->rotates || i < 2 || i >= t->count) return 0.0;
+  const size_t at[4] = {i > 2 ? i - 3 : i - 2, i - 2, i, i + 1 < t->count ? i + 1 : i};
+  for (int k = 0; k < 4; k++)
+    observed[k] = m->datum[m->order[m->station[t->first + at[k]].first]].observed;
+  const double step = 0.5 * (observed[0] + observed[1] - observed[2] - observed[3]);
+  const double d = fit_last_voltage * step / terms->error[m->order[m->station[t->first + i].first]];
+  const double wrong = exp(-0.5 * d * d);
+  return sqrt(2.0 * wrong) / fmax(1.0 - wrong, 1.0 / (double)t->count);
+}
+
 /* The residual of a jump of the model from a stage, if the data's is in this gap: from its middle
    in units of the deviation of an even spread over it; beyond the data from their end. *scale is
    that unit. */
@@ -221,6 +246,7 @@ static double jump_cost(const fit_model *m, const fit_values v, const fit_terms 
   fit_values unused;
   const fit_lane *l = fold_lane(m, t, stage);
   if (l == NULL || !l->found) return INFINITY;
+  if (l->gradual) return 0.0;
   gap_before(m, t, i, gap);
   const double r =
     jump_residual(m, t, terms, gap, pendres_fit_fold_at(m, v, l, unused), &scale);
@@ -276,11 +302,14 @@ static void take_jumps(const fit_model *m, const fit_values v, const fit_terms *
     rows->used[row - m->data] = 0;
     rows->residual[row] = 0.0;
     memset(rows->slope[row], 0, sizeof rows->slope[row]);
-    if (j + 1 >= t->stages) continue;
+    if (j + 1 >= t->stages || fold_lane(m, t, j)->gradual) continue;
     while (i < t->count && m->station[t->first + i].stage <= j) i++;
     gap_before(m, t, i, gap);
     const double fold = pendres_fit_fold_at(m, v, fold_lane(m, t, j), rows->slope[row]);
-    rows->residual[row] = jump_residual(m, t, terms, gap, fold, &scale);
+    const double sharp = jump_residual(m, t, terms, gap, fold, &scale);
+    const double before = scale, wide = blur(m, terms, t, i);
+    if (wide > 0.0) scale = hypot(scale, wide * fabs(gap[1] - gap[0]));
+    rows->residual[row] = wide > 0.0 ? sharp * before / scale : sharp;
     rows->used[row - m->data] = isnan(gap[0]) || isnan(gap[1]) ? 2 : 1;
     const int free_of = rows->residual[row] == 0.0 && rows->used[row - m->data] == 2;
     for (int q = 0; q < FIT_QUANTITIES; q++)
@@ -288,8 +317,21 @@ static void take_jumps(const fit_model *m, const fit_values v, const fit_terms *
   }
 }
 
+/* Whether a station is one of the last two before a rotation ends, where its velocity falls like
+   one over a logarithm: what noise does to it is no small change of the torque, and the place of
+   the jump says as much. */
+static int is_left(const fit_model *m, const fit_track *t, size_t i)
+{
+  const fit_station *s = &m->station[i];
+  const size_t last = t->first + t->count - 1;
+  if (!m->rotates || m->station[i + 2 < last ? i + 2 : last].stage == s->stage) return 0;
+  return m->curve[t->curve].piece[t->piece[s->stage]].state != 0 &&
+         !fold_lane(m, t, s->stage)->gradual;
+}
+
 void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *terms, fit_rows *rows)
 {
+  m->left = 0;
   for (size_t k = 0; k < m->tracks; k++) {
     fit_track *t = &m->track[k];
     assign(m, v, terms, t, rows->from);
@@ -300,7 +342,9 @@ void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *te
         const double error = terms->error[datum];
         rows->residual[datum] = residual_of(m, v, s, s->stage, datum, rows->slope[datum]) / error;
         for (int q = 0; q < FIT_QUANTITIES; q++) rows->slope[datum][q] /= -error;
-        if (!m->decays || i < m->active) continue;
+        const int left = is_left(m, t, i);
+        m->left += (size_t)left;
+        if (!left && (!m->decays || i < m->active)) continue;
         rows->residual[datum] = 0.0;
         memset(rows->slope[datum], 0, sizeof rows->slope[datum]);
       }
