@@ -32,14 +32,17 @@ def other_text(h, value):
     return f"{names[-1].replace('_', ' ')} = {value * factor:.6g} {unit}".rstrip()
 
 
-def sweeps_of(h):
-    """The data of each sweep, in the order of their axis: an index, a colour, a direction."""
-    other = h["datum_other"] if "datum_other" in h else np.zeros(len(h["datum_axis"]))
+def sweeps_of(h, along="datum_axis"):
+    """The data of each sweep, in the order of their axis: an index, a colour, a direction. Along the
+    parameter that differs between sweeps they are one."""
+    other = np.zeros(len(h["datum_axis"]))
+    if "datum_other" in h and along != "datum_other":
+        other = h["datum_other"]
     for i, value in enumerate(np.unique(other)):
         for direction in (1, -1):
             here = np.flatnonzero((other == value) & (h["datum_direction"] == direction))
             if len(here):
-                yield here[np.argsort(h["datum_axis"][here], kind="stable")], i, value, direction
+                yield here[np.argsort(h[along][here], kind="stable")], i, value, direction
 
 
 def draw_model(ax, h, x, modelled, here, colour):
@@ -60,15 +63,23 @@ def draw_fit(h, path):
     observed, _ = in_units(h, "observed", "")
     names = h.file["datum_observable"].attrs["flag_meanings"]
     names = (names.decode() if isinstance(names, bytes) else names).split()
-    kinds = np.unique(h["datum_observable"])[:MOST_PANELS]
+    kinds = np.unique(h["datum_observable"])
+    jumps = all(names[kind] == "jump" for kind in kinds)
+    along = "datum_axis"
+    if jumps and "datum_other" in h:  # their places are values of the axis
+        along = "datum_other"
+        x, label = in_units(h, "datum_other", words(other_text(h, 0.0).split(" =")[0]))
+    elif not jumps:
+        kinds = [kind for kind in kinds if names[kind] != "jump"]
+    kinds = kinds[:MOST_PANELS]
     fig, axes = figure(h, 1.1 + 1.7 * len(kinds) + 0.8, len(kinds) + 1, 1, sharex=True,
                        height_ratios=[2.2] * len(kinds) + [1])
     factor, unit = h.scale("observed")
     unit_of_axis = h.scale("datum_axis")[1]
     error = h["observed_error"]
-    several = "datum_other" in h
+    several = "datum_other" in h and along == "datum_axis"
     for ax, kind in zip(axes, kinds):
-        for here, i, value, direction in sweeps_of(h):
+        for here, i, value, direction in sweeps_of(h, along):
             here = here[h["datum_observable"][here] == kind]
             if not len(here):
                 continue
@@ -80,7 +91,7 @@ def draw_fit(h, path):
                 ax.plot([], [], color=f"C{i % 6}", label=other_text(h, value))
         ax.set_ylabel(words(names[kind]) + (f" ({unit})" if unit else ""))
     below = axes[-1]
-    for here, i, _, direction in sweeps_of(h):
+    for here, i, _, direction in sweeps_of(h, along):
         below.plot(x[here], (h["residual"] / error)[here], MARKS[direction < 0], ms=1.8, mew=0,
                    color=f"C{i % 6}", alpha=0.6)
     for height in (-1, 1):
@@ -89,7 +100,9 @@ def draw_fit(h, path):
     if unit_of_axis == "":  # large numbers, such as hertz, take room
         below.xaxis.set_major_locator(plt.MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
     below.set(ylabel="residual /\nerror", xlabel=label, xlim=around(x, 0.02))
-    axes[0].plot([], [], MARKS[0], ms=3, color="0.3", label="measured, upwards")
+    decays = axis_name(h) == "time"
+    axes[0].plot([], [], MARKS[0], ms=3, color="0.3",
+                 label="measured" if decays else "measured, upwards")
     if np.any(h["datum_direction"] < 0):
         axes[0].plot([], [], MARKS[1], ms=3, color="0.3", label="measured, downwards")
     axes[0].plot([], [], color="0.3", label="fit")

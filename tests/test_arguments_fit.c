@@ -73,6 +73,18 @@ static void refusals(void **state)
   all.other = PENDRES_PARAMETER_COUNT;
   all.axis = PENDRES_DRIVE_FREQUENCY;
   REFUSED(&all, &model); /* displacements over a frequency, which have no start either */
+  /* Jumps have an error, and a place above 0 where the axis has. */
+  data[1].observable = PENDRES_FIT_JUMP;
+  open[1] = (pendres_fit_unknown){.quantity = PENDRES_FIT_FREQUENCY_SCALE, .guess = 1.0};
+  for (int i = 0; i < 3; i++) {
+    if (i != 1) data[i].observable = PENDRES_FIT_AMPLITUDE;
+  }
+  REFUSED(&all, &model);
+  for (int i = 0; i < 3; i++) data[i].error = 0.01;
+  data[1].observed = -1.0;
+  REFUSED(&all, &model);
+  for (int i = 0; i < 3; i++) data[i].error = 0.0;
+  data[1].observed = 0.2;
   /* Mean velocities: alone, over the torque of a pendulum, without a drive. */
   for (int i = 0; i < 3; i++) data[i].observable = PENDRES_FIT_MEAN_VELOCITY;
   open[1] = (pendres_fit_unknown){.quantity = PENDRES_FIT_TORQUE_SCALE, .guess = 1.0};

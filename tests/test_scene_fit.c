@@ -207,6 +207,43 @@ static void junction(void **state)
   pendres_store_free(s);
 }
 
+/* A table of jumps in a laboratory's units: those of docs/units.md's resonator, whose places
+   branches tell to 1e-3 Hz; and as lines beside an amplitude, with cells that are empty. */
+static void jumps(void **state)
+{
+  (void)state;
+  static const char *const tables[] = {
+    "place; error; way\n1202939.890; 0.001; up\n1200642.890; 0.001; down\n",
+    "f amplitude jump jump_error amplitude_error direction\n1200100 6.2e-9 - - 1e-7 up\n"
+    "0 - 1202939.890 0.001 - up\n0 - 1200642.890 0.001 - -1\n"};
+  static const char *const keys[] = {
+    "columns = 'place', 'error', 'way', observable = 'jump'",
+    "columns = 'drive_frequency=f', 'amplitude=amplitude', 'amplitude_error=amplitude_error',\n"
+    "  'jump=jump', 'jump_error=jump_error', 'direction', observable = 'amplitude', 'jump'"};
+  for (int k = 0; k < 2; k++) {
+    char text[900], path[100];
+    double value = 0.0, error = 0.0;
+    scene_path("jumps", path);
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    assert_true(fputs(tables[k], f) >= 0);
+    assert_int_equal(fclose(f), 0);
+    snprintf(text, sizeof text, "&scene kind = 'fit' /\n"
+             "&units mass = '1e-12 kg', natural_frequency = '1.2 MHz' /\n"
+             "&pendulum force = 'polynomial', force_coefficients = 1, 0, '1e14 N/m^3',\n"
+             "  drive_amplitude = 1.621e-5, damping = 'Q 4900' /\n"
+             "&data file = '%s' %s /\n&fit free = 'damping' /\n", path, keys[k]);
+    scene_run_deck(text, 1, "table");
+    pendres_store *s = scene_open("table");
+    read_numbers(s, "value", &value, 1);
+    read_numbers(s, "value_error", &error, 1);
+    check_near(value, 2e-4, 2.0 * error); /* the last digit of the places is their error's */
+    assert_true(error < 1e-9 && pendres_store_has(s, NULL, "branch_axis"));
+    if (k == 0) check_mark(s, "observed", 1.2e6, "Hz");
+    pendres_store_free(s);
+  }
+}
+
 /* Results of our own sweeps are data, without a conversion: what they were computed with comes back
    to a tenth of the errors told, and the jumps with them. */
 static void results_as_data(void **state)
@@ -315,6 +352,7 @@ static void bad_data(void **state)
   check_told("0.8 0.1\n", "", "1 data do not determine 1 unknowns");
   check_told("0 1\n1 2\n", "axis = 'time', observable = 'amplitude'", "a displacement is a datum");
   check_told("0 1\n1 2\n", "observable = 'displacement'", "a displacement is a datum");
+  check_told("0.8 0.01\n0.9 0.01\n", "observable = 'jump'", "give a column for the direction");
   check_told("0.8 0.1 0\n", "columns = '1', '2', 'direction=3'", "not 0");
 }
 
@@ -368,6 +406,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(three_drives), cmocka_unit_test(known_scales),
                                      cmocka_unit_test(ringdown), cmocka_unit_test(junction),
+                                     cmocka_unit_test(jumps),
                                      cmocka_unit_test(results_as_data),
                                      cmocka_unit_test(no_convergence),
                                      cmocka_unit_test(bad_data), cmocka_unit_test(bad_keys)};

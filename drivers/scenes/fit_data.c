@@ -28,6 +28,7 @@ typedef struct reader {
   int axis, direction, other, observable[PENDRES_FIT_OBSERVABLE_COUNT];
   int error[PENDRES_FIT_OBSERVABLE_COUNT];
   size_t observables, room;
+  int gaps; /* some lines have not all of them */
   pendres_fit_observable kind[PENDRES_FIT_OBSERVABLE_COUNT];
 } reader;
 
@@ -136,12 +137,20 @@ static int take_role(reader *r, const char *role, int column)
   return 1;
 }
 
+/* Whether all data are places of jumps, which are values of the axis themselves. */
+static int are_jumps(const reader *r)
+{
+  for (size_t i = 0; i < r->observables; i++)
+    if (r->kind[i] != PENDRES_FIT_JUMP) return 0;
+  return 1;
+}
+
 /* Columns that stand without a role, in their order: axis, observables, their errors, direction. */
 static void take_in_order(reader *r, size_t n, const int *column)
 {
   const size_t m = r->observables;
   size_t k = 0;
-  if (r->axis == NONE && k < n) r->axis = column[k++];
+  if (r->axis == NONE && k < n && !are_jumps(r)) r->axis = column[k++];
   for (size_t i = 0; i < m && k < n; i++)
     if (r->observable[i] == NONE) r->observable[i] = column[k++];
   /* One more than there are observables: the last is the direction. */
@@ -190,7 +199,7 @@ static void find_columns(reader *r)
     if (named == 0) take_in_order(r, r->names < 4 ? r->names : 4, first);
   }
   if (!scene_going(r->run)) return;
-  const char *missing = r->axis == NONE ? r->d->data.axis : NULL;
+  const char *missing = r->axis == NONE && !are_jumps(r) ? r->d->data.axis : NULL;
   for (size_t i = 0; i < r->observables; i++)
     if (r->observable[i] == NONE && missing == NULL)
       missing = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
@@ -261,21 +270,34 @@ static int make_room(reader *r)
   return 1;
 }
 
+/* Of several observables some may not have been measured: a cell is empty then, or '-'. */
+static int is_empty(reader *r, size_t n, char *const *cell, int column)
+{
+  const int empty = r->observables > 1 && column < (int)n &&
+                    (cell[column][0] == '\0' || strcmp(cell[column], "-") == 0);
+  r->gaps |= empty;
+  return empty;
+}
+
 static void read_line(reader *r, char *line)
 {
   const deck *d = r->d;
   char *cell[MOST_COLUMNS];
   const size_t n = split(line, r->separator, cell);
-  pendres_fit_datum one = {.axis = read_number(r, n, cell, r->axis, "axis")};
+  pendres_fit_datum one = {.axis = 0.0};
+  if (r->axis != NONE) one.axis = read_number(r, n, cell, r->axis, "axis");
   one.direction = read_direction(r, n, cell);
   if (r->other != NONE) one.other = read_number(r, n, cell, r->other, "parameter of the sweep");
+  const double axis = one.axis;
   for (size_t i = 0; i < r->observables && scene_going(r->run); i++) {
+    if (is_empty(r, n, cell, r->observable[i])) continue;
     one.observable = r->kind[i];
     one.observed = read_number(r, n, cell, r->observable[i],
                                pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]));
     one.error = r->error[i] != NONE
                   ? read_number(r, n, cell, r->error[i], "standard error")
                   : hypot(d->data.error, d->data.relative_error * one.observed);
+    one.axis = one.observable == PENDRES_FIT_JUMP ? one.observed : axis;
     if (r->error[i] != NONE && scene_going(r->run) && !(one.error > 0.0))
       FAIL(r, "%s:%zu: the standard error must be above 0: give all data one, or leave the column "
            "out", r->out->path, r->line);
@@ -288,8 +310,14 @@ static void read_line(reader *r, char *line)
 static void set_directions(reader *r)
 {
   fit_data *out = r->out;
-  const size_t m = r->observables, lines = out->of.n / m;
+  const size_t m = r->gaps ? 1 : r->observables, lines = out->of.n / m;
   const char *told = r->d->data.direction;
+  int jumps = 0;
+  for (size_t i = 0; i < r->observables; i++) jumps |= r->kind[i] == PENDRES_FIT_JUMP;
+  if (r->direction == NONE && (jumps || r->gaps) && strcmp(told, "file") == 0)
+    FAIL(r, "%s: which way the axis went does not follow from the lines where there are jumps or "
+         "empty cells: give a column for the direction, or data.direction", out->path);
+  if (!scene_going(r->run)) return;
   for (size_t i = 0; i < lines && r->direction == NONE; i++) {
     const pendres_fit_datum *here = &out->datum[i * m];
     const pendres_fit_datum *next = i + 1 < lines ? here + m : NULL;

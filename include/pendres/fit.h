@@ -42,7 +42,8 @@ extern "C" {
   X(QUADRATURE, "quadrature")                              \
   X(LOOP_AREA, "loop_area")                                \
   X(DISPLACEMENT, "displacement")                          \
-  X(MEAN_VELOCITY, "mean_velocity")
+  X(MEAN_VELOCITY, "mean_velocity")                        \
+  X(JUMP, "jump")
 
 /**
  * An observable. AMPLITUDE: half the peak-to-peak; RMS: the root mean square of the distance from
@@ -50,7 +51,8 @@ extern "C" {
  * drive, in rad; IN_PHASE and QUADRATURE: R cos(lag) and R sin(lag) of it; LOOP_AREA: work of the
  * drive a cycle; of free decays DISPLACEMENT: from the bottom of the well, at a time; of junctions,
  * which are pendulums without a drive, over the torque, MEAN_VELOCITY: 0 at rest, and of rotations
- * 2 pi over their period, with their sign.
+ * 2 pi over their period, with their sign; JUMP: the value of the axis itself, in its unit, at
+ * which the oscillator jumps while the axis goes that way.
  * PENDRES_FIT_OBSERVABLE_COUNT: how many there are.
  */
 typedef enum pendres_fit_observable {
@@ -111,7 +113,8 @@ typedef struct pendres_fit_unknown {
 typedef struct pendres_fit_datum {
   pendres_fit_observable observable; /**< what it is of */
   int direction;      /**< 1: while the axis grew, -1: fell */
-  double axis;        /**< value of the swept parameter, in the data's unit */
+  double axis;        /**< value of the swept parameter, in the data's unit; of a JUMP it is
+                           `observed` that is read */
   double other;       /**< value of the other parameter; not read if there is none */
   double observed;    /**< the number */
   double error;       /**< its standard error; 0 in all data: not known, and found from the fit */

@@ -28,9 +28,18 @@ typedef struct range {
 
 static range range_of(const fit_model *m, const fit_curve *c, const fit_values v)
 {
-  const double a = pendres_fit_in(m, m->axis, v, c->from);
-  const double b = pendres_fit_in(m, m->axis, v, c->to);
-  const double span = fabs(pendres_fit_in(m, m->axis, v, c->to + c->span) - b);
+  double a = pendres_fit_in(m, m->axis, v, c->from);
+  double b = pendres_fit_in(m, m->axis, v, c->to);
+  double span = fabs(pendres_fit_in(m, m->axis, v, c->to + c->span) - b);
+  if (c->marked && m->axis == PENDRES_DRIVE_FREQUENCY) {
+    /* Jumps are on one side of the small resonance, and the range leads to its other one. */
+    const double small = sqrt(fmax(0.0, pendres_fit_stiffness(m, v, 0.0)));
+    const double wide = fit_resonance_widths * v[PENDRES_DAMPING];
+    const double low = fmin(fmin(a, b), small - wide), high = fmax(fmax(a, b), small + wide);
+    a = low;
+    b = high;
+    span = high - low;
+  }
   range r = {.low = fmin(a, b) - fit_margin * span, .high = fmax(a, b) + fit_margin * span,
              .least = fmin(a, b) - fit_outside * span, .most = fmax(a, b) + fit_outside * span};
   if (pendres_parameter_of(m->axis)->positive || m->axis == PENDRES_DRIVE_AMPLITUDE) {

@@ -182,7 +182,7 @@ static void forget_curves(fit_problem *p)
    model come last. */
 static pendres_status order_starts(fit_problem *p, int starts, fit_values *start)
 {
-  double chi[FIT_GUESSES + 1];
+  double chi[FIT_TRIED];
   for (int k = 0; k < starts; k++) {
     fit_values v, at;
     memcpy(at, start[k], sizeof at);
@@ -262,27 +262,43 @@ static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, dou
 
 /* ---- the call ---- */
 
+/* What an unknown begins with: its guess, or where jumps are data, which tell none, its prior or
+   the middle of its bounds. */
+static double own_guess(const fit_model *m, const pendres_fit_unknown *u)
+{
+  if (!isnan(u->guess) || m->marks == 0) return u->guess;
+  if (u->prior_error > 0.0) return u->prior;
+  return u->low < u->high ? 0.5 * (u->low + u->high) : NAN;
+}
+
 /* Starts in the caller's units: the deck's own, where it has all values, then those from the data.
    Returns how many. */
 static int find_starts(const pendres_fit_call *c, fit_model *m,
-                       fit_values start[FIT_GUESSES + 1])
+                       fit_values start[FIT_TRIED])
 {
   int count = 0, whole = 1;
-  fit_values open;
+  fit_values open, own;
   memcpy(open, c->start, sizeof open);
+  memcpy(own, c->start, sizeof own);
   for (size_t i = 0; i < c->model->unknowns; i++) {
     const pendres_fit_unknown *u = &c->model->unknown[i];
     if (u->fixed) continue;
-    whole &= !isnan(u->guess);
+    own[u->quantity] = own_guess(m, u);
+    whole &= !isnan(own[u->quantity]);
     /* A prior is a guess as well, and what has bounds begins in their middle. */
     if (isnan(u->guess) && u->prior_error > 0.0) open[u->quantity] = u->prior;
   }
   if (whole) {
-    memcpy(start[count++], c->start, sizeof(fit_values));
+    memcpy(start[count++], own, sizeof(fit_values));
     for (size_t i = 0; i < c->model->unknowns; i++)
       if (!c->model->unknown[i].fixed && c->model->unknown[i].prior_error <= 0.0 &&
           c->model->unknown[i].quantity != PENDRES_FIT_OFFSET)
         open[c->model->unknown[i].quantity] = NAN;
+  }
+  /* Where jumps are data and the guess has none, one of less damping, or of more, may. */
+  for (int k = 0; k < FIT_GUESS_AROUND && whole && m->marks > 0; k++) {
+    memcpy(start[count], own, sizeof(fit_values));
+    start[count++][PENDRES_DAMPING] *= fit_guess_around[k];
   }
   count += m->decays    ? pendres_fit_decay_guess(m, open, start + count)
            : m->rotates ? pendres_fit_rotation_guess(m, open, start + count)
@@ -333,7 +349,7 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
 static pendres_status fit(pendres_context *ctx, pendres_fit_call *c)
 {
   fit_model m = {.ctx = ctx, .base = c->model->pendulum};
-  fit_values start[FIT_GUESSES + 1];
+  fit_values start[FIT_TRIED];
   pendres_room room = pendres_room_open(ctx, "a fit");
   pendres_status status = pendres_fit_check(ctx, c);
   if (status != PENDRES_OK) return status;

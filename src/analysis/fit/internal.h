@@ -66,6 +66,7 @@ typedef struct fit_curve {
   size_t nodes;
   pendres_curve_node *node; /* [FIT_NODES] */
   int ready;                /* they are those of some values */
+  int marked;               /* jumps over it are data */
   size_t folds, pieces;
   fit_fold fold[FIT_FOLDS];
   fit_piece piece[FIT_FOLDS + 1];
@@ -89,6 +90,12 @@ typedef struct fit_track {
   int piece[FIT_STAGES];
 } fit_track;
 
+/* A jump that is a datum: on a track, from one of its stages to the next. */
+typedef struct fit_mark {
+  size_t track, datum;
+  int stage;
+} fit_mark;
+
 typedef struct fit_model {
   pendres_context *ctx;
   pendres_pendulum base; /* what is neither unknown nor varies */
@@ -97,10 +104,11 @@ typedef struct fit_model {
   size_t data;
   const pendres_fit_datum *datum;
   size_t *order;
-  size_t curves, tracks, stations;
+  size_t curves, tracks, stations, marks;
   fit_curve *curve;
   fit_track *track;
   fit_station *station;
+  fit_mark *mark;
   int decays;    /* the data are over time */
   int rotates;   /* they are mean velocities */
   size_t left;   /* data that do not count, next to where a rotation ends */
@@ -200,10 +208,14 @@ static inline size_t pendres_fit_rows(const fit_model *m)
 /* The stages of all tracks, and orbits at all stations. */
 pendres_status pendres_fit_stages(fit_model *m, const fit_values v);
 
+/* The lane of the fold at which a stage of a track ends; NULL: it has none. */
+const fit_lane *pendres_fit_fold_lane(const fit_model *m, const fit_track *t, int stage);
+
 /* Decide on which stages data are, and make the residuals; raw ones, without Huber's loss. */
 void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *t, fit_rows *rows);
 
-enum { FIT_GUESSES = 16 };
+/* Guesses from the data, and all that are tried: the caller's and those around it as well. */
+enum { FIT_GUESSES = 16, FIT_TRIED = FIT_GUESSES + 1 + FIT_GUESS_AROUND };
 
 /* ---- decay.c ---- */
 

@@ -143,7 +143,10 @@ static int in_order(const void *a, const void *b)
   const sorted *p = a, *q = b;
   if (p->other != q->other) return p->other < q->other ? -1 : 1;
   if (p->of->direction != q->of->direction) return p->of->direction > q->of->direction ? -1 : 1;
-  if (p->of->axis != q->of->axis)
+  /* Jumps come behind the stations of their sweep. */
+  const int is_jump = p->of->observable == PENDRES_FIT_JUMP;
+  if (is_jump != (q->of->observable == PENDRES_FIT_JUMP)) return is_jump ? 1 : -1;
+  if (p->of->axis != q->of->axis && !is_jump)
     return (p->of->axis < q->of->axis) == (p->of->direction > 0) ? -1 : 1;
   return p->index < q->index ? -1 : p->index > q->index;
 }
@@ -152,23 +155,28 @@ static int in_order(const void *a, const void *b)
 static void append(fit_model *m, const sorted *s, size_t k)
 {
   const int curve = m->curves == 0 || m->curve[m->curves - 1].other != s->other;
-  if (curve)
-    m->curve[m->curves++] = (fit_curve){.other = s->other, .from = s->of->axis, .to = s->of->axis};
+  const int is_jump = s->of->observable == PENDRES_FIT_JUMP;
+  const double axis = is_jump ? s->of->observed : s->of->axis;
+  if (curve) m->curve[m->curves++] = (fit_curve){.other = s->other, .from = axis, .to = axis};
   const int track =
     curve || m->track[m->tracks - 1].direction != s->of->direction;
   if (track)
     m->track[m->tracks++] = (fit_track){.curve = m->curves - 1, .direction = s->of->direction,
                                         .first = m->stations};
-  if (track || m->station[m->stations - 1].axis != s->of->axis) {
-    m->station[m->stations++] = (fit_station){.axis = s->of->axis, .first = k};
+  const int station = track || m->station[m->stations - 1].axis != axis;
+  if (is_jump) {
+    m->mark[m->marks++] = (fit_mark){.track = m->tracks - 1, .datum = s->index};
+    m->curve[m->curves - 1].marked = 1;
+  } else if (station) {
+    m->station[m->stations++] = (fit_station){.axis = axis, .first = k};
     m->track[m->tracks - 1].count++;
   }
-  m->station[m->stations - 1].count++;
+  if (!is_jump) m->station[m->stations - 1].count++;
   m->order[k] = s->index;
   m->measured[s->of->observable] = 1;
   fit_curve *c = &m->curve[m->curves - 1];
-  c->from = fmin(c->from, s->of->axis);
-  c->to = fmax(c->to, s->of->axis);
+  c->from = fmin(c->from, axis);
+  c->to = fmax(c->to, axis);
 }
 
 static size_t count_curves(size_t n, const sorted *s)
@@ -199,6 +207,7 @@ pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
   m->curve = pendres_room_take(room, curves, sizeof *m->curve);
   m->track = pendres_room_take(room, 2 * curves, sizeof *m->track);
   m->station = pendres_room_take(room, n, sizeof *m->station);
+  m->mark = pendres_room_take(room, n, sizeof *m->mark);
   if (room->status != PENDRES_OK) return room->status;
   for (size_t k = 0; k < n; k++) append(m, &s[k], k);
   double widest = 0.0;

@@ -28,6 +28,7 @@ enum {
   FIT_GUESS_PLACES = 121, /* of the small resonance that are tried */
   FIT_GUESS_SIZES = 17,   /* and largest amplitudes, four a decade from 3 down */
   FIT_GUESS_STARTS = 10,  /* that are improved */
+  FIT_GUESS_AROUND = 3, /* dampings beside that of a guess */
   FIT_GUESS_RAW = 6, /* that are tried as they are as well */
   FIT_GUESS_DAMPINGS = 10, /* of junctions, from fit_guess_damping on */
   /* Data of a free decay that a guess looks at: at first, and until there are a few cycles. The
@@ -49,6 +50,9 @@ static const double fit_nodes_high = 14.0, fit_steps_across = 150.0;
 /* A curve goes beyond the data by this share of their range, so that it begins and ends outside of
    the range in which states coexist; and folds may lie further out by so many ranges. */
 static const double fit_margin = 0.3, fit_outside = 3.0;
+
+/* So many of its widths beside a resonance states do not coexist because of it. */
+static const double fit_resonance_widths = 3.0;
 
 /* What stays above 0, as a frequency, begins at this share of its lowest value in the data, and
    is not followed below the second: slow drives take many steps. */
@@ -92,6 +96,9 @@ static const double fit_correlated = 5.0;
 
 /* Data below this share of the largest are left out of a guess: noise would count most there. */
 static const double fit_guess_least = 0.3;
+
+/* What dampings are tried beside that of a guess, over it. */
+static const double fit_guess_around[FIT_GUESS_AROUND] = {0.8, 1.25, 0.65};
 
 /* A junction shows a voltage from this share of the largest on. */
 static const double fit_guess_voltage = 0.1;

@@ -153,6 +153,14 @@ static double error_of(const fit_problem *p, const fit_result *best, const fit_v
   return sqrt(fmax(0.0, sum));
 }
 
+static pendres_orbit_guess orbit_at(const fit_model *m, const pendres_u u)
+{
+  const pendres_pendulum at = pendres_map_pendulum(m->base.force, u);
+  return (pendres_orbit_guess){.pendulum = at,
+                               .x = u[PENDRES_U_Y] + pendres_model_of(at.force)->origin,
+                               .v = u[PENDRES_U_W] * at.drive_frequency, .period = 1};
+}
+
 static void take_points(const fit_problem *p, const fit_result *best, pendres_fit *fit)
 {
   const fit_model *m = p->m;
@@ -172,11 +180,28 @@ static void take_points(const fit_problem *p, const fit_result *best, pendres_fi
                                 .beyond = s->beyond[s->stage] != 0};
       if (d->observable == PENDRES_FIT_PHASE_LAG)
         to->residual = remainder(to->residual, 2.0 * PENDRES_PI);
-      pendres_pendulum at = pendres_map_pendulum(m->base.force, l->u);
-      to->orbit = (pendres_orbit_guess){
-        .pendulum = at, .x = l->u[PENDRES_U_Y] + pendres_model_of(at.force)->origin,
-        .v = l->u[PENDRES_U_W] * at.drive_frequency, .period = 1};
+      to->orbit = orbit_at(m, l->u);
     }
+  }
+}
+
+/* Jumps that are data. Their orbit is one on the state that ends there. */
+static void take_marks(const fit_problem *p, const fit_result *best, pendres_fit *fit)
+{
+  const fit_model *m = p->m;
+  for (size_t i = 0; i < m->marks; i++) {
+    const fit_mark *mark = &m->mark[i];
+    const fit_track *t = &m->track[mark->track];
+    const fit_curve *c = &m->curve[t->curve];
+    const fit_piece *piece = &c->piece[t->piece[mark->stage]];
+    fit_values slope;
+    pendres_fit_point *to = &fit->point[mark->datum];
+    const double value =
+      pendres_fit_fold_at(m, best->v, pendres_fit_fold_lane(m, t, mark->stage), slope);
+    *to = (pendres_fit_point){.modelled = value, .modelled_error = error_of(p, best, slope),
+                              .residual = m->datum[mark->datum].observed - value,
+                              .error = p->terms.error[mark->datum], .part = mark->stage,
+                              .orbit = orbit_at(m, c->node[(piece->first + piece->last) / 2].u)};
   }
 }
 
@@ -229,6 +254,7 @@ pendres_status pendres_fit_result(const pendres_fit_call *c, fit_problem *p, con
     .evaluations = p->evaluations};
   take_covariance(c, p, best, fit);
   take_points(p, best, fit);
+  take_marks(p, best, fit);
   take_jumps(p, best, fit);
   take_notes(c, p, best, fit);
   *c->out = fit;

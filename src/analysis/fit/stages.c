@@ -118,6 +118,36 @@ static int mend(const fit_model *m, const fit_track *t, fit_station *s, int stag
   return nearest < fit_lost_near_fold * (p->high - p->low);
 }
 
+const fit_lane *pendres_fit_fold_lane(const fit_model *m, const fit_track *t, int stage)
+{
+  const fit_curve *c = &m->curve[t->curve];
+  const int fold = fold_at(&c->piece[t->piece[stage]], t->direction, 1);
+  return fold >= 0 ? &m->lane[c->fold[fold].lane] : NULL;
+}
+
+/* Which of the jumps of its track each measured one is: the nearest. 0: there is none. */
+static int find_jumps(fit_model *m, const fit_values v)
+{
+  for (size_t i = 0; i < m->marks; i++) {
+    fit_mark *mark = &m->mark[i];
+    const fit_track *t = &m->track[mark->track];
+    double nearest = INFINITY;
+    for (int j = 0; j + 1 < t->stages; j++) {
+      fit_values unused;
+      const fit_lane *l = pendres_fit_fold_lane(m, t, j);
+      const double away =
+        l->found ? fabs(pendres_fit_fold_at(m, v, l, unused) - m->datum[mark->datum].observed)
+                 : INFINITY;
+      if (away >= nearest) continue;
+      nearest = away;
+      mark->stage = j;
+    }
+    if (isinf(nearest)) m->lost = "the model has no jump in a sweep in which one was measured";
+    if (isinf(nearest)) return 0;
+  }
+  return 1;
+}
+
 pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
 {
   int steps = 0;
@@ -138,6 +168,7 @@ pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
   }
   if (m->rotates) pendres_fit_rotations(m);
   else status = pendres_fit_orbits(m, steps, m->lanes, m->lane);
+  if (status == PENDRES_OK && !find_jumps(m, v)) return PENDRES_NOT_CONVERGED;
   for (size_t k = 0; k < m->tracks && status == PENDRES_OK; k++) {
     const fit_track *t = &m->track[k];
     for (size_t i = t->first; i < t->first + t->count; i++)
@@ -230,13 +261,6 @@ static double jump_residual(const fit_model *m, const fit_track *t, const fit_te
   return seen ? (end - fold) / *scale : 0.0;
 }
 
-static const fit_lane *fold_lane(const fit_model *m, const fit_track *t, int stage)
-{
-  const fit_curve *c = &m->curve[t->curve];
-  const int fold = fold_at(&c->piece[t->piece[stage]], t->direction, 1);
-  return fold >= 0 ? &m->lane[c->fold[fold].lane] : NULL;
-}
-
 /* The jumps from each stage to the next, with the data before station i on the one and from there
    on the other: what they cost. */
 static double jump_cost(const fit_model *m, const fit_values v, const fit_terms *terms,
@@ -244,7 +268,7 @@ static double jump_cost(const fit_model *m, const fit_values v, const fit_terms 
 {
   double gap[2], scale;
   fit_values unused;
-  const fit_lane *l = fold_lane(m, t, stage);
+  const fit_lane *l = pendres_fit_fold_lane(m, t, stage);
   if (l == NULL || !l->found) return INFINITY;
   if (l->gradual) return 0.0;
   gap_before(m, t, i, gap);
@@ -302,10 +326,10 @@ static void take_jumps(const fit_model *m, const fit_values v, const fit_terms *
     rows->used[row - m->data] = 0;
     rows->residual[row] = 0.0;
     memset(rows->slope[row], 0, sizeof rows->slope[row]);
-    if (j + 1 >= t->stages || fold_lane(m, t, j)->gradual) continue;
+    if (t->count == 0 || j + 1 >= t->stages || pendres_fit_fold_lane(m, t, j)->gradual) continue;
     while (i < t->count && m->station[t->first + i].stage <= j) i++;
     gap_before(m, t, i, gap);
-    const double fold = pendres_fit_fold_at(m, v, fold_lane(m, t, j), rows->slope[row]);
+    const double fold = pendres_fit_fold_at(m, v, pendres_fit_fold_lane(m, t, j), rows->slope[row]);
     const double sharp = jump_residual(m, t, terms, gap, fold, &scale);
     const double before = scale, wide = blur(m, terms, t, i);
     if (wide > 0.0) scale = hypot(scale, wide * fabs(gap[1] - gap[0]));
@@ -326,7 +350,7 @@ static int is_left(const fit_model *m, const fit_track *t, size_t i)
   const size_t last = t->first + t->count - 1;
   if (!m->rotates || m->station[i + 2 < last ? i + 2 : last].stage == s->stage) return 0;
   return m->curve[t->curve].piece[t->piece[s->stage]].state != 0 &&
-         !fold_lane(m, t, s->stage)->gradual;
+         !pendres_fit_fold_lane(m, t, s->stage)->gradual;
 }
 
 void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *terms, fit_rows *rows)
@@ -334,7 +358,7 @@ void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *te
   m->left = 0;
   for (size_t k = 0; k < m->tracks; k++) {
     fit_track *t = &m->track[k];
-    assign(m, v, terms, t, rows->from);
+    if (t->count > 0) assign(m, v, terms, t, rows->from);
     for (size_t i = t->first; i < t->first + t->count; i++) {
       const fit_station *s = &m->station[i];
       for (size_t n = s->first; n < s->first + s->count; n++) {
@@ -350,5 +374,13 @@ void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *te
       }
     }
     take_jumps(m, v, terms, k, rows);
+  }
+  for (size_t i = 0; i < m->marks; i++) {
+    const fit_mark *mark = &m->mark[i];
+    const size_t datum = mark->datum;
+    const fit_lane *l = pendres_fit_fold_lane(m, &m->track[mark->track], mark->stage);
+    const double value = pendres_fit_fold_at(m, v, l, rows->slope[datum]);
+    rows->residual[datum] = (m->datum[datum].observed - value) / terms->error[datum];
+    for (int q = 0; q < FIT_QUANTITIES; q++) rows->slope[datum][q] /= -terms->error[datum];
   }
 }
