@@ -98,8 +98,46 @@ static void tables_of_jumps(void **state)
   pendres_context_free(ctx);
 }
 
+/* The variance of a single unknown is that by differences of the places with it, to 1e-3: steps of
+   1e-3 are off by their square. The unknown scale that jumps do not read lets the damping be
+   fixed. */
+static void derivatives(void **state)
+{
+  (void)state;
+  const double damping = 0.02, step = 1e-3;
+  pendres_context *ctx = NULL;
+  pendres_fit_datum data[JUMPS];
+  double place[3][JUMPS], sum = 0.0, variance = 0.0, at = 0.0;
+  check_ok(pendres_context_create(NULL, &ctx));
+  measure(0, damping, 0.01, data);
+  for (int k = 0; k < 3; k++) {
+    pendres_fit *fit = NULL;
+    const double beside = at * (1.0 + (k == 1 ? step : -step));
+    const pendres_fit_unknown open[] = {
+      {.quantity = PENDRES_DAMPING, .guess = k == 0 ? damping : beside, .fixed = k > 0},
+      {.quantity = PENDRES_FIT_AMPLITUDE_SCALE, .guess = 1.0, .prior = 1.0, .prior_error = 0.1},
+      {.quantity = PENDRES_FIT_DRIVE_SCALE, .guess = scale, .fixed = 1},
+      {.quantity = PENDRES_FIT_FREQUENCY_SCALE, .guess = hertz, .fixed = 1}};
+    const pendres_fit_model model = {
+      .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 1.0}},
+      .unknowns = 4, .unknown = open};
+    const pendres_fit_data all = {.n = JUMPS, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
+                                  .other = PENDRES_DRIVE_AMPLITUDE};
+    check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+    for (size_t i = 0; i < JUMPS; i++) place[k][i] = pendres_fit_point_get(fit, i)->modelled;
+    if (k == 0) variance = pendres_fit_covariance(fit, 0, 0);
+    if (k == 0) at = pendres_fit_value(fit, 0);
+    pendres_fit_free(fit);
+  }
+  for (size_t i = 0; i < JUMPS; i++)
+    sum += pow((place[1][i] - place[2][i]) / (2.0 * step * at * data[i].error), 2.0);
+  check_relative(variance, 1.0 / sum, 1e-3);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(tables_of_jumps)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(tables_of_jumps),
+                                     cmocka_unit_test(derivatives)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,6 +79,10 @@ static const double fit_converged = 1e-3, fit_step_tolerance = 1e-9;
    what may be gained: a stalled fit then counts as converged if they say less than this. */
 static const double fit_kinked = 1.0;
 
+/* Where data come to be left out as values change chi-square has steps: values are then off by at
+   most a third of their errors. */
+static const double fit_stepped = 0.1;
+
 /* A value this close to a bound, as a share of the range, is at it: fits begin further inside. */
 static const double fit_at_bound = 1e-5, fit_inside = 1e-3;
 

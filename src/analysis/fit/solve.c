@@ -200,7 +200,7 @@ pendres_status pendres_fit_solve(fit_problem *p, int iterations, fit_result *out
   }
   /* Where data come to be left out chi-square has steps, about which the solver goes to and fro. */
   if (status == PENDRES_OK && out->computed && p->m->left > 0)
-    out->converged |= out->remaining < fit_kinked;
+    out->converged |= out->remaining < fit_stepped;
   return status;
 }
 
