@@ -26,7 +26,8 @@ def other_text(h, value):
     """The value of the parameter that differs between sweeps, for a legend: by its column's name,
     or if that is a number by its own."""
     deck = h["provenance/deck_resolved"].decode() if "provenance/deck_resolved" in h else ""
-    found = re.search(r"'([a-z_0-9]+)=([^']+)'", deck)
+    found = re.search(r"'(a[1-5]|d[a-z]+_(?:amplitude|frequency)|damping|torque|parametric_amplitude)"
+                      r"=([^']+)'", deck)
     names = [name for name in found.groups() if not name.isdigit()] if found else ["sweep"]
     factor, unit = h.scale("datum_other")
     return f"{names[-1].replace('_', ' ')} = {value * factor:.6g} {unit}".rstrip()
