@@ -59,6 +59,11 @@ double pendres_accuracy_of_means(const pendres_context *ctx)
   return fmax(1e-11, ctx->options.tolerance);
 }
 
+double pendres_accuracy_of_rough_means(const pendres_context *ctx)
+{
+  return fmax(fmin(largest_settling_error, 1e3 * ctx->options.tolerance), ctx->options.tolerance);
+}
+
 double pendres_accuracy_with_noise(const pendres_context *ctx)
 {
   return fmax(1e-6, ctx->options.tolerance);

@@ -59,6 +59,11 @@ double pendres_accuracy_in_chaos(const pendres_context *ctx);
 /* For means over rotations that are not locked to the drive, which are averaged twice. */
 double pendres_accuracy_of_means(const pendres_context *ctx);
 
+/* For the first of both, which tells over how many periods. It needs 10 steps where the second one
+   takes 24: of 4905 rotations of a junction it was off by 4e-8 turns a period, in the middle, and
+   by 1.5e-7 in one of a hundred, of which a thirtieth is claimed. */
+double pendres_accuracy_of_rough_means(const pendres_context *ctx);
+
 /* For noisy trajectories, whose scatter hides errors far larger than rounding. */
 double pendres_accuracy_with_noise(const pendres_context *ctx);
 

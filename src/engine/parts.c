@@ -14,9 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "engine/numbers.h"
-
-enum { PARTS_EACH = 4096 };
+enum { PARTS_EACH = 4096, PARTS_MOST_THREADS = 4096 };
 
 typedef struct pool {
   const pendres_parts *how;

@@ -228,9 +228,11 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
     [PENDRES_CARE_ONCE] = {EXPONENT_PERIODS, 1},
     [PENDRES_CARE_CLOSE] = {EXPONENT_PERIODS / 2, EXPONENT_ROUNDS + 1}};
   const size_t n = m->n;
+  const int close = care == PENDRES_CARE_CLOSE;
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = m->pendulum, .x = m->x, .v = m->v, .out = m->out, .orbit = m->orbit,
-    .accuracy = pendres_accuracy_to_average(ctx), .care = care, .periods = looks[care].periods,
+    .accuracy = close ? pendres_accuracy_of_rough_means(ctx) : pendres_accuracy_to_average(ctx),
+    .care = care, .periods = looks[care].periods,
     .rounds = looks[care].rounds, .longer = care <= PENDRES_CARE_LABEL ? 3 * EXPONENT_PERIODS : 0,
     .runner = malloc((n + 1) * sizeof *j.runner)};
   if (j.runner == NULL)

@@ -186,13 +186,19 @@ static void give_up(const job *j, long batch, int first)
 
 /* ---- the call ------------------------------------------------------------------------------ */
 
+/* The error a period that averages may have: that of the way there may be less. */
+static double accuracy_of_averages(const pendres_context *ctx, const job *j)
+{
+  return fmax(pendres_accuracy_to_average(ctx), j->accuracy);
+}
+
 /* Put a runner at its start, and choose its steps: those on the way, and those of averages. */
 static pendres_status load(pendres_context *ctx, const job *j, size_t i)
 {
   const pendres_pendulum *p = &j->pendulum[i];
   pendres_runner *r = &j->runner[i];
   const pendres_strobe_lane lane = pendres_strobe_lane_at(p, j->x[i], j->v[i]);
-  const double usual = pendres_accuracy_to_average(ctx);
+  const double usual = accuracy_of_averages(ctx, j);
   const double speed =
     fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
   *r = pendres_runner_at(&lane, caught_close_by);
@@ -273,7 +279,7 @@ static double speed_of(const pendres_strobe_lane *lane)
    orbit, or leaves. Where errors are large already, they may be larger. */
 static pendres_status follow(pendres_context *ctx, const job *j)
 {
-  const double usual = pendres_accuracy_to_average(ctx);
+  const double usual = accuracy_of_averages(ctx, j);
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];

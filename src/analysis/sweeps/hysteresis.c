@@ -208,14 +208,16 @@ static pendres_status go_on(path *w, size_t *i)
     ++*i;
     return PENDRES_OK;
   }
-  const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
   if (rotates_freely(&w->state.attractor)) return pendres_path_rotation(w, i);
   if (w->state.attractor.label == PENDRES_LABEL_ESCAPE) {
     stay_away(w, i);
     return PENDRES_OK;
   }
   if (pendres_path_short(w, &w->state.attractor)) status = pendres_path_orbit(w, i);
-  else if (rotates) status = pendres_path_unlocked(w, i, &known);
+  /* What it has jumped to right before a value it is on there, too. */
+  if (status == PENDRES_OK && *i == before &&
+      w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC)
+    status = pendres_path_unlocked(w, i, &known);
   /* Nothing is left to settle if the pendulum has gone to a free rotation, or to infinity. */
   if (status != PENDRES_OK || *i > before || rotates_freely(&w->state.attractor) ||
       w->state.attractor.label == PENDRES_LABEL_ESCAPE)

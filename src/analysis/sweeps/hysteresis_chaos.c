@@ -98,7 +98,7 @@ static pendres_status try_beside(search *w, const place *at, pendres_jump *jump,
   pendres_status status = PENDRES_OK;
   /* A rotation lasts up to a lock that is born on it. */
   if (!rotates(w))
-    status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, PENDRES_CARE_LABEL, &before);
+    status = pendres_settled_name(w->ctx, &p, w->old->x, w->old->v, &before);
   *born = 0;
   if (status != PENDRES_OK || pendres_settled_closed(&before.attractor) ||
       before.attractor.label == PENDRES_LABEL_ESCAPE)
@@ -221,7 +221,7 @@ static pendres_status halve(search *w, pendres_jump *jump)
     const double middle = 0.5 * (from + to);
     const pendres_pendulum p = pendulum_at(w, middle);
     pendres_settled there;
-    status = pendres_settled_find(w->ctx, &p, last.x, last.v, PENDRES_CARE_LABEL, &there);
+    status = pendres_settled_name(w->ctx, &p, last.x, last.v, &there);
     if (status != PENDRES_OK) break;
     if (pendres_chaos_ends(&w->old->attractor, &there.attractor)) {
       to = middle;

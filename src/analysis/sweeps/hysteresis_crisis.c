@@ -329,8 +329,8 @@ static pendres_status in_chaos(const search *w, double value, int *chaotic)
 {
   const pendres_pendulum p = pendres_parameter_with(&w->smaller->pendulum, w->parameter, value);
   pendres_settled s;
-  const pendres_status status = pendres_settled_find(w->ctx, &p, w->in.x[0], w->in.v[0],
-                                                     PENDRES_CARE_LABEL, &s);
+  const pendres_status status =
+    pendres_settled_name(w->ctx, &p, w->in.x[0], w->in.v[0], &s);
   *chaotic = status == PENDRES_OK && s.attractor.label == PENDRES_LABEL_CHAOTIC;
   return status;
 }

@@ -238,6 +238,14 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
   return status == PENDRES_OK ? arrive(ctx, out) : status;
 }
 
+pendres_status pendres_settled_name(pendres_context *ctx, const pendres_pendulum *p, double x,
+                                    double v, pendres_settled *out)
+{
+  *out = pendres_settled_nothing_at(p, x, v);
+  const pendres_status status = settle_trials(ctx, 1, PENDRES_CARE_LABEL, out);
+  return status == PENDRES_OK ? arrive(ctx, out) : status;
+}
+
 /* The pendulum at a distance beyond the end of its state. */
 static pendres_pendulum beyond_by(const pendres_bifurcation *at, double distance)
 {

@@ -51,6 +51,10 @@ pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres
 pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,
                                     double v, pendres_lyapunov_care care, pendres_settled *out);
 
+/* The same where it is asked what it settles on, not how strong a chaos is. */
+pendres_status pendres_settled_name(pendres_context *ctx, const pendres_pendulum *p, double x,
+                                    double v, pendres_settled *out);
+
 /* Find where most trials go from an orbit that ends at a bifurcation; where only the place of the
    end is known, at->orbit is the last orbit known before it. Sets to, share and certain of the
    jump. */
