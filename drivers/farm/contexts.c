@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "farm/internal.h"
+#include "farm/ranks.h"
 
 int farm_stop(const farm *f)
 {
@@ -121,6 +122,24 @@ void farm_begin_slice(farm *f, size_t slice, int more)
   f->stages = slice * FARM_SLICE_STAGES;
   f->more = more;
   f->share.complete = f->complete;
+}
+
+int farm_sides(const farm *f)
+{
+  const int alone = ranks_count() == 1 && f->trial == NULL;
+  return alone && f->journal != NULL && f->options.budget == 0.0 && !f->complete ? f->threads : 1;
+}
+
+farm *farm_aside(const farm *f)
+{
+  farm *aside = NULL;
+  farm_options options = f->options;
+  options.threads = 1;
+  options.progress = NULL;
+  if (farm_create(&options, &aside) != PENDRES_OK) return NULL;
+  farm_set_journal(aside, f->journal);
+  farm_set_share(aside, f->share);
+  return aside;
 }
 
 int farm_left_to_shards(const farm *f)

@@ -109,6 +109,15 @@ void farm_set_journal(farm *f, struct journal *j);
  */
 void farm_begin_slice(farm *f, size_t slice, int more);
 
+/*
+ * How many slices can be computed side by side; 1: only one after another, as without a journal or
+ * with several ranks. And a farm for one of them on one thread, any thread, whose records f finds
+ * in its journal as those of an interrupted run: what is computed there is computed by f no more.
+ * NULL: out of memory.
+ */
+int farm_sides(const farm *f);
+farm *farm_aside(const farm *f);
+
 /* Whether the stage that was interrupted last was left to other shards, so that other slices can be
    begun. */
 int farm_left_to_shards(const farm *f);

@@ -107,9 +107,13 @@ const char *journal_place(const journal *j, uint64_t stage, size_t task)
   return s != NULL ? j->file[s->file].name : NULL;
 }
 
-int journal_has(const journal *j, uint64_t stage, size_t task)
+int journal_has(journal *j, uint64_t stage, size_t task)
 {
-  return find(j, stage, task) != NULL;
+  if (j == NULL) return 0;
+  pthread_mutex_lock(&j->lock);
+  const int has = find(j, stage, task) != NULL;
+  pthread_mutex_unlock(&j->lock);
+  return has;
 }
 
 size_t journal_count(const journal *j)

@@ -49,7 +49,7 @@ uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t re
 const char *journal_place(const journal *j, uint64_t stage, size_t task);
 
 /* Is the record of a task there? j may be NULL: no. */
-int journal_has(const journal *j, uint64_t stage, size_t task);
+int journal_has(journal *j, uint64_t stage, size_t task);
 
 /* Read it; record->data is to be freed. PENDRES_IO if it cannot be read or is not what it was. */
 pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record *record);

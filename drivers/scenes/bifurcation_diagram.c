@@ -350,6 +350,7 @@ const scene_kind scene_bifurcation_diagram = {
   .references = "; G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996); M. J. Feigenbaum, "
                 "Journal of Statistical Physics 19 (1978) 25",
   .budget = 1,
+  .path = 1,
   .size = {.head = 60e3, .point = 200.0, .memory = 100e3, .stages = 2.0, .after = 2.0,
            .seconds = 0.3, .slowest = SCENE_SLOWEST_BRANCH, .journal = SCENE_PATH_JOURNAL,
            .values = strobes_of, .value = 3.5},

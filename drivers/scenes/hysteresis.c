@@ -244,6 +244,7 @@ const scene_kind scene_hysteresis = {
   .references = "; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; J. M. T. "
                 "Thompson and M. S. Soliman, Proceedings of the Royal Society A 432 (1991) 101",
   .budget = 1,
+  .path = 1,
   .size = {.head = 40e3, .point = 240.0, .memory = 60e3, .stages = 1.0, .after = 1.0,
            .seconds = 0.03, .slowest = SCENE_SLOWEST_BRANCH,
            .journal = SCENE_DIRECTIONS * SCENE_PATH_JOURNAL, .more = more},

@@ -285,6 +285,7 @@ const scene_kind scene_orbit = {
   .kind = DECK_ORBIT,
   .figures = "Figs. 5 and 6",
   .budget = 1,
+  .path = 1,
   .size = {.head = 45e3, .point = 36.0, .memory = 60.0, .stages = 1.0, .after = 1.0,
            .seconds = 1e-5, .points = samples_of, .more = more},
   .describe = describe,

@@ -1,4 +1,10 @@
-/* outer.c -- the scenes of an outer axis, one after another; see outer.h. */
+/*
+ * outer.c -- the scenes of an outer axis, one after another; see outer.h.
+ *
+ * Scenes that are a single path are first computed side by side, each on one thread, for the
+ * records of their tasks alone, which go to the journal. What they write is let go of: the run then
+ * takes value after value as always, and finds the records as one does that goes on.
+ */
 #include "scenes/outer.h"
 
 #include <stdlib.h>
@@ -143,12 +149,40 @@ static void end(outer *o)
   free(o->failed);
 }
 
+/* A task: compute the records of one slice. Why that fails is found again, and told, afterwards. */
+static pendres_status compute_aside(const void *arg, size_t slice, pendres_context *ctx,
+                                    farm_record *record)
+{
+  const scene_run *whole = arg;
+  scene_run run = { .deck = whole->deck, .store = whole->store, .farm = farm_aside(whole->farm) };
+  outer o;
+  (void)ctx, (void)record;
+  if (run.farm == NULL) return PENDRES_OK;
+  farm_begin_slice(run.farm, slice, 0);
+  if (begin(&run, scene_find(run.deck->kind), &o)) {
+    (void)compute(&run, &o, slice);
+    end(&o);
+  }
+  farm_free(run.farm);
+  return run.status == PENDRES_INTERRUPTED && farm_stopped(whole->farm) ? run.status : PENDRES_OK;
+}
+
+static void compute_ahead(scene_run *run, size_t slices)
+{
+  char name[2 * DECK_NAME], what[3 * DECK_NAME];
+  snprintf(what, sizeof what, "values of %s", deck_outer_name(run->deck, name));
+  farm_begin_slice(run->farm, slices, 1);
+  (void)farm_run(run->farm, &(farm_stage){ .what = what, .tasks = slices, .record_size = 1,
+                                           .cheap = 1, .task = compute_aside, .arg = run });
+}
+
 pendres_status scene_run_all(scene_run *run, const scene_kind *scene)
 {
   outer o;
   const size_t n = deck_slices(run->deck);
   if (n == 0) return scene->run(run);
   if (!begin(run, scene, &o)) return run->status;
+  if (scene->path && n > 1 && farm_sides(run->farm) > 1) compute_ahead(run, n);
   (void)run_slices(run, &o, 0, n - 1);
   if (o.left && scene_going(run))
     (void)scene_fail(run, PENDRES_INTERRUPTED, "the rest is other shards'");

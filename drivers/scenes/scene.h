@@ -79,6 +79,7 @@ typedef struct scene_kind {
   int timed;              /* it measures times, so that there is no journal, and no shards */
   int any_method;         /* it takes the deck's method for all it does: it has no orbits */
   int counts_escapes;     /* it tells what escapes to infinity */
+  int path;               /* what takes time is one path, a single task */
   int one_temperature;    /* its noise has a single temperature, which is no dimension of results */
   /* The library's options that only this kind sets; may be NULL. */
   void (*options)(const deck *d, pendres_options *out);

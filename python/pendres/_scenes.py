@@ -286,7 +286,9 @@ def _computed(arguments, text, keys, options):
     try:
         kept = options.get("output")
         path = os.path.abspath(kept or os.path.join(folder, "scene.h5"))
-        journal = "--resume" if options.get("resume") else "" if kept else "--no-journal"
+        # Values of an outer axis are computed side by side where there is a journal.
+        aside = kept or "&outer" in (text or "")
+        journal = "--resume" if options.get("resume") else "" if aside else "--no-journal"
         code, said = _followed([*command, f"--output={path}", *journal.split()], text)
         if code not in (0, POINTS_FAILED):
             raise _failure(code, said)
