@@ -92,21 +92,25 @@ lib = _open(ffi, declared.constants)
 # ---- Enumerations and exceptions ---------------------------------------------------------------
 
 
+def _types():
+    """All types by their names. cffi parses each text that it is given beside all names that it
+    knows, which takes long, so that it is given one: of a function that takes all as pointers."""
+    names = ffi.list_types()[0]
+    pointers = ffi.typeof(f"void (*)({', '.join(name + ' *' for name in names)})").args
+    return {name: pointer.item for name, pointer in zip(names, pointers) if pointer.kind == "pointer"}
+
+
+types = _types()
+
+
 def types_of(kind):
-    """Names of the library's types of a kind, "enum" or "struct"; cffi has no types for functions'
-    names."""
-    for name in ffi.list_types()[0]:
-        try:
-            found = ffi.typeof(name)
-        except cffi.CDefError:
-            continue
-        if found.kind == kind:
-            yield name
+    """Names of the library's types of a kind, "enum" or "struct"."""
+    return [name for name, found in types.items() if found.kind == kind]
 
 
 def _enumeration(name):
     """An IntEnum of one of the library's: members without what all their names begin with."""
-    elements = ffi.typeof(name).relements
+    elements = types[name].relements
     members = {key: value for key, value in elements.items() if not key.endswith("_COUNT")}
     shared = os.path.commonprefix(list(members)) if len(members) > 1 else "PENDRES_"
     shared = shared[:shared.rfind("_") + 1] or "PENDRES_"
@@ -161,7 +165,7 @@ def dtype(name):
     ctype = name
     if isinstance(name, str):
         try:
-            ctype = ffi.typeof(name)
+            ctype = types[name] if name in types else ffi.typeof(name)
         except cffi.CDefError:
             raise TypeError(f"the library has no type '{name}'") from None
         if ctype.kind == "struct" and ctype.fields is None:
@@ -209,7 +213,7 @@ def structures(name, values):
 def assign(name, made, key, value):
     """Set a field of a structure by a number, an array, or the name of an enum's value. What the
     field cannot hold is refused."""
-    kind = enumerations.get(dict(ffi.typeof(name).fields)[key].type.cname)
+    kind = enumerations.get(dict(types[name].fields)[key].type.cname)
     if isinstance(value, str) and kind is not None:
         value = member(kind, key, value)
     given, wanted = np.asarray(value), made.dtype[key].base
@@ -244,13 +248,14 @@ def array(name, shape=()):
 
 def copied(name, pointer):
     """What a pointer of the library's points to, as a record of our own."""
-    raw = bytearray(ffi.buffer(pointer, ffi.sizeof(name)))
+    raw = bytearray(ffi.buffer(pointer, ffi.sizeof(types[name])))
     return np.frombuffer(raw, dtype(name))[0]
 
 
 def stacked(name, pointers):
     """An array of what each pointer points to."""
-    raw = bytearray().join(ffi.buffer(p, ffi.sizeof(name)) for p in pointers)
+    size = ffi.sizeof(types[name])
+    raw = bytearray().join(ffi.buffer(p, size) for p in pointers)
     return np.frombuffer(raw, dtype(name)).view(np.recarray)
 
 
@@ -259,7 +264,7 @@ def viewed(name, pointer, count, owner):
     if not count:
         return np.zeros(0, dtype(name))
     memory = ffi.gc(pointer, lambda _memory, owner=owner: None)
-    values = np.frombuffer(ffi.buffer(memory, count * ffi.sizeof(name)), dtype(name))
+    values = np.frombuffer(ffi.buffer(memory, count * ffi.sizeof(types[name])), dtype(name))
     values.flags.writeable = False
     return values
 
@@ -328,7 +333,7 @@ class Function:
         self.__doc__ = f"{self.declaration}\n\n{words}"
         self._call = getattr(lib, name)
         kind = ffi.typeof(self._call)
-        self._status = kind.result is ffi.typeof("pendres_status")
+        self._status = kind.result is types["pendres_status"]
         self._count = len(kind.args)
         self._converters = [(i, self._converter(a, constant)) for i, (a, constant) in
                             enumerate(zip(kind.args, self.constant)) if a.kind == "pointer"]
