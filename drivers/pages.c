@@ -84,24 +84,45 @@ static void write_row(FILE *out, const place *at, const char *row)
   }
 }
 
+/* Whether a word is a name, or one of several with commas between them. */
+static int is_one_of(const char *names, const char *word)
+{
+  const size_t n = strlen(word);
+  for (const char *at = names; at != NULL; at = strchr(at, ',')) {
+    at += strspn(at, ", ");
+    if (strncasecmp(at, word, n) == 0 && (at[n] == '\0' || at[n] == ',')) return n > 0;
+  }
+  return 0;
+}
+
+/* Rows that have the word among their names, or else, unless exact, in one. Returns how many, from
+   `found` on. */
+static int tell_named(const char *word, int named, int exact, int found, FILE *out)
+{
+  char name[CELL];
+  place at = {"", "", NULL}, told = at;
+  for (int i = 0; i < LINES && found < MOST_ROWS; i++) {
+    pass(&at, lines[i]);
+    if (lines[i][0] != 'R' || !cell_of(lines[i] + 1, 0, name)) continue;
+    const char *behind = find(name, word);
+    const int is_named = is_one_of(name, word), has = behind != NULL && *behind != '_';
+    if (is_named != named || (!named && !has)) continue;
+    if (found == 0 && exact) fputs("\n", out);
+    if (told.page != at.page || told.heading != at.heading)
+      fprintf(out, "%s%s, %s:\n", found > 0 ? "\n" : "", at.page, at.heading);
+    found++;
+    told = at;
+    write_row(out, &at, lines[i] + 1);
+  }
+  return found;
+}
+
 /* Rows that are named so; those whose names only begin with the word are listed behind. */
 static int tell_rows(const char *word, int exact, FILE *out)
 {
   char name[CELL], last[CELL] = "";
-  place at = {"", "", NULL}, told = at;
-  int found = 0, more = 0;
-  for (int i = 0; i < LINES; i++) {
-    pass(&at, lines[i]);
-    if (lines[i][0] != 'R' || !cell_of(lines[i] + 1, 0, name)) continue;
-    const char *behind = find(name, word);
-    if (behind == NULL || *behind == '_' || (exact && strcasecmp(name, word) != 0)) continue;
-    if (found == 0 && exact) fputs("\n", out);
-    if (found++ == MOST_ROWS) break;
-    if (told.page != at.page || told.heading != at.heading)
-      fprintf(out, "%s%s, %s:\n", found > 1 ? "\n" : "", at.page, at.heading);
-    told = at;
-    write_row(out, &at, lines[i] + 1);
-  }
+  int found = tell_named(word, 1, exact, 0, out), more = 0;
+  if (!exact) found = tell_named(word, 0, exact, found, out);
   for (int i = 0; i < LINES && !exact; i++) {
     if (lines[i][0] != 'R' || !cell_of(lines[i] + 1, 0, name)) continue;
     const char *behind = find(name, word);

@@ -23,6 +23,13 @@ has duffing 'docs/models.md' 'a1 = α' 'docs/gallery.md'
 has FOLD 'fold_frequency' 'docs/model.md' 'the pendulum jumps'
 has 'period doubling' 'docs/model.md' 'read about it:'
 has Shapiro 'docs/sweeps.md, Current and voltage of a junction'
+has Q "damping = 'Q 5000'" 'docs/units.md, Words of a laboratory'
+has beta_c '1/sqrt' capacitance
+has linewidth "damping = '240 Hz'"
+has f0 natural_frequency 'docs/model.md'
+for word in 'quality factor' Ic 'plasma frequency' ringdown kelvin MEMS Kerr bistability 'IV curve'; do
+  has "$word" 'docs/units.md, Words of a laboratory'
+done
 for word in xyzzy '' ' ' '%s' 'a very long word of no meaning at all'; do
   said=$("$RESONANCE" --explain="$word" 2>&1)
   [ $? -eq 2 ] || { echo "'$word' was taken: $said"; failed=1; }
