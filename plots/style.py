@@ -73,9 +73,12 @@ class Run:
         """What a variable is multiplied by to be drawn, and the unit behind its label."""
         factor, units = self.si(name)
         label = re.sub(r"\^?(-?[0-9]+)", r"$^{\1}$", units)
+        most = np.max(np.abs(self[name]), initial=0, where=np.isfinite(self[name])) * factor
+        if units == "s-1" and most >= 1e6:  # below, ms^-1 could be taken for a velocity
+            power, prefix = prefix_of(most, -1)
+            return factor / power, prefix + label
         if not re.match("(Hz|[msNVAKJW])(?![-^0-9])", units):
             return factor, "" if units == "1" else label
-        most = np.max(np.abs(self[name]), initial=0, where=np.isfinite(self[name])) * factor
         power, prefix = prefix_of(most) if most > 0 else (1.0, "")
         return factor / power, prefix + label
 
@@ -142,11 +145,12 @@ PREFIXES = {12: "T", 9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n", 
             -18: "a", -21: "z"}
 
 
-def prefix_of(value):
-    """The power of ten that a value in SI is divided by for a label, with its prefix."""
+def prefix_of(value, exponent=1):
+    """The power of ten that a value in SI is divided by for a label, with the prefix of a unit that
+    stands there with this exponent, 1 or -1."""
     ten = 3 * int(np.floor(np.log10(value) / 3 + 1e-9))
     ten = min(max(ten, min(PREFIXES)), max(PREFIXES))
-    return 10.0 ** ten, PREFIXES[ten]
+    return 10.0 ** ten, PREFIXES[exponent * ten]
 
 
 def drive_axis(run, values, name):
@@ -157,6 +161,8 @@ def drive_axis(run, values, name):
     if unit is None:
         return (values, r"drive period $\tau$") if periods else (omega, r"drive frequency $\omega$")
     power, prefix = prefix_of(1 / unit if periods else unit)
+    if not periods and 0.1 <= unit < 1:  # as of a pendulum: 0.8 Hz, and not 800 mHz
+        power, prefix = 1.0, ""
     if periods:
         return 2 * np.pi / omega / (2 * np.pi * unit) / power, f"drive period ({prefix}s)"
     return omega * unit / power, f"drive frequency ({prefix}Hz)"

@@ -43,6 +43,10 @@ with h5py.File("axes.h5", "w", driver="core", backing_store=False) as file:
     factor, label = style.amplitude_axis(run, "amplitude", "A")
     check("amplitude", (round(0.08 * factor, 9), label), (60.0, "A (nm)"))
     check("parameter", style.parameter_text(run, 2e-4, "damping"), r"$\gamma$ = 1500 s$^{-1}$")
+    file["damping"].attrs["si_factor"] = 7.5e14
+    check("fast", style.parameter_text(run, 2e-4, "damping"), r"$\gamma$ = 150 ns$^{-1}$")
+    hertz = style.Run(file, options(unit=0.83))
+    check("hertz", style.drive_axis(hertz, 1.0, "drive_frequency"), (0.83, "drive frequency (Hz)"))
     # A drive of the natural frequency has the period 2 pi, which is 1/f0.
     asked = style.Run(file, options(unit=0.5))
     check("period", style.drive_axis(asked, 2 * np.pi, "drive_period"), (2.0, "drive period (s)"))

@@ -216,7 +216,8 @@ deck_si deck_si_prefixed(const deck_si *si, double value)
 {
   deck_si out = *si;
   double ten = 1.0;
-  if (!si_takes_prefix(si->units)) return out;
+  const int slow = strcmp(si->units, "Hz") == 0 && 0.1 <= fabs(value) && fabs(value) < 1.0;
+  if (!si_takes_prefix(si->units) || slow) return out; /* 0.8 Hz, as of a pendulum, and not mHz */
   snprintf(out.units, sizeof out.units, "%s%.30s", si_prefix_for(value, &ten), si->units);
   out.factor /= ten;
   return out;
