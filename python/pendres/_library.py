@@ -103,6 +103,11 @@ def _types():
 types = _types()
 
 
+def typeof(name):
+    """The type of a name, the library's or another of C's."""
+    return types[name] if name in types else ffi.typeof(name)
+
+
 def types_of(kind):
     """Names of the library's types of a kind, "enum" or "struct"."""
     return [name for name, found in types.items() if found.kind == kind]
@@ -165,7 +170,7 @@ def dtype(name):
     ctype = name
     if isinstance(name, str):
         try:
-            ctype = types[name] if name in types else ffi.typeof(name)
+            ctype = typeof(name)
         except cffi.CDefError:
             raise TypeError(f"the library has no type '{name}'") from None
         if ctype.kind == "struct" and ctype.fields is None:
@@ -248,13 +253,13 @@ def array(name, shape=()):
 
 def copied(name, pointer):
     """What a pointer of the library's points to, as a record of our own."""
-    raw = bytearray(ffi.buffer(pointer, ffi.sizeof(types[name])))
+    raw = bytearray(ffi.buffer(pointer, ffi.sizeof(typeof(name))))
     return np.frombuffer(raw, dtype(name))[0]
 
 
 def stacked(name, pointers):
     """An array of what each pointer points to."""
-    size = ffi.sizeof(types[name])
+    size = ffi.sizeof(typeof(name))
     raw = bytearray().join(ffi.buffer(p, size) for p in pointers)
     return np.frombuffer(raw, dtype(name)).view(np.recarray)
 
@@ -264,7 +269,7 @@ def viewed(name, pointer, count, owner):
     if not count:
         return np.zeros(0, dtype(name))
     memory = ffi.gc(pointer, lambda _memory, owner=owner: None)
-    values = np.frombuffer(ffi.buffer(memory, count * ffi.sizeof(types[name])), dtype(name))
+    values = np.frombuffer(ffi.buffer(memory, count * ffi.sizeof(typeof(name))), dtype(name))
     values.flags.writeable = False
     return values
 
