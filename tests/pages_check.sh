@@ -49,7 +49,7 @@ cd "$scratch" || exit 1
 sh -e compute.sh >printed 2>log || { cat log; fail "a command failed"; }
 told '0\.743469008' printed
 told 'resonance_frequency, ' printed
-told '^0\.579449.* 617\.079' printed
+told '^0\.579449.* 0\.617079' printed
 told ' sa .* 0\.8319.* 0\.66' printed
 told 'LA to SA .* 1175 ' printed
 if [ -n "$drawing" ]; then
