@@ -119,6 +119,68 @@ static void inverted(void **state)
   pendres_context_free(ctx);
 }
 
+/* One period of a ring, whose spring and junction a parametric drive moves. */
+static void ring_period(const pendres_pendulum *p, double *x, double *v)
+{
+  enum { STEPS = 3000 }; /* 60 rad/s with waves of 2 pi: 50 steps a wave */
+  const double h = 2.0 * PENDRES_PI / p->drive_frequency / STEPS;
+  for (int n = 0; n < STEPS; n++) {
+    double a[4], u[4];
+    for (int i = 0; i < 4; i++) {
+      const double c = i == 0 ? 0.0 : i == 3 ? 1.0 : 0.5, t = (n + c) * h;
+      const double at = i == 0 ? *x : *x + c * h * u[i - 1];
+      u[i] = i == 0 ? *v : *v + c * h * a[i - 1];
+      a[i] = p->drive_amplitude * cos(p->drive_frequency * t) - p->damping * u[i] -
+             force(p, at) * (1.0 + p->parametric_amplitude * cos(p->drive_frequency * t));
+    }
+    *x += h / 6.0 * (u[0] + 2.0 * u[1] + 2.0 * u[2] + u[3]);
+    *v += h / 6.0 * (a[0] + 2.0 * a[1] + 2.0 * a[2] + a[3]);
+  }
+}
+
+/*
+ * A ring within a tongue of its spring: it settles on one of seven orbits of two periods, the
+ * largest of which reaches 51, or its oscillations grow for ever. After 250 periods the latter are
+ * beyond 1000, with the exponent of the spring, and the others on their orbits.
+ */
+static void ring_in_tongue(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 0.1, .drive_frequency = 1.0,
+                              .parametric_amplitude = 1.25, .force = PENDRES_FORCE_SQUID,
+                              .force_coefficients = {0.5}};
+  double x[SIDE], v[SIDE];
+  int away = 0;
+  pendres_basin_state s[SIDE * SIDE];
+  pendres_attractors *set = NULL;
+  pendres_context *ctx = context();
+  (void)state;
+  for (int i = 0; i < SIDE; i++) {
+    x[i] = -3.1 + 6.2 * i / (SIDE - 1);
+    v[i] = -2.0 + 4.0 * i / (SIDE - 1);
+  }
+  const pendres_basin_grid grid = {.nx = SIDE, .nv = SIDE, .x = x, .v = v};
+  check_ok(pendres_basin_attractors(ctx, &p, &grid, &set));
+  assert_int_equal(pendres_attractors_count(set), 7);
+  check_ok(pendres_basin_find(ctx, set, &grid, s));
+  for (int i = 0; i < SIDE * SIDE; i += 3) {
+    double z[2] = {x[i / SIDE], v[i % SIDE]};
+    for (int k = 0; k < 250; k++) ring_period(&p, &z[0], &z[1]);
+    const int escapes = hypot(z[0], z[1]) > 1000.0;
+    away += escapes;
+    assert_int_equal(s[i].how, PENDRES_BASIN_INTEGRATED);
+    assert_int_equal(s[i].label, escapes ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_PERIODIC);
+    if (escapes) continue;
+    const pendres_orbit *o = &pendres_attractors_get(set, (size_t)s[i].attractor)->orbit;
+    double other[2] = {z[0], z[1]};
+    ring_period(&p, &other[0], &other[1]);
+    assert_true(fmin(hypot(z[0] - o->x, z[1] - o->v), hypot(other[0] - o->x, other[1] - o->v)) <
+                0.05);
+  }
+  assert_true(away > 5);
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
+}
+
 /* A force of one's own: a ring whose spring pushes. What does not escape is on the one attractor
    around x = 0, and both happen. */
 static void own_force(void **state)
@@ -201,7 +263,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(helmholtz), cmocka_unit_test(inverted),
-    cmocka_unit_test(own_force), cmocka_unit_test(bound),
+    cmocka_unit_test(own_force),
+    cmocka_unit_test(ring_in_tongue), cmocka_unit_test(bound),
   };
   return cmocka_run_group_tests_name("escape", tests, NULL, NULL);
 }

@@ -88,6 +88,7 @@ typedef struct pendres_model {
   pendres_force_outward *outward; /**< gives the distance beyond which pendulums escape to infinity;
                                        NULL: none escape, or the distance is not known */
   pendres_force_centre *centre;   /**< gives the point about which it is odd; NULL: none */
+  double beside;     /**< the force is the spring a1 y and a rest of at most this; 0: it is not */
 } pendres_model;
 
 /** The parameters of one pendulum. Where all fields after temperature are zero it is the plain

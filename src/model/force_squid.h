@@ -39,7 +39,7 @@ static inline double pendres_force_squid_centre(const double *a, double torque, 
 /* The ring's spring pulls y back however often it has turned over: y has no period. */
 static const pendres_model pendres_force_squid_model = {
   .name = "squid", .angle = 1, .coefficients = 1,
-  .outward = pendres_force_squid_outward, .centre = pendres_force_squid_centre};
+  .outward = pendres_force_squid_outward, .centre = pendres_force_squid_centre, .beside = 1.0};
 
 PENDRES_FORCE_INLINE void pendres_force_squid(const double *a, double y, double *force,
                                               double *slope)

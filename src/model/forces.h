@@ -15,7 +15,7 @@
  *                                 infinity, `outward`, which gives the position beyond which they
  *                                 certainly do (pendulum.h); without it they are unresolved;
  *                                 `centre` gives the point about which f less a torque is odd, if
- *                                 it can be
+ *                                 it can be; `beside`, how far it is from a spring a1 y at most
  *   pendres_force_NAME            f and df/dy; f(0) need not be 0
  *   pendres_force_NAME_by         df/da_k, k from 0 on
  *   pendres_force_NAME_potential  V, dV/dy = f, up to a constant

@@ -12,6 +12,7 @@
 #include <pendres/attractor.h>
 
 #include "engine/strobe_run.h"
+#include "orbits/escape.h"
 #include "orbits/trapping_ellipse.h"
 
 enum {
@@ -59,6 +60,7 @@ typedef struct pendres_attractor_set {
   size_t covers;
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
   int grows;        /* the force is linear, and all motions grow without bound */
+  pendres_escape_beside beside; /* from where on they do beside a spring */
   double transient; /* mean lifetime of transient chaos, in drive periods; 0: none was found */
 } pendres_attractor_set;
 

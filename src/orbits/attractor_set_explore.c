@@ -17,6 +17,7 @@ typedef struct guess_run {
   pendres_initial_guess *guesses; /* y and w: one period ago */
   double *angle;         /* the angle then, with its whole turns */
   const long *periods;   /* of each set */
+  const pendres_attractor_set *attractor_sets;
 } guess_run;
 
 /* An initial guess stops where it hardly moves, or after the time in which transients should have
@@ -34,7 +35,8 @@ static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   me->w = lane->w;
   me->period = 1;
   /* An initial guess on its way to infinity finds nothing: NaN marks that it is not to be used. */
-  if (pendres_model_escapes(lane->pendulum, lane->y, lane->w)) me->y = NAN;
+  if (pendres_escape_certain(lane->pendulum, &s->attractor_sets[me->set].beside, lane->y, lane->w))
+    me->y = NAN;
   if (!(isfinite(advance) && isfinite(me->y))) return 1;
   me->winding = (int)turns;
   return moved < guess_at_rest || lane->period >= s->periods[me->set];
@@ -73,7 +75,8 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
                                              guesses[i].w * p->drive_frequency);
     status = pendres_steps_choose(ctx, p, speed, pendres_accuracy_to_follow(ctx), &lanes[i].steps);
   }
-  guess_run s = {.guesses = guesses, .angle = angle, .periods = periods};
+  guess_run s = {.guesses = guesses, .angle = angle, .periods = periods,
+                 .attractor_sets = attractor_sets};
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, guess_look, &s);
   if (status == PENDRES_OK) status = pendres_attractor_set_add(ctx, attractor_sets, n, guesses);
   return pendres_room_close(&room, status);

@@ -152,7 +152,7 @@ static void arrive(const pendres_attractor_set *c, size_t i, const pendres_rows 
   /* A replica that escapes has left the chaos, too. */
   if (a->trapped == 0 &&
       (pendres_attractor_set_ellipse(c, a->y, a->w) != NULL || !isfinite(a->y) ||
-       pendres_model_escapes(&c->pendulum, a->y, a->w)))
+       pendres_escape_certain(&c->pendulum, &c->beside, a->y, a->w)))
     a->trapped = a->periods;
 }
 

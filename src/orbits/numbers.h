@@ -213,6 +213,10 @@ static const double settle_least = 20.0, settle_times = 10.0;
 static const double settle_last_some = 2000.0, settle_last_times = 100.0;
 static const double settle_slowest = 1e4;
 
+/* Under a parametric drive pendulums become faster than the attractor that they settle on, by less
+   than this on their way to it. */
+static const double settle_overshoot = 2.0;
+
 /* Budgets have these bounds, which only dampings below 1e-6 meet. */
 static const double settle_first_most = 1e7, settle_last_most = 1e8;
 
@@ -241,6 +245,11 @@ static const double settle_farthest_in_float = 50.0;
    period's end is then no number, or a meaningless one of either sign, beyond all lengths of the
    force. */
 static const double escape_lost_beyond = 1e8;
+
+/* Oscillations of a spring grow for certain where a multiplier is beyond 1 by more than errors of
+   one period; and where they do, that multiple of what a bound says is allowed for errors of the
+   bound itself: of a sum for an integral, a few percent, and of the steps. */
+static const double escape_grows = 1e-6, escape_spare = 1.5;
 
 /* ---- chaos: whether distances grow ---- */
 

@@ -51,7 +51,8 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
     &room, pendres_attractor_set_explore(ctx, sets, attractor_sets, count, guesses));
 }
 
-/* Mark the sets whose force is linear and lets all motions grow without bound. */
+/* Mark the sets whose force is linear and lets all motions grow without bound, and tell from where
+   on they do where it is nearly so. */
 static pendres_status tell_growing(pendres_context *ctx, size_t sets,
                                    pendres_attractor_set *attractor_sets)
 {
@@ -63,6 +64,8 @@ static pendres_status tell_growing(pendres_context *ctx, size_t sets,
   if (status == PENDRES_OK) status = pendres_linear_find(ctx, sets, p, linear);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
     attractor_sets[s].grows = linear[s].fate == PENDRES_LINEAR_GROWS;
+  for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
+    status = pendres_escape_beside_find(ctx, &p[s], &attractor_sets[s].beside);
   return pendres_room_close(&room, status);
 }
 
@@ -89,6 +92,21 @@ static pendres_status order_all(pendres_context *ctx, size_t sets,
   return pendres_room_close(&room, status);
 }
 
+/* Labels of pendulums that were integrated as slow as they started are not certain where attractors
+   have turned out to be faster: they are integrated once more. */
+static void doubt(const pendres_attractor_set *attractor_sets, const pendres_settle_starts *from,
+                  pendres_outcome *outcome, double *error_ratio)
+{
+  double driven = 0.0;
+  for (size_t i = 0; i < from->n; i++) {
+    const pendres_attractor_set *c = &attractor_sets[from->set[i]];
+    if (i == 0 || from->set[i] != from->set[i - 1]) driven = pendres_settle_driven(c);
+    if (c->grows || !(pendres_steps_speed(&c->pendulum, from->x[i], from->v[i]) < driven)) continue;
+    outcome[i].certain = 0;
+    error_ratio[i] = NAN;
+  }
+}
+
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_attractor_set *attractor_sets,
                                     const pendres_settle_starts *from, pendres_outcome *outcome)
@@ -112,7 +130,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     if (i > 0 && set[i] == set[i - 1] && speed == last)
       lanes[i] = pendres_settle_load_like(&lanes[i - 1], x[i], v[i]);
     else
-      status = pendres_settle_load(ctx, p, x[i], v[i], accuracy, &lanes[i]);
+      status = pendres_settle_load(ctx, &attractor_sets[set[i]], x[i], v[i], accuracy, &lanes[i]);
   }
   for (size_t s = 0; s < sets; s++) {
     budget[s] = pendres_settle_last_budget(ctx, &attractor_sets[s]);
@@ -127,6 +145,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
   if (status == PENDRES_OK)
     status = pendres_settle_search(ctx, sets, attractor_sets, from, &l, lanes);
+  if (status == PENDRES_OK) doubt(attractor_sets, from, outcome, error_ratio);
   if (status == PENDRES_OK && !from->only_attractors)
     status = pendres_settle_certain(ctx, &l, from, accuracy);
   if (status == PENDRES_OK) status = order_all(ctx, sets, attractor_sets, n, set, outcome);
@@ -190,12 +209,13 @@ static double fastest_in_float(const pendres_context *ctx, const pendres_pendulu
 }
 
 /* Put the pendulums of one parameter set at their starts, and choose their steps. */
-static pendres_status load_all(pendres_context *ctx, const pendres_pendulum *p,
+static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set *c,
                                const pendres_settle_starts *starts, double accuracy,
                                pendres_settle_budget budget, pendres_strobe_lane *lanes)
 {
+  const pendres_pendulum *p = &c->pendulum;
   pendres_status status = PENDRES_OK;
-  const double fastest = fastest_in_float(ctx, p, budget);
+  const double fastest = fastest_in_float(ctx, p, budget), driven = pendres_settle_driven(c);
   const double rounding = pendres_strobe_noise_of_step_in_float();
   double added = 0.0;
   speed_table *table = calloc(1, sizeof *table);
@@ -205,7 +225,7 @@ static pendres_status load_all(pendres_context *ctx, const pendres_pendulum *p,
     const double x = starts->x[i], v = starts->v[i];
     pendres_strobe_lane *lane = &lanes[i];
     *lane = pendres_strobe_lane_at(p, x, v);
-    const double speed = pendres_steps_speed(p, x, v);
+    const double speed = fmax(driven, pendres_steps_speed(p, x, v));
     status = steps_of(ctx, p, speed, accuracy, table, &lane->steps);
     if (i == 0 || lane[-1].steps != lane->steps)
       added = pendres_settle_added(ctx, accuracy, lane->steps);
@@ -214,6 +234,38 @@ static pendres_status load_all(pendres_context *ctx, const pendres_pendulum *p,
   }
   free(table);
   return status;
+}
+
+/*
+ * Pendulums that have settled nowhere are integrated as exactly as attractors are looked for. Where
+ * they become much faster than they start, the steps of a picture may be too long for what they
+ * settle on.
+ */
+static pendres_status settle_left(pendres_context *ctx, const pendres_attractor_set *attractor_set,
+                                  const pendres_settle_starts *starts, double accuracy,
+                                  pendres_outcome *outcome)
+{
+  const double exact = pendres_accuracy_to_settle(ctx);
+  size_t left = 0;
+  if (!(accuracy > exact) || !pendres_settle_carries(ctx)) return PENDRES_OK;
+  for (size_t i = 0; i < starts->n; i++) left += !pendres_settle_ended(&outcome[i]);
+  if (left == 0) return PENDRES_OK;
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  double *x = pendres_room_take(&room, left, sizeof *x);
+  double *v = pendres_room_take(&room, left, sizeof *v);
+  pendres_outcome *now = pendres_room_take(&room, left, sizeof *now);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0, k = 0; i < starts->n; i++)
+    if (!pendres_settle_ended(&outcome[i])) {
+      x[k] = starts->x[i];
+      v[k++] = starts->v[i];
+    }
+  const pendres_settle_starts again = {.n = left, .x = x, .v = v};
+  const pendres_status status =
+    pendres_settle_known(ctx, attractor_set, &again, exact, PENDRES_SETTLE_FULL, now);
+  for (size_t i = 0, k = 0; i < starts->n && status == PENDRES_OK; i++)
+    if (!pendres_settle_ended(&outcome[i])) outcome[i] = now[k++];
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_settle_known(pendres_context *ctx,
@@ -227,7 +279,7 @@ pendres_status pendres_settle_known(pendres_context *ctx,
   pendres_strobe_lane *lanes = pendres_room_take(&room, n, sizeof *lanes);
   double *error_ratio = pendres_room_take(&room, n, sizeof *error_ratio);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  pendres_status status = load_all(ctx, &attractor_set->pendulum, starts, accuracy, budget, lanes);
+  pendres_status status = load_all(ctx, attractor_set, starts, accuracy, budget, lanes);
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   order_by_steps(n, lanes, order);
   for (size_t i = 0; i < n; i++) {
@@ -242,5 +294,7 @@ pendres_status pendres_settle_known(pendres_context *ctx,
   status = pendres_settle_lanes(ctx, n, lanes, &l);
   if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &l, starts, accuracy);
   ctx->cost.settled_pendulums += (double)n;
+  if (status == PENDRES_OK && budget == PENDRES_SETTLE_FULL)
+    status = settle_left(ctx, attractor_set, starts, accuracy, outcome);
   return pendres_room_close(&room, status);
 }

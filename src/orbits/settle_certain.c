@@ -91,9 +91,9 @@ static pendres_status load(pendres_context *ctx, const pendres_settle_labelling 
   size_t n = 0;
   for (size_t k = 0; k < d->count; k++) {
     const size_t i = d->index[k];
-    const pendres_status status =
-      pendres_settle_load(ctx, &job->attractor_sets[d->set[k]].pendulum, from->x[i], from->v[i],
-                          d->accuracy[k], &d->lanes[n]);
+    const pendres_status status = pendres_settle_load(ctx, &job->attractor_sets[d->set[k]],
+                                                      from->x[i], from->v[i], d->accuracy[k],
+                                                      &d->lanes[n]);
     if (status == PENDRES_TOLERANCE_UNREACHABLE) continue; /* it stays uncertain: no failure */
     if (status != PENDRES_OK) return status;
     d->lanes[n].steps = coarse_rung(d->lanes[n].steps);

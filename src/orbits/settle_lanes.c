@@ -44,6 +44,17 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attrac
   return (long)ceil(fmin(most, settle_last_most));
 }
 
+double pendres_settle_driven(const pendres_attractor_set *c)
+{
+  double fastest = 0.0;
+  if (!pendres_escape_possible(&c->pendulum) || c->pendulum.parametric_amplitude == 0.0) return 0.0;
+  for (size_t i = 0; i < c->count; i++) {
+    const pendres_orbit *o = &c->attractors[i].orbit;
+    fastest = fmax(fastest, pendres_steps_speed(&c->pendulum, o->x, o->v)); /* not NaN: chaos */
+  }
+  return settle_overshoot * fastest;
+}
+
 int pendres_settle_carries(const pendres_context *ctx)
 {
   return pendres_method_of(ctx)->fixed_steps && ctx->options.steps_per_period == 0;
@@ -56,12 +67,13 @@ double pendres_settle_added(const pendres_context *ctx, double accuracy, int ste
   return accuracy * accuracy / steps + rounding * rounding;
 }
 
-pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
+pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor_set *c, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane)
 {
+  const pendres_pendulum *p = &c->pendulum;
+  const double speed = fmax(pendres_settle_driven(c), pendres_steps_speed(p, x, v));
   *lane = pendres_strobe_lane_at(p, x, v);
-  const pendres_status status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x, v), accuracy,
-                                                     &lane->steps);
+  const pendres_status status = pendres_steps_choose(ctx, p, speed, accuracy, &lane->steps);
   if (status == PENDRES_OK) lane->added = pendres_settle_added(ctx, accuracy, lane->steps);
   return status;
 }
@@ -170,11 +182,12 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
 }
 
 /* Whether a lane has escaped, or is lost. The last period of a lost one is examined once more. */
-static int escapes(const pendres_settle_labelling *l, size_t i, const pendres_strobe_lane *lane)
+static int escapes(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
+                   const pendres_strobe_lane *lane)
 {
   if (pendres_escape_lost(lane->y, lane->w)) return 1;
   l->before[i] = (pendres_settle_place){lane->y, lane->w, lane->worst};
-  if (!pendres_model_escapes(lane->pendulum, lane->y, lane->w)) return 0;
+  if (!pendres_escape_certain(lane->pendulum, &c->beside, lane->y, lane->w)) return 0;
   note_escape(l, i, lane, lane->worst);
   return 1;
 }
@@ -221,7 +234,7 @@ static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
   const size_t set = set_of(l, i);
   const pendres_attractor_set *c = &l->attractor_sets[set];
   if (trapped(l, i, c, lane)) return 1;
-  if (l->before != NULL && escapes(l, i, lane)) return 1;
+  if (l->before != NULL && escapes(l, i, c, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
   if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
   if (l->drop_lost && lost(l, i, c, lane)) return 1;

@@ -68,9 +68,14 @@ long pendres_settle_first_budget(const pendres_pendulum *p);
 /* Periods after which it is given up. */
 long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attractor_set *c);
 
+/* How fast pendulums become on their way to the attractors, as pendres_steps_speed() says of a
+   start: a parametric drive may make them much faster than they start. 0 where there is none, or
+   pendulums turn over. */
+double pendres_settle_driven(const pendres_attractor_set *c);
+
 /* Put a pendulum at its start, and choose its steps for this error per period, which is propagated
    where that is possible. */
-pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
+pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor_set *c, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane);
 
 /* The same for a pendulum with the parameters and the velocity of a neighbour whose steps are
