@@ -194,7 +194,7 @@ pendres_status pendres_fit_solve(fit_problem *p, int iterations, fit_result *out
     if (out->converged) break;
     status = run(p, iterations, out);
     if (status == PENDRES_OK && before - out->chi_square < fit_converged) {
-      out->converged |= out->remaining < fit_kinked && is_kinked(p);
+      out->converged |= p->m->left == 0 && out->remaining < fit_kinked && is_kinked(p);
       break;
     }
   }
