@@ -4,7 +4,7 @@ import os
 import h5py
 import numpy as np
 
-from style import (EXACT, FREE, LA, SA, Run, amplitude_axis, around, drive_axis, figure,
+from style import (EXACT, FREE, LA, SA, Run, amplitude_axis, around, colours_of, drive_axis, figure,
                    free_frequency, frequency, legend, parameter_axis, parameter_text, plt)
 
 
@@ -284,6 +284,23 @@ def draw_branch(ax, x, y, stable, kind, colour):
                 lw=1.4 if holds[first] else 1.1)
 
 
+def draw_backbone(ax, h, rows, factor):
+    """Orbits that lag behind the drive by a quarter turn: over damping a curve through the lines
+    and beyond them, over anything else a mark on each line, and a curve through many. And free
+    oscillations."""
+    if "free_amplitude" in h:
+        ax.plot(frequency(h, h["free_frequency"])[0], factor * h["free_amplitude"], "-.", color=FREE,
+                lw=0.8, zorder=1, label="free oscillation")
+    if "backbone_frequency" not in h:
+        return
+    omega, at = frequency(h, h["backbone_frequency"])[0], factor * h["backbone_amplitude"]
+    some = np.isfinite(omega) & np.isfinite(at)
+    curve = rows == "damping" or np.sum(some) >= 12
+    if np.any(some):
+        ax.plot(omega[some], at[some], "-" if curve else "+", color=EXACT, lw=0.6, ms=6, mew=0.6,
+                zorder=3.5, label="lag of a quarter turn")
+
+
 def draw_branches(h, path):
     """Amplitude against the frequency, or against whatever the branches are followed along."""
     fig, ax = figure(h, 3.3)
@@ -295,14 +312,15 @@ def draw_branches(h, path):
     number, stable, kind = h["branch_number"], h["branch_stable"] == 1, h["branch_kind"]
     value, row = h[f"branch_{column_of(name)}"], h[f"branch_{column_of(rows)}"]
     along = parameter_axis(h, value if name != "drive_period" else 2 * np.pi / value, name)[0]
-    for i, g in enumerate(h[rows]):
+    few = len(h[rows]) <= 6
+    for i, (g, shade) in enumerate(zip(h[rows], colours_of(h[rows]))):
+        colour = f"C{i}" if few else shade
         for k in np.unique(number[abs(row - g) <= 1e-9 * max(1, abs(g))]):
             here = number == k
-            draw_branch(ax, along[here], amplitude[here], stable[here], kind[here],
-                        f"C{i % 6}")
-        ax.plot([], [], color=f"C{i % 6}", label=parameter_text(h, g, rows))
+            draw_branch(ax, along[here], amplitude[here], stable[here], kind[here], colour)
+        ax.plot([], [], color=colour, label=parameter_text(h, g, rows))
         if h.options.ensemble:
-            ax.plot(axis, factor * h["mean_loop_amplitude"][i], ".", ms=3, color=f"C{i % 6}")
+            ax.plot(axis, factor * h["mean_loop_amplitude"][i], ".", ms=3, color=colour)
     ax.plot([], [], ls=UNSTABLE, color="black", lw=1.1, label="unstable")
     if h.options.ensemble:
         ax.plot([], [], ".", ms=3, color="black", label="mean of the ensemble")
@@ -313,14 +331,12 @@ def draw_branches(h, path):
             ax.plot(along[here], amplitude[here], mark, ms=3.5, mfc="white", mew=0.8,
                     color="black", label=text, zorder=3)
     if name == "drive_frequency" and h.options.boundary:
+        draw_backbone(ax, h, rows, factor)
         symbol = parameter_axis(h, [], rows)[1].partition(" (")[0].split()[-1]
         for named, omega, at in bifurcation_curves(h, "fold", "frequency", "amplitude"):
             if named:
                 line = smooth(frequency(h, omega)[0], factor * at)
                 ax.plot(*line.T, color="0.75", lw=0.8, zorder=1, label=f"folds, all {symbol}")
-        if "free_amplitude" in h:
-            ax.plot(frequency(h, h["free_frequency"])[0], factor * h["free_amplitude"], "-.", color=FREE,
-                    lw=0.8, zorder=1, label="free oscillation")
     inside = (along >= low) & (along <= high)
     shown = amplitude[inside] if np.any(inside) else factor * h["mean_loop_amplitude"].ravel()
     ax.set(xlabel=label, ylabel=height, xlim=(low, high), ylim=(0, around(shown)[1]))

@@ -69,6 +69,10 @@ class Lines(Run):
         own = dimensions(self, name)
         if own[:1] != [self.outer] or name == self.outer:
             return self.file[name][()]
+        if own[1:2] == ["backbone_damping"]:  # each value's at the damping that all share
+            here = float(self[self.single][0])
+            return np.array([np.interp(np.log(here), np.log(s["backbone_damping"]), s[name])
+                             for s in self.slices])
         if column is not None:  # numbers of branches are each value's own
             apart = NUMBERS if column == "number" else 0
             return np.concatenate([s[name] + apart * s.k for s in self.slices])

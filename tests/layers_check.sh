@@ -28,7 +28,7 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   model/forces.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
   engine/accuracy.h engine/block.h engine/chain.h engine/context_internal.h engine/door.h engine/coordinates.h engine/kernels_force.h
   engine/rank.h engine/room.h
-  engine/steps.h engine/strobe_run.h engine/tables.h
+  engine/steps.h engine/strobe_run.h engine/tables.h engine/team.h
   orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/free_force.h orbits/growth.h orbits/linear.h orbits/label.h orbits/numbers.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
   orbits/orbit_reading.h orbits/orbit_series.h

@@ -61,7 +61,8 @@ static void bad_options(void **state)
     {{.block_lanes = -8}, "lanes"},          {{.block_lanes = 4104}, "lanes"},
     {{.period_budget = -1}, "budget"},
     {{.exponent_error = 1.1}, "exponents"},
-    {{.exponent_error = NAN}, "exponents"},
+    {{.exponent_error = NAN}, "exponents"},  {{.threads = -1}, "threads"},
+    {{.threads = 4097}, "threads"},
   };
   (void)state;
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -50,6 +50,8 @@ static void test_jumps(void **state)
              "&sweep drive_frequency_range = '1.199 MHz', '1.206 MHz', 41 /\n");
   check_code(RUN("-q", "--csv", "resonator.nml"), DONE);
   check_says(out, "jump_parameter, MHz");
+  check_says(out, "\n0 (up)                        1.202939889");
+  check_says(out, "\n1 (down)                      1.200642889");
   check_says(out, " 1.2029398898");
   check_says(out, "694.8104763 pN\n");
   check_ok(pendres_store_open("resonator.h5", &store));
@@ -88,7 +90,7 @@ static void test_absent(void **state)
              "&sweep torque_range = '0 A', '12 uA', 13 /\n");
   check_code(RUN("-q", "iv.nml"), DONE);
   check_says(out, "homoclinic  0.866712477541");
-  check_says(out, "1                             8.66712477541");
+  check_says(out, "1 (down)                      8.66712477541");
   check_says(out, "     0\n"); /* the voltage at rest has no error */
   assert_null(strstr(out, "nan"));
   assert_null(strstr(out, " \n"));

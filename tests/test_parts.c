@@ -1,6 +1,7 @@
 /*
  * test_parts.c -- work in parts on threads: the same bytes as in one call, whatever the number of
  * threads and parts; every item is done once; of several failures the first in order is reported.
+ * So it is in calls that divide their own work, by the option `threads`.
  */
 #include "check.h"
 
@@ -8,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pendres/basin.h>
+#include <pendres/dimension.h>
 #include <pendres/parts.h>
 #include <pendres/strobe.h>
 
@@ -101,12 +104,83 @@ static void nothing_to_do(void **state)
   check_ok(pendres_parts_run(&none, advance, NULL, NULL, 0));
 }
 
+/* ---- calls that divide their own work ---- */
+
+/* Asked on any thread, one at a time, so that a plain count is safe. */
+static int stop_at_third(void *arg)
+{
+  return ++*(int *)arg >= 3;
+}
+
+/* Points all over a square have the dimension 2. */
+static void dimension_on_threads(void **state)
+{
+  enum { POINTS = 6000, FEW = 1600 };
+  static double x[POINTS], v[POINTS];
+  const pendres_section section = {POINTS, x, v, 0.0}, few = {FEW, x, v, 0.0};
+  pendres_correlation one, some;
+  uint64_t random = 1;
+  (void)state;
+  for (size_t i = 0; i < 2 * POINTS; i++) {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    (i % 2 ? x : v)[i / 2] = (double)(random >> 11) * 0x1p-53;
+  }
+  for (int threads = 1; threads <= 5; threads += 2) {
+    int asked = 0;
+    pendres_context *ctx = NULL;
+    check_ok(pendres_context_create(&(pendres_options){.threads = threads}, &ctx));
+    check_ok(pendres_correlation_find(ctx, &section, 0.0, threads == 1 ? &one : &some));
+    check_near(one.dimension, 2.0, one.dimension_error);
+    if (threads > 1) assert_memory_equal(&one, &some, sizeof one);
+    pendres_context_set_interrupt(ctx, stop_at_third, &asked);
+    assert_int_equal(pendres_correlation_find(ctx, &few, 0.0, &some), PENDRES_INTERRUPTED);
+    assert_non_null(strstr(pendres_context_message(ctx), "interrupted on request"));
+    assert_true(asked >= 3 && asked < 3 + threads);
+    pendres_context_free(ctx);
+  }
+}
+
+/* In any units, with the same work. */
+static void random_states_on_threads(void **state)
+{
+  enum { STATES = 3000, MODELS = 2 };
+  static const double distance[] = {1e-5, 6e-5, 3.6e-4, 2.16e-3, 1.296e-2};
+  static const pendres_pendulum p[MODELS] = {
+    {.damping = 0.2, .drive_amplitude = 2.0, .drive_frequency = 1.0},
+    {.damping = 25.0, .drive_amplitude = 40.0, .drive_frequency = 100.0, /* units of 1 / 100 */
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-1e4, 0.0, 1e8}}};
+  static const double far[MODELS][2] = {{1.5, 4.0}, {0.02, 2.0}};
+  (void)state;
+  for (int k = 0; k < MODELS; k++) {
+    const pendres_basin_window window = {
+      .x_low = -far[k][0], .x_high = far[k][0], .v_low = -far[k][1], .v_high = far[k][1]};
+    const pendres_basin_sample sample = {STATES, 7, 5, distance};
+    pendres_basin_statistics one, some;
+    pendres_cost cost[2];
+    for (int threads = 1; threads <= 3; threads += 2) {
+      pendres_context *ctx = NULL;
+      pendres_attractors *set = NULL;
+      check_ok(pendres_context_create(&(pendres_options){.threads = threads}, &ctx));
+      check_ok(pendres_attractors_find(ctx, &p[k], 0, NULL, NULL, &set));
+      (void)pendres_basin_uncertainty(ctx, set, &window, &sample, threads == 1 ? &one : &some);
+      pendres_context_cost(ctx, &cost[threads > 1]);
+      pendres_attractors_free(set);
+      pendres_context_free(ctx);
+    }
+    assert_true(one.states > 256 && isfinite(one.uncertain[0]));
+    assert_memory_equal(&one, &some, sizeof one);
+    assert_memory_equal(&cost[0], &cost[1], sizeof cost[0]);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(bytes_do_not_depend_on_threads),
     cmocka_unit_test(first_failure_is_told),
     cmocka_unit_test(nothing_to_do),
+    cmocka_unit_test(dimension_on_threads),
+    cmocka_unit_test(random_states_on_threads),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,6 +127,33 @@ static void branches_hold_the_figures(void **state)
   pendres_store_free(store);
 }
 
+/* Of a line's two folds the one of smaller amplitude ends SA, also at drives where it is
+   larger than the cusp's, as it is here. */
+static void ends_of_strong_drives(void **state)
+{
+  (void)state;
+  size_t n = 0;
+  scene_run_deck("&scene kind = 'branches' /\n&ensemble members = 2 /\n"
+                 "&pendulum force = 'polynomial', force_coefficients = 1, 0, 0.2, damping = 0.1 /\n"
+                 "&sweep drive_amplitude = 0.1, 0.3, 1.0, drive_frequency_range = 0.7, 2.0, 5 /\n",
+                 1, "ends");
+  pendres_store *store = scene_open("ends");
+  double *amplitude = scene_values(store, "bifurcation_amplitude", &n);
+  double *drive = scene_values(store, "bifurcation_drive_amplitude", &n);
+  double *branch = scene_values(store, "bifurcation_branch", &n);
+  assert_int_equal(n, 4);
+  for (size_t i = 0; i < n; i++) {
+    assert_true(amplitude[i] > scene_scalar(store, "cusp_amplitude"));
+    for (size_t j = 0; j < n; j++)
+      if (drive[i] == drive[j] && amplitude[i] < amplitude[j])
+        assert_true(branch[i] == 0.0 && branch[j] == 1.0);
+  }
+  free(amplitude);
+  free(drive);
+  free(branch);
+  pendres_store_free(store);
+}
+
 /* Lines along the drive amplitude, and lines of frequencies at several of them: the fold and the
    cusp that lines of frequencies have at 0.2 (the reference's) lie at 0.2. */
 static void drives_are_axes(void **state)
@@ -404,7 +431,7 @@ int main(void)
     cmocka_unit_test(branches_hold_the_figures),
     cmocka_unit_test(branches_without_a_drive),
     cmocka_unit_test(branches_along_torque), cmocka_unit_test(diagram_holds_the_regimes),
-    cmocka_unit_test(drives_are_axes),
+    cmocka_unit_test(ends_of_strong_drives), cmocka_unit_test(drives_are_axes),
     cmocka_unit_test(responses_have_axes),
     cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(edges_name_their_fold),
   };

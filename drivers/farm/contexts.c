@@ -48,8 +48,11 @@ void farm_free(farm *f)
 pendres_status farm_context_of(farm *f, int thread, pendres_context **out)
 {
   pendres_status status = PENDRES_OK;
+  pendres_options library = f->options.library;
+  /* The first is that of whatever is no task, too, and then all threads are idle. */
+  if (thread == 0) library.threads = f->threads;
   if (f->context[thread] == NULL)
-    status = pendres_context_create(&f->options.library, &f->context[thread]);
+    status = pendres_context_create(&library, &f->context[thread]);
   *out = f->context[thread];
   return status;
 }

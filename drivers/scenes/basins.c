@@ -265,6 +265,24 @@ static void verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
   b->filled += pendres_basin_plan_filled(p);
 }
 
+/* States of some rows that have been refined. */
+typedef struct band {
+  basins *b;
+  size_t first, rows;
+  const pendres_basin_state *state;
+} band;
+
+/* What is done with them: the first thing is to write them, the second to add them up. */
+static pendres_status use_band(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  const band *s = arg;
+  (void)ctx;
+  (void)count;
+  if (first > 0) return pendres_basin_sums_add(s->b->sums, s->rows, s->state);
+  basins_write_rows(s->b, s->first, s->rows, s->state);
+  return PENDRES_OK;
+}
+
 /* Compute rows first .. first + rows - 1 by a plan. */
 static void refine_band(basins *b, size_t first, size_t rows, lost *to)
 {
@@ -277,8 +295,8 @@ static void refine_band(basins *b, size_t first, size_t rows, lost *to)
   b->integrated += pendres_basin_plan_integrated(p);
   pendres_basin_state *state = malloc(n * sizeof *state);
   if (planned(b, state != NULL ? pendres_basin_plan_states(p, state) : PENDRES_OUT_OF_MEMORY)) {
-    basins_write_rows(b, first, rows, state);
-    planned(b, pendres_basin_sums_add(b->sums, rows, state));
+    const pendres_parts both = {.n = 2, .each = 1, .threads = farm_threads(b->run->farm)};
+    planned(b, pendres_parts_run(&both, use_band, &(band){b, first, rows, state}, NULL, 0));
     take_unresolved(b, first * b->grid.nv, n, state, to, TASK_LOST);
   }
   pendres_basin_plan_free(p);

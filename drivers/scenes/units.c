@@ -36,6 +36,7 @@ void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors
 /* A result or a coordinate: n values, and how they are printed. */
 typedef struct shown {
   char name[DECK_NAME];
+  char word[MOST_PRINTED][DECK_NAME]; /* behind a value, that says what a mere number does not */
   size_t n;
   double value[MOST_PRINTED], error[MOST_PRINTED]; /* in the unit that is printed */
   int has_error;
@@ -77,10 +78,54 @@ static void print_value(FILE *out, const shown *s, size_t i, int width)
   digits = digits < 3 ? 3 : digits > 15 ? 15 : digits;
   if (isnan(x)) used = snprintf(text, sizeof text, "-"); /* there is none */
   else used = snprintf(text, sizeof text, "%.*g", digits, x);
+  if (s->word[i][0] != '\0') used += snprintf(text + used, sizeof text - (size_t)used, " (%s)",
+                                              s->word[i]);
   if (s->has_error && !isnan(x) && e != 0.0) /* what is given has no error */
     used += snprintf(text + used, sizeof text - (size_t)used, " +- %.1g", e);
   if (width > 0) fprintf(out, "%-*s", used < width ? width : used + 1, text);
   else fputs(text, out);
+}
+
+/* The n codes `along`_`what`, if there are any. */
+static int read_codes(scene_run *run, const char *along, const char *what, size_t n, char *name,
+                      double *code)
+{
+  uint64_t sizes[PENDRES_STORE_RANK];
+  int rank = 0;
+  (void)snprintf(name, 2 * DECK_NAME, "%s_%s", along, what);
+  if (!scene_going(run) || !pendres_store_has(run->store, "", name)) return 0;
+  scene_stored(run, pendres_store_shape(run->store, "", name, &rank, sizes));
+  if (!scene_going(run) || rank != 1 || sizes[0] != n) return 0;
+  scene_stored(run, pendres_store_read(run->store, "", name, PENDRES_STORE_DOUBLE, code, n));
+  return scene_going(run);
+}
+
+/* What the rows over a mere number are: the way of a jump, which step, what kind of bifurcation. */
+static void read_words(scene_run *run, shown *along)
+{
+  static const char *const codes[] = {"direction", "label", "branch", "kind"};
+  char name[2 * DECK_NAME];
+  double code[MOST_PRINTED], turns[MOST_PRINTED];
+  for (size_t k = 0; k < sizeof codes / sizeof *codes; k++) {
+    char *meanings = NULL;
+    if (!read_codes(run, along->name, codes[k], along->n, name, code)) continue;
+    if (pendres_store_read_attribute_text(run->store, "", name, "flag_meanings", &meanings) !=
+        PENDRES_OK)
+      continue;
+    for (size_t i = 0; i < along->n; i++) {
+      const char *word = meanings;
+      for (int skip = (int)code[i]; skip > 0 && *word != '\0'; skip--)
+        word += strcspn(word, " ") + (word[strcspn(word, " ")] == ' ');
+      (void)snprintf(along->word[i], DECK_NAME, "%.*s", (int)strcspn(word, " "), word);
+    }
+    free(meanings);
+    return;
+  }
+  if (!read_codes(run, along->name, "winding", along->n, name, turns) ||
+      !read_codes(run, along->name, "period", along->n, name, code))
+    return;
+  for (size_t i = 0; i < along->n; i++)
+    (void)snprintf(along->word[i], DECK_NAME, code[i] == 1.0 ? "%g" : "%g/%g", turns[i], code[i]);
 }
 
 /* Whether it is a number of this rank with few values that has a unit, or a dimension; of rank 1,
@@ -175,6 +220,7 @@ static void tell_dimension(scene_run *run, const char *dimension, size_t n)
   char *name = NULL;
   size_t same = 0;
   read_shown(run, dimension, n, &along);
+  read_words(run, &along);
   for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name)) {
     if (!is_wanted(run, name, 1, dimension, &same)) continue;
     read_shown(run, name, n, &column[columns]);

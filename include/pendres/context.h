@@ -77,6 +77,9 @@ typedef struct pendres_options {
                              are as long as needed to distinguish lasting from transient chaos */
   uint64_t seed;        /**< of all random numbers of noisy trajectories (langevin.h): any value;
                              zero is a seed like any other */
+  int threads;          /**< that a call may use where its work can be divided: random states of
+                             basins (basin.h), pairs of points (dimension.h). Results are the same
+                             bytes. Default 1, at most 4096 */
 } pendres_options;
 
 /**
@@ -126,7 +129,8 @@ void pendres_context_cost_reset(pendres_context *ctx);
  * Set a function that is called now and then, within long drive periods, too: it returns nonzero to
  * stop, and the computation then ends with PENDRES_INTERRUPTED. NULL removes it. arg is kept, not
  * owned. Within that function the context is in use, and only its cost and options may be asked
- * for. A context in use keeps the function that it has.
+ * for. A context in use keeps the function that it has. With the option `threads` it is called by
+ * any of them, one at a time.
  */
 void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg);
 

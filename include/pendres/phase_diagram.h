@@ -241,8 +241,9 @@ pendres_phase_curves pendres_phase_diagram_get(const pendres_phase_diagram *diag
 
 /** Which state ends in a fold of the diagram, whose orbit and curvature are given (see
     pendres_bifurcation): PENDRES_LABEL_SA or PENDRES_LABEL_LA; PENDRES_LABEL_PERIODIC for orbits
-    that can be neither. With a cusp the amplitude there decides; without one, the curvature and the
-    side to which the resonance bends. */
+    that can be neither. SA's lags less than the cusp's orbit where the resonance bends to lower
+    values of the line's parameter, and more where it bends to higher ones; without a cusp the
+    curvature decides. */
 pendres_label pendres_phase_diagram_ending_get(const pendres_phase_diagram *diagram,
                                                const pendres_orbit *orbit, double curvature);
 

@@ -25,7 +25,7 @@ class Context(Handle):
     """What a thread computes with: options, workspace, and the message on the last failure.
 
     Context(tolerance=1e-10, method="block_fixed", steps_per_period=0, block_lanes=512,
-    period_budget=0, exponent_error=0.0, stop=None)
+    period_budget=0, exponent_error=0.0, threads=1, stop=None)
 
     tolerance is that of the results, absolute for angles (rad) of order one. Zero in any field
     means the library's default. `stop` is a function without arguments that is asked now and then:

@@ -33,6 +33,9 @@ static const char *resolve(pendres_options *o)
   if (o->period_budget < 0) return "the budget of periods must be positive";
   if (!(o->exponent_error >= 0.0 && o->exponent_error <= 1.0))
     return "the wanted error of exponents must be between 0 and 1";
+  if (o->threads < 0 || o->threads > PARTS_MOST_THREADS)
+    return "the number of threads must be from 0 to 4096";
+  if (o->threads == 0) o->threads = 1;
   return NULL;
 }
 

@@ -12,6 +12,7 @@
 enum {
   LANES_USUAL = 512, /* of a block, unless asked: more is hardly faster */
   LANES_MOST = 4096,
+  PARTS_MOST_THREADS = 4096, /* more than any machine has processors */
   /*
    * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
    * vectors of a state than the kernels keep in registers at once. Measured; twice or half as many

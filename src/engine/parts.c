@@ -14,7 +14,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { PARTS_EACH = 4096, PARTS_MOST_THREADS = 4096 };
+#include "engine/numbers.h"
+
+enum { PARTS_EACH = 4096 };
 
 typedef struct pool {
   const pendres_parts *how;

@@ -24,6 +24,7 @@ enum {
   SAMPLE_LEAST = 16,
   SAMPLE_FIRST = 256, /* states that tell what more of them cost, and whether they are of use */
   SAMPLE_AT_A_TIME = 4096,
+  SAMPLE_TOGETHER = 256, /* on one thread, with their neighbours: these fill several blocks */
   SAMPLE_STATES = 16384     /* at random, unless callers choose */
 };
 

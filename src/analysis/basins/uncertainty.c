@@ -14,6 +14,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
+#include "engine/team.h"
 #include "orbits/settle.h"
 
 /* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */
@@ -91,24 +92,34 @@ typedef struct sample {
   const pendres_attractors *set;
   const pendres_basin_window *window;
   const pendres_basin_sample *of;
+  size_t begin, each; /* number of the first state of those below; of a state and its neighbours */
   double *x, *v; /* a state and its neighbours, one after the other */
   pendres_outcome *outcome;
 } sample;
+
+/* States of those that are settled next, by their numbers among these. */
+static pendres_status settle_part(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  const sample *a = arg;
+  const size_t at = first * a->each;
+  for (size_t i = 0; i < count; i++)
+    place(a->window, a->of, (uint64_t)(a->begin + first + i), &a->x[at + i * a->each],
+          &a->v[at + i * a->each]);
+  const pendres_settle_starts starts = {.n = count * a->each, .x = a->x + at, .v = a->v + at};
+  return pendres_settle_known(ctx, a->set->attractor_sets, &starts, pendres_accuracy_to_sample(),
+                              PENDRES_SETTLE_FULL, a->outcome + at);
+}
 
 /* Settle the next `count` states of a sample, with their neighbours. */
 static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
                                   pendres_scatter *counts, pendres_basin_statistics *out)
 {
-  const size_t each = 1 + 2 * (size_t)out->scales;
-  for (size_t i = 0; i < count; i++)
-    place(a->window, a->of, (uint64_t)(out->states + i), &a->x[i * each], &a->v[i * each]);
-  const pendres_settle_starts starts = {.n = count * each, .x = a->x, .v = a->v};
-  const pendres_status status =
-    pendres_settle_known(ctx, a->set->attractor_sets, &starts, pendres_accuracy_to_sample(),
-                         PENDRES_SETTLE_FULL, a->outcome);
+  a->begin = out->states;
+  a->each = 1 + 2 * (size_t)out->scales;
+  const pendres_status status = pendres_team_run(ctx, count, SAMPLE_TOGETHER, settle_part, a);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
-    const pendres_outcome *own = &a->outcome[i * each];
+    const pendres_outcome *own = &a->outcome[i * a->each];
     out->unresolved += is_unknown(own);
     out->uncertain_states += !is_unknown(own) && !own->certain;
     count_sample(counts, out->scales, a->window->by, own);

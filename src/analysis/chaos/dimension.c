@@ -9,6 +9,7 @@
 #include "analysis/chaos/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
+#include "engine/team.h"
 
 enum {
   BINS = PENDRES_CORRELATION_SCALES,
@@ -73,6 +74,17 @@ static pendres_status count_stretches(pendres_context *ctx, survey *s, int a, in
   for (int k = 0; k < BINS; k++)
     for (int t = 0; t < TABLES; t++) s->pairs[a][b][k] += table[t][k];
   return PENDRES_OK;
+}
+
+/* Pairs of stretches by number, a + BATCHES b: those with a <= b are counted. */
+static pendres_status count_some(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = first; i < first + count && status == PENDRES_OK; i++) {
+    const int a = (int)(i % BATCHES), b = (int)(i / BATCHES);
+    if (a <= b) status = count_stretches(ctx, arg, a, b);
+  }
+  return status;
 }
 
 /* ---- slopes -------------------------------------------------------------------------------- */
@@ -180,13 +192,9 @@ static pendres_status measure(pendres_context *ctx, survey *s, double resolution
     out->dimension = out->dimension_error = 0.0;
     return PENDRES_OK;
   }
-  for (int a = 0; a < BATCHES; a++)
-    for (int b = a; b < BATCHES; b++) {
-      const pendres_status status = count_stretches(ctx, s, a, b);
-      if (status != PENDRES_OK) return status;
-    }
-  judge(s, resolution, out);
-  return PENDRES_OK;
+  const pendres_status status = pendres_team_run(ctx, BATCHES * BATCHES, 1, count_some, s);
+  if (status == PENDRES_OK) judge(s, resolution, out);
+  return status;
 }
 
 static pendres_status correlation_measure(pendres_context *ctx, const pendres_section *section,

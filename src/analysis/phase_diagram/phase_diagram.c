@@ -364,8 +364,8 @@ pendres_label pendres_phase_diagram_ending_get(const pendres_phase_diagram *d,
                                                double curvature)
 {
   if (d == NULL || o == NULL || !pendres_phase_on_sheets(o)) return PENDRES_LABEL_PERIODIC;
-  const int small = d->has_cusp ? o->amplitude < d->cusp.orbit.amplitude
-                                : (d->falling ? -curvature : curvature) < 0.0;
+  const double beside = d->has_cusp ? o->phase_lag - d->cusp.orbit.phase_lag : curvature;
+  const int small = (d->falling ? -beside : beside) < 0.0;
   return small ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
 }
 
