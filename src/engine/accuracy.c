@@ -27,6 +27,11 @@ double pendres_accuracy_to_settle(const pendres_context *ctx)
   return fmin(pendres_accuracy_first(ctx), largest_settling_error);
 }
 
+double pendres_accuracy_to_settle_soon(void)
+{
+  return largest_settling_error;
+}
+
 double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing)
 {
   const double finest = pendres_accuracy_first(ctx);

@@ -33,6 +33,9 @@ double pendres_accuracy_of_run(const pendres_context *ctx, double that_count);
    always correct. */
 double pendres_accuracy_to_settle(const pendres_context *ctx);
 
+/* The same for their first few periods, in which none of this happens (settle.c). */
+double pendres_accuracy_to_settle_soon(void);
+
 /* The same for a picture of basins whose neighbouring states are `spacing` apart. An error of a
    boundary of a thousandth of this distance cannot be seen in a picture; but a tolerance below the
    default is kept, since it was requested. */

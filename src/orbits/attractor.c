@@ -248,7 +248,7 @@ pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractor
   size_t *zero = pendres_room_take(&room, n, sizeof *zero);
   pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
   const pendres_settle_starts starts = {
-    .n = n, .set = zero, .x = x, .v = v, .only_attractors = 1};
+    .n = n, .set = zero, .x = x, .v = v, .wanted = PENDRES_SETTLE_NOTHING};
   pendres_status status = room.status;
   if (status == PENDRES_OK)
     status = pendres_settle_batch(ctx, 1, set->attractor_sets, &starts, outcome);
@@ -274,7 +274,7 @@ typedef struct settling {
   pendres_attractors *all;
   size_t sets;   /* those of earlier stretches, */
   size_t offset; /* and their attractors */
-  int only_attractors;
+  pendres_settle_wanted wanted;
 } settling;
 
 static pendres_status settle_stretch(pendres_door *d, settling *s)
@@ -300,7 +300,7 @@ static pendres_status settle_stretch(pendres_door *d, settling *s)
     pendres_attractor_set *c = all->attractor_sets + base;
     const pendres_settle_starts some = {
       .n = last - first, .set = set + first, .x = s->x + first, .v = s->v + first,
-      .only_attractors = s->only_attractors};
+      .wanted = s->wanted};
     status = pendres_settle_batch(ctx, s->sets - base, c, &some, s->outcome + first);
     /* Numbers within a set become numbers in the list of all attractors. */
     size_t starts[BATCH_SETS];
@@ -322,7 +322,7 @@ static pendres_status settle_from_all_sides(pendres_door *d, settling *s)
   enum { EACH = PENDRES_ATTRACTOR_SET_STARTS };
   const double exponent_error = d->ctx->options.exponent_error;
   settling all = *s;
-  all.only_attractors = 1;
+  all.wanted = PENDRES_SETTLE_NOTHING;
   const size_t most = s->n * EACH;
   pendres_pendulum *p = pendres_door_memory(d, (most + 1) * sizeof *p);
   double *x = pendres_door_memory(d, (2 * most + 1) * sizeof *x);

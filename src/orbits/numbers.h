@@ -217,6 +217,15 @@ static const double settle_slowest = 1e4;
    than this on their way to it. */
 static const double settle_overshoot = 2.0;
 
+/*
+ * Plain pendulums of ensembles are run less exactly at first, over so many periods and so many times
+ * of settling, and no more than the last: of f08's members six of seven are then settled, and twice
+ * or half as long takes as much time. Next to a fold, where the distance between outcomes is less
+ * than what settle_borne takes it for, so many strobes are far too few to go from one to another:
+ * with distances of D the map moves a state by D^2 or so.
+ */
+static const double settle_soon_least = 6.0, settle_soon_times = 3.0, settle_soon_most = 50.0;
+
 /* Budgets have these bounds, which only dampings below 1e-6 meet. */
 static const double settle_first_most = 1e7, settle_last_most = 1e8;
 

@@ -69,6 +69,83 @@ static pendres_status tell_growing(pendres_context *ctx, size_t sets,
   return pendres_room_close(&room, status);
 }
 
+static int is_plain(const pendres_pendulum *p)
+{
+  return pendres_model_kind(p) == PENDRES_MODEL_PLAIN;
+}
+
+/*
+ * The first run of plain pendulums may be in single precision up to this speed at the start; -1:
+ * none may. The error that they carry includes its rounding, so that a label is certain or the
+ * pendulum is run again. Near a small ellipse rounding may keep a pendulum from settling: the run
+ * that waits for the last of them is in double precision.
+ */
+static double fastest_in_float(const pendres_context *ctx, const pendres_pendulum *p)
+{
+  const double fastest = settle_farthest_in_float * p->drive_frequency / two_pi;
+  const int may = ctx->options.method == PENDRES_BLOCK_FIXED && pendres_settle_carries(ctx) &&
+                  is_plain(p) && pendres_steps_turning_speed(p) <= fastest;
+  return may ? fastest : -1.0;
+}
+
+/* Let a lane that starts with this speed, and whose steps are known, run in single precision if
+   these are no more exact than that. */
+static void choose_precision(double speed, double fastest, double accuracy,
+                             pendres_strobe_lane *lane)
+{
+  const double rounding = pendres_strobe_noise_of_step_in_float();
+  lane->in_float = speed <= fastest && accuracy * accuracy >= lane->steps * rounding * rounding;
+  if (lane->in_float) lane->added += rounding * rounding;
+}
+
+/*
+ * Put those pendulums at their starts that have not settled with a certain label. soon: for a run
+ * of plain ones that need not be exact, over so few periods that nothing goes wrong in it which the
+ * error that they carry does not tell. In longer ones a pendulum next to a fold may miss the orbit
+ * that it should settle on, and one that comes close to the upright state be taken for chaotic.
+ */
+static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_set *attractor_sets,
+                                 const pendres_settle_starts *from, int soon,
+                                 pendres_outcome *outcome, pendres_strobe_lane *lanes)
+{
+  const double exact = pendres_accuracy_to_settle(ctx), rough = pendres_accuracy_to_settle_soon();
+  pendres_status status = PENDRES_OK;
+  size_t before = SIZE_MAX; /* the latest one; of starts as fast as that the steps are the same */
+  double speed = NAN, last;
+  for (size_t i = 0; i < from->n && status == PENDRES_OK; i++) {
+    const pendres_attractor_set *c = &attractor_sets[from->set[i]];
+    const pendres_pendulum *p = &c->pendulum;
+    if (pendres_settle_ended(&outcome[i]) && outcome[i].certain) continue;
+    outcome[i] = pendres_settle_unresolved;
+    last = speed;
+    speed = pendres_steps_speed(p, from->x[i], from->v[i]);
+    const int roughly = soon && is_plain(p);
+    if (before != SIZE_MAX && from->set[i] == from->set[before] && speed == last) {
+      lanes[i] = pendres_settle_load_like(&lanes[before], from->x[i], from->v[i]);
+    } else {
+      status =
+        pendres_settle_load(ctx, c, from->x[i], from->v[i], roughly ? rough : exact, &lanes[i]);
+      if (roughly) choose_precision(speed, fastest_in_float(ctx, p), rough, &lanes[i]);
+    }
+    before = i;
+  }
+  return status;
+}
+
+/* Set the budgets of the first run, or of the one before it. */
+static void set_budgets(const pendres_context *ctx, size_t sets,
+                        const pendres_attractor_set *attractor_sets, int soon, long *budget)
+{
+  for (size_t s = 0; s < sets; s++) {
+    const pendres_pendulum *p = &attractor_sets[s].pendulum;
+    const double some = settle_soon_least + settle_soon_times * pendres_settle_time(p);
+    const long most = pendres_settle_last_budget(ctx, &attractor_sets[s]);
+    long first = pendres_settle_first_budget(p);
+    if (soon) first = is_plain(p) ? (long)fmin(some, settle_soon_most) : 0;
+    budget[s] = first < most ? first : most;
+  }
+}
+
 /* Put attractors into their physical order, and renumber outcomes accordingly. */
 static pendres_status order_all(pendres_context *ctx, size_t sets,
                                 pendres_attractor_set *attractor_sets,
@@ -112,7 +189,6 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     const pendres_settle_starts *from, pendres_outcome *outcome)
 {
   const size_t n = from->n, *set = from->set;
-  const double *x = from->x, *v = from->v;
   const double accuracy = pendres_accuracy_to_settle(ctx);
   pendres_room room = pendres_room_open(ctx, "pendulums");
   pendres_strobe_lane *lanes = pendres_room_take(&room, n, sizeof *lanes);
@@ -120,33 +196,28 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   long *budget = pendres_room_take(&room, sets, sizeof *budget);
   pendres_status status = room.status;
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
-  double speed = NAN, last; /* of starts as fast as their neighbours the steps are the same */
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const pendres_pendulum *p = &attractor_sets[set[i]].pendulum;
+  for (size_t i = 0; i < n; i++) {
     outcome[i] = pendres_settle_unresolved;
     error_ratio[i] = NAN;
-    last = speed;
-    speed = pendres_steps_speed(p, x[i], v[i]);
-    if (i > 0 && set[i] == set[i - 1] && speed == last)
-      lanes[i] = pendres_settle_load_like(&lanes[i - 1], x[i], v[i]);
-    else
-      status = pendres_settle_load(ctx, &attractor_sets[set[i]], x[i], v[i], accuracy, &lanes[i]);
   }
-  for (size_t s = 0; s < sets; s++) {
-    budget[s] = pendres_settle_last_budget(ctx, &attractor_sets[s]);
-    const long first = pendres_settle_first_budget(&attractor_sets[s].pendulum);
-    if (first < budget[s]) budget[s] = first;
-  }
+  const int soon = from->wanted == PENDRES_SETTLE_LABELS && pendres_settle_carries(ctx) &&
+                   pendres_accuracy_to_settle_soon() > accuracy;
+  status = load_batch(ctx, attractor_sets, from, soon, outcome, lanes);
   if (status == PENDRES_OK) status = tell_growing(ctx, sets, attractor_sets);
   if (status == PENDRES_OK) status = send_guesses(ctx, sets, attractor_sets, n, set, lanes);
   pendres_settle_labelling l = {
     .attractor_sets =
       attractor_sets, .set = set, .budget = budget, .outcome = outcome, .error_ratio = error_ratio};
+  set_budgets(ctx, sets, attractor_sets, soon, budget);
+  if (soon && status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
+  if (soon && status == PENDRES_OK)
+    status = load_batch(ctx, attractor_sets, from, 0, outcome, lanes);
+  set_budgets(ctx, sets, attractor_sets, 0, budget);
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
   if (status == PENDRES_OK)
     status = pendres_settle_search(ctx, sets, attractor_sets, from, &l, lanes);
   if (status == PENDRES_OK) doubt(attractor_sets, from, outcome, error_ratio);
-  if (status == PENDRES_OK && !from->only_attractors)
+  if (status == PENDRES_OK && from->wanted != PENDRES_SETTLE_NOTHING)
     status = pendres_settle_certain(ctx, &l, from, accuracy);
   if (status == PENDRES_OK) status = order_all(ctx, sets, attractor_sets, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
@@ -192,22 +263,6 @@ static void order_by_steps(size_t n, const pendres_strobe_lane *lanes, size_t *o
   }
 }
 
-/*
- * The first run of plain pendulums may be in single precision up to this speed at the start; -1:
- * none may. The error that they carry includes its rounding, so that a label is certain or the
- * pendulum is run again. Near a small ellipse rounding may keep a pendulum from settling: the run
- * that waits for the last of them is in double precision.
- */
-static double fastest_in_float(const pendres_context *ctx, const pendres_pendulum *p,
-                               pendres_settle_budget budget)
-{
-  const double fastest = settle_farthest_in_float * p->drive_frequency / two_pi;
-  const int may = budget == PENDRES_SETTLE_SHORT && ctx->options.method == PENDRES_BLOCK_FIXED &&
-                  pendres_settle_carries(ctx) && pendres_model_kind(p) == PENDRES_MODEL_PLAIN &&
-                  pendres_steps_turning_speed(p) <= fastest;
-  return may ? fastest : -1.0;
-}
-
 /* Put the pendulums of one parameter set at their starts, and choose their steps. */
 static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set *c,
                                const pendres_settle_starts *starts, double accuracy,
@@ -215,8 +270,8 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
 {
   const pendres_pendulum *p = &c->pendulum;
   pendres_status status = PENDRES_OK;
-  const double fastest = fastest_in_float(ctx, p, budget), driven = pendres_settle_driven(c);
-  const double rounding = pendres_strobe_noise_of_step_in_float();
+  const double fastest = budget == PENDRES_SETTLE_SHORT ? fastest_in_float(ctx, p) : -1.0;
+  const double driven = pendres_settle_driven(c);
   double added = 0.0;
   speed_table *table = calloc(1, sizeof *table);
   if (table == NULL)
@@ -229,8 +284,8 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
     status = steps_of(ctx, p, speed, accuracy, table, &lane->steps);
     if (i == 0 || lane[-1].steps != lane->steps)
       added = pendres_settle_added(ctx, accuracy, lane->steps);
-    lane->in_float = speed <= fastest && accuracy * accuracy >= lane->steps * rounding * rounding;
-    lane->added = lane->in_float ? added + rounding * rounding : added;
+    lane->added = added;
+    choose_precision(speed, fastest, accuracy, lane);
   }
   free(table);
   return status;

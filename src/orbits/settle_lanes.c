@@ -14,15 +14,14 @@
 #include "orbits/numbers.h"
 #include "orbits/strobe_noise.h"
 
-/* The time, in drive periods, in which a small oscillation decays to 1/e. */
-static double settling_time(const pendres_pendulum *p)
+double pendres_settle_time(const pendres_pendulum *p)
 {
   return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
 }
 
 long pendres_settle_first_budget(const pendres_pendulum *p)
 {
-  return (long)ceil(fmin(settle_least + settle_times * settling_time(p), settle_first_most));
+  return (long)ceil(fmin(settle_least + settle_times * pendres_settle_time(p), settle_first_most));
 }
 
 /*
@@ -38,7 +37,7 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attrac
     const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
     if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
   }
-  const double most = settle_last_some + settle_last_times * settling_time(&c->pendulum) +
+  const double most = settle_last_some + settle_last_times * pendres_settle_time(&c->pendulum) +
                       settle_least * fmin(slowest, settle_slowest) +
                       settle_times * fmin(c->transient, settle_slowest);
   return (long)ceil(fmin(most, settle_last_most));
@@ -84,6 +83,7 @@ pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbou
   pendres_strobe_lane lane = pendres_strobe_lane_at(neighbour->pendulum, x, v);
   lane.steps = neighbour->steps;
   lane.added = neighbour->added;
+  lane.in_float = neighbour->in_float;
   return lane;
 }
 

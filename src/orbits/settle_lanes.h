@@ -20,14 +20,20 @@ typedef struct pendres_settle_history {
   double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY]; /* unwrapped angle */
 } pendres_settle_history;
 
+/* What is asked of pendulums beside what there is to settle on. */
+typedef enum pendres_settle_wanted {
+  PENDRES_SETTLE_TIMES,  /* labels, and the time in which each settles */
+  PENDRES_SETTLE_LABELS, /* times may be off by some periods */
+  PENDRES_SETTLE_NOTHING /* labels may be uncertain, and times too long */
+} pendres_settle_wanted;
+
 /* Pendulums to be labelled, by the states that they start from. */
 typedef struct pendres_settle_starts {
   size_t n;
   const size_t *set; /* number of each one's parameter set, those of one set being consecutive; not
                         read by pendres_settle_known() */
   const double *x, *v;
-  int only_attractors; /* 1: what there is to settle on is all that is asked for; outcomes may be
-                          uncertain, and their times too long. Not read by pendres_settle_known() */
+  pendres_settle_wanted wanted; /* not read by pendres_settle_known() */
 } pendres_settle_starts;
 
 /* Arrays are by the numbers of lanes. */
@@ -61,6 +67,9 @@ static inline int pendres_settle_ended(const pendres_outcome *o)
 {
   return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
 }
+
+/* The time, in drive periods, in which a small oscillation decays to 1/e. */
+double pendres_settle_time(const pendres_pendulum *p);
 
 /* Periods after which attractors are searched for near a pendulum that is in no ellipse. */
 long pendres_settle_first_budget(const pendres_pendulum *p);

@@ -206,7 +206,8 @@ pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
     status = add_recurrences(ctx, &l, attractor_sets);
     if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, attractor_sets);
   }
-  for (int timed = 0; timed <= !from->only_attractors && status == PENDRES_OK; timed++) {
+  const int again_timed = from->wanted != PENDRES_SETTLE_NOTHING;
+  for (int timed = 0; timed <= again_timed && status == PENDRES_OK; timed++) {
     if (timed) status = repeat(ctx, &l, from, lanes, &again);
     for (size_t i = 0; i < l.count && status == PENDRES_OK; i++)
       job->outcome[l.index[i]] = l.outcome[i];

@@ -288,13 +288,30 @@ static void judge(search *s, const pendres_orbit *o, pendres_trapping_effort eff
   }
 }
 
-/* All rings of a pass, their points, and the lanes that these are integrated in. */
+/* All rings of a pass, their points, those that arcs get, and the lanes that they are integrated
+   in: all passes share this room, which would be large and cleared anew in each. */
 typedef struct pass {
-  pendres_trapping_effort effort;
+  int many;
   pendres_trapping_ring **rings;
-  pendres_trapping_point *points;
+  pendres_trapping_point *points, *between;
   pendres_strobe_lane *lanes;
 } pass;
+
+/* Rings of a search at a time, their points, and points that the arcs of one may get, at most. */
+static int most_rings(int many)
+{
+  return many ? TRAPPING_RINGS : 1;
+}
+
+static int most_points(int many)
+{
+  return many ? TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS;
+}
+
+static int most_between(int many)
+{
+  return many ? 2 * TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS;
+}
 
 /* Integrate the rings of all searches at once, and close the arcs of those that come home. */
 static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
@@ -317,10 +334,8 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
   if (status == PENDRES_OK)
     status = pendres_trapping_rings_run(ctx, count, of->rings, of->points, of->lanes);
   if (status == PENDRES_OK)
-    status = pendres_trapping_rings_close(ctx, count, of->rings,
-                                          of->effort == PENDRES_TRAPPING_MANY
-                                            ? 2 * TRAPPING_MANY_POINTS
-                                            : TRAPPING_FEW_POINTS);
+    status = pendres_trapping_rings_close(ctx, count, of->rings, most_between(of->many),
+                                          of->between, of->lanes);
   return status;
 }
 
@@ -349,12 +364,13 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
                          .looks = patience(o, effort)};
   }
   const int many = effort == PENDRES_TRAPPING_MANY;
-  const size_t most =
-    left * TRAPPING_RINGS * (many ? TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS);
-  const pass all = {.effort = effort,
-                    .rings = pendres_room_take(&room, left * TRAPPING_RINGS, sizeof *all.rings),
-                    .points = pendres_room_take(&room, most, sizeof *all.points),
-                    .lanes = pendres_room_take(&room, most, sizeof *all.lanes)};
+  const size_t rings = left * (size_t)most_rings(many), points = rings * (size_t)most_points(many);
+  const size_t between = points + 2 * rings * (size_t)most_between(many);
+  const pass all = {.many = many,
+                    .rings = pendres_room_take(&room, rings, sizeof *all.rings),
+                    .points = pendres_room_take(&room, points, sizeof *all.points),
+                    .between = pendres_room_take(&room, between, sizeof *all.between),
+                    .lanes = pendres_room_take(&room, between, sizeof *all.lanes)};
   pendres_status status = room.status;
   while (left > 0 && status == PENDRES_OK) {
     for (size_t i = 0; i < left; i++) choose_rings(&s[i], &ellipses[s[i].orbit]);

@@ -221,7 +221,9 @@ static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trappin
 }
 
 pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
-                                            pendres_trapping_ring **rings, int most)
+                                            pendres_trapping_ring **rings, int most,
+                                            pendres_trapping_point *points,
+                                            pendres_strobe_lane *lanes)
 {
   size_t arcs = 0, hold = 0;
   for (size_t i = 0; i < n; i++) {
@@ -232,10 +234,9 @@ pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
   if (hold == 0) return PENDRES_OK;
   const size_t all = arcs + 2 * hold * (size_t)most;
   pendres_room room = pendres_room_open(ctx, "trapping arcs");
-  closing c = {.most = most, .arcs = pendres_room_take(&room, all, sizeof *c.arcs),
-               .next = pendres_room_take(&room, all, sizeof *c.next),
-               .points = pendres_room_take(&room, all, sizeof *c.points),
-               .lanes = pendres_room_take(&room, all, sizeof *c.lanes)};
+  closing c = {.most = most, .points = points, .lanes = lanes,
+               .arcs = pendres_room_take(&room, all, sizeof *c.arcs),
+               .next = pendres_room_take(&room, all, sizeof *c.next)};
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   pendres_status status = first_arcs(ctx, n, rings, &c);
   c.used = arcs;

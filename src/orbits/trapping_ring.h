@@ -77,9 +77,12 @@ size_t pendres_trapping_ring_open(const pendres_trapping_ring *r, pendres_trappi
 
 /*
  * Put points where the arcs of rings that hold are not home, at most `most` to a ring. A ring whose
- * arcs are not all home then has failed.
+ * arcs are not all home then has failed. points, lanes: room for the rings' points and 2 `most` for
+ * each ring.
  */
 pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
-                                            pendres_trapping_ring **rings, int most);
+                                            pendres_trapping_ring **rings, int most,
+                                            pendres_trapping_point *points,
+                                            pendres_strobe_lane *lanes);
 
 #endif

@@ -281,7 +281,8 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
       pendres_ensemble_start(e, k, &x[i], &v[i]);
     }
   }
-  const pendres_settle_starts starts = {.n = n, .set = set, .x = x, .v = v};
+  const pendres_settle_starts starts = {
+    .n = n, .set = set, .x = x, .v = v, .wanted = PENDRES_SETTLE_LABELS};
   pendres_status status = pendres_settle_batch(ctx, sets, attractor_sets, &starts, outcome);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
     status = pendres_response_summarize(ctx, &attractor_sets[s], e->members,
