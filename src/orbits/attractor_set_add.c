@@ -14,6 +14,7 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/numbers.h"
+#include "orbits/orbit_pair.h"
 #include "orbits/orbit_prime.h"
 
 /* ---- what is in a set of attractors ---- */
@@ -397,7 +398,7 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *a
   *more = 0;
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   size_t count = distinct_guesses(n, guesses, attractor_sets, g, set);
-  pendres_status status = pendres_orbit_find(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
+  pendres_status status = pendres_orbit_find_once(ctx, count, g, orbits, outcome);
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   count = distinct_orbits(count, orbits, set, outcome, attractor_sets);
   status = find_short(ctx, count, orbits, attractor_sets[0].effort, ellipses);

@@ -14,6 +14,10 @@
    is not stable; stable orbits that differ are that close at most next to a bifurcation. */
 static const double orbit_same_point = 1e-6;
 
+/* Newton's method has come to one orbit from two guesses where it stops as close as this: within
+   what its last steps leave, and far within what tells orbits apart. */
+static const double orbit_repeated = 1e-8;
+
 /* Amplitudes of mirror images differ by rounding and the orbits' errors alone, those of states that
    coexist by more, unless they are about to meet. Harmonics below this are none. */
 static const double orbit_same_amplitude = 1e-7;
@@ -218,11 +222,11 @@ static const double settle_slowest = 1e4;
 static const double settle_overshoot = 2.0;
 
 /*
- * Plain pendulums of ensembles are run less exactly at first, over so many periods and so many times
- * of settling, and no more than the last: of f08's members six of seven are then settled, and twice
- * or half as long takes as much time. Next to a fold, where the distance between outcomes is less
- * than what settle_borne takes it for, so many strobes are far too few to go from one to another:
- * with distances of D the map moves a state by D^2 or so.
+ * Plain pendulums of ensembles are run less exactly at first, over so many periods and so many
+ * times of settling, and no more than the last. Most of f08's members are then settled; twice or
+ * half as long takes as much time. Next to a fold, where the distance between outcomes is less than
+ * what settle_borne takes it for, so many strobes are far too few to go from one to another: with
+ * distances of D the map moves a state by D^2 or so.
  */
 static const double settle_soon_least = 6.0, settle_soon_times = 3.0, settle_soon_most = 50.0;
 

@@ -237,7 +237,48 @@ typedef struct outputs {
   pendres_orbit *orbit;
   pendres_status *outcome;
   pendres_orbit_coarser *coarser;
+  int once; /* an orbit that several guesses of a pendulum lead to goes to the first of them */
 } outputs;
+
+static int by_index(const void *a, const void *b)
+{
+  const pendres_newton_candidate *p = a, *q = b;
+  return p->index < q->index ? -1 : p->index > q->index;
+}
+
+/* Whether two candidates have converged to one orbit; not where errors might make two of it. */
+static int repeats(const pendres_newton_candidate *p, const pendres_newton_candidate *q)
+{
+  const pendres_orbit_guess *a = p->guess, *b = q->guess;
+  if (p->state != PENDRES_NEWTON_CONVERGED || q->state != PENDRES_NEWTON_CONVERGED) return 0;
+  if (a->period != b->period || a->winding != b->winding) return 0;
+  const double dy = pendres_less_turns(p->y - q->y, pendres_model_turn(&a->pendulum));
+  return hypot(dy, a->pendulum.drive_frequency * (p->w - q->w)) < orbit_repeated;
+}
+
+/* Put the candidates that repeat an earlier one of their pendulum, all of which lie one after
+   another, behind the others, as failed; returns how many are left. */
+static size_t drop_repetitions(size_t n, pendres_newton_candidate *c, pendres_status *outcome)
+{
+  size_t kept = 0;
+  qsort(c, n, sizeof *c, by_index);
+  for (size_t i = 0; i < n; i++) {
+    const pendres_pendulum *p = &c[i].guess->pendulum;
+    for (size_t j = i; j-- > 0 && pendres_model_same(p, &c[j].guess->pendulum);)
+      if (repeats(&c[i], &c[j])) {
+        c[i].state = PENDRES_NEWTON_FAILED;
+        break;
+      }
+  }
+  for (size_t i = 0; i < n; i++) {
+    const pendres_newton_candidate at = c[i];
+    outcome[at.index] = PENDRES_NOT_CONVERGED; /* until it is measured */
+    if (at.state == PENDRES_NEWTON_FAILED) continue;
+    c[i] = c[kept];
+    c[kept++] = at;
+  }
+  return kept;
+}
 
 /*
  * Converge, and measure with n and with 1.4 n steps; candidates are sorted in place. A ghost, or
@@ -252,6 +293,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
   const pendres_orbit_computed *coarse = runs->coarse, *fine = runs->fine;
   pendres_status *outcome = to->outcome;
   pendres_status status = pendres_newton_converge(ctx, n, c);
+  if (to->once && status == PENDRES_OK) n = drop_repetitions(n, c, outcome);
   if (status == PENDRES_OK) status = measure_all(ctx, n, c, runs, 1);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < n; i++) {
@@ -369,6 +411,14 @@ pendres_status pendres_orbit_refine_pair(pendres_context *ctx, size_t n,
   const outputs to = {.orbit = out, .outcome = outcome, .coarser = coarser};
   return PENDRES_CONTEXT_CALL(ctx,
                               orbit_refine(ctx, n, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, 0, &to));
+}
+
+pendres_status pendres_orbit_find_once(pendres_context *ctx, size_t n,
+                                       const pendres_orbit_guess *guess, pendres_orbit *out,
+                                       pendres_status *outcome)
+{
+  const outputs to = {.orbit = out, .outcome = outcome, .once = 1};
+  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, 0, &to));
 }
 
 pendres_status pendres_orbit_find_points(pendres_context *ctx, size_t n,

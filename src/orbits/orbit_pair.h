@@ -22,6 +22,13 @@ pendres_status pendres_orbit_refine_pair(pendres_context *ctx, size_t n,
                                          const pendres_orbit_guess *guess, pendres_orbit *out,
                                          pendres_orbit_coarser *coarser, pendres_status *outcome);
 
+/* pendres_orbit_find where guesses of one pendulum lie one after another, and several of them may
+   lead to one orbit: that is measured once, for the first of them, and the others have the outcome
+   PENDRES_NOT_CONVERGED. */
+pendres_status pendres_orbit_find_once(pendres_context *ctx, size_t n,
+                                       const pendres_orbit_guess *guess, pendres_orbit *out,
+                                       pendres_status *outcome);
+
 /* pendres_orbit_find for those who ask for points at phase 0 and multipliers alone, at a third of
    the cost: no measure of the orbits is set. */
 pendres_status pendres_orbit_find_points(pendres_context *ctx, size_t n,

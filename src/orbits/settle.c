@@ -89,11 +89,10 @@ static double fastest_in_float(const pendres_context *ctx, const pendres_pendulu
 }
 
 /* Let a lane that starts with this speed, and whose steps are known, run in single precision if
-   these are no more exact than that. */
-static void choose_precision(double speed, double fastest, double accuracy,
+   these are no more exact than the rounding of a step in it. */
+static void choose_precision(double speed, double fastest, double accuracy, double rounding,
                              pendres_strobe_lane *lane)
 {
-  const double rounding = pendres_strobe_noise_of_step_in_float();
   lane->in_float = speed <= fastest && accuracy * accuracy >= lane->steps * rounding * rounding;
   if (lane->in_float) lane->added += rounding * rounding;
 }
@@ -109,6 +108,7 @@ static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_s
                                  pendres_outcome *outcome, pendres_strobe_lane *lanes)
 {
   const double exact = pendres_accuracy_to_settle(ctx), rough = pendres_accuracy_to_settle_soon();
+  const double rounding = pendres_strobe_noise_of_step_in_float();
   pendres_status status = PENDRES_OK;
   size_t before = SIZE_MAX; /* the latest one; of starts as fast as that the steps are the same */
   double speed = NAN, last;
@@ -125,7 +125,8 @@ static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_s
     } else {
       status =
         pendres_settle_load(ctx, c, from->x[i], from->v[i], roughly ? rough : exact, &lanes[i]);
-      if (roughly) choose_precision(speed, fastest_in_float(ctx, p), rough, &lanes[i]);
+      if (roughly)
+        choose_precision(speed, fastest_in_float(ctx, p), rough, rounding, &lanes[i]);
     }
     before = i;
   }
@@ -272,6 +273,7 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
   pendres_status status = PENDRES_OK;
   const double fastest = budget == PENDRES_SETTLE_SHORT ? fastest_in_float(ctx, p) : -1.0;
   const double driven = pendres_settle_driven(c);
+  const double rounding = pendres_strobe_noise_of_step_in_float();
   double added = 0.0;
   speed_table *table = calloc(1, sizeof *table);
   if (table == NULL)
@@ -285,7 +287,7 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
     if (i == 0 || lane[-1].steps != lane->steps)
       added = pendres_settle_added(ctx, accuracy, lane->steps);
     lane->added = added;
-    choose_precision(speed, fastest, accuracy, lane);
+    choose_precision(speed, fastest, accuracy, rounding, lane);
   }
   free(table);
   return status;
