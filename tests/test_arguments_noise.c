@@ -74,6 +74,7 @@ static void surveys(pendres_context *ctx, int *failed)
 {
   int wrong = 0, steps, two[2] = { 7, 7 };
   const double t = 0.01;
+  double depth;
   const pendres_switching_survey q = { .trajectories = 2, .periods = 1, .steps_per_period = 16 };
   pendres_switching_tally tally = { 0 };
   pendres_switching_rates rates;
@@ -86,6 +87,7 @@ static void surveys(pendres_context *ctx, int *failed)
     INVALID(pendres_switching_find(ctx, s, 1, &t, &rates, energy));
     INVALID(pendres_switching_choose_steps(ctx, s, 0, &steps));
     INVALID(pendres_switching_follow(ctx, s, t, 0, &tally));
+    INVALID(pendres_switching_depth(ctx, NULL, 0, i == 0 ? NULL : &depth));
     INVALID(pendres_switching_conclude(s, t, &tally, &rates));
     INVALID(pendres_switching_activate(s, 1, &rates, energy));
   }

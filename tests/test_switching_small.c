@@ -92,6 +92,83 @@ static void rates_are_those_of_a_simulation(void **state)
   pendres_attractors_free(set);
 }
 
+/* The averaged equations of a weakly damped Duffing oscillator, x = Re(a exp(i omega t)). */
+static void drift(const pendres_pendulum *p, const double a[2], double out[2])
+{
+  const double w = p->drive_frequency;
+  const double turn = (1.0 - w * w + 0.75 * (a[0] * a[0] + a[1] * a[1])) / (2.0 * w);
+  out[0] = -0.5 * p->damping * a[0] - turn * a[1];
+  out[1] = -0.5 * p->damping * a[1] + turn * a[0] - p->drive_amplitude / (2.0 * w);
+}
+
+/* How often the state at `from` is left for the one at `to`, each time from its point again; Heun's
+   method, of which 50 steps are a relaxation. Terms that are left out are a 1e-4 of the damping. */
+static double averaged_rate(const pendres_pendulum *p, const double from[2], const double to[2],
+                            double time, double *events)
+{
+  const double h = 0.02 / (0.5 * p->damping), apart = hypot(from[0] - to[0], from[1] - to[1]);
+  const double kick = sqrt(p->damping * p->temperature * h) / p->drive_frequency;
+  double a[2] = {from[0], from[1]};
+  uint64_t seed = 1234567u;
+  *events = 0.0;
+  for (double t = 0.0; t < time; t += h) {
+    double d[2], e[2], b[2], noise[2];
+    drift(p, a, d);
+    for (int i = 0; i < 2; i++) {
+      noise[i] = kick * normal(&seed);
+      b[i] = a[i] + h * d[i] + noise[i];
+    }
+    drift(p, b, e);
+    for (int i = 0; i < 2; i++) a[i] += 0.5 * h * (d[i] + e[i]) + noise[i];
+    if (hypot(a[0] - to[0], a[1] - to[1]) > 0.25 * apart) continue;
+    ++*events;
+    a[0] = from[0];
+    a[1] = from[1];
+  }
+  return *events / time;
+}
+
+/*
+ * A quality of 5000: steps are chosen at once, by linear theory, and the rate of leaving LA is that
+ * of the averaged equations. At a temperature that is 1e5 times lower both basins are too deep. The
+ * strobe points are those of the averaged equations but for a 1e-3 of the amplitude.
+ */
+static void quality_of_5000(void **state)
+{
+  const pendres_pendulum p = {.damping = 2e-4, .drive_amplitude = 7e-6, .temperature = 1e-5,
+                              .drive_frequency = 1.000375, .force = PENDRES_FORCE_POLYNOMIAL,
+                              .force_coefficients = {1.0, 0.0, 1.0}};
+  pendres_attractors *set = attractors(p);
+  pendres_context *ctx = make(1, 0, 192);
+  pendres_switching_survey q = {.set = set, .state = {0, 1}, .trajectories = 2, .periods = 1};
+  pendres_switching_tally tally;
+  pendres_switching_rate r;
+  double point[2][2], events, depth;
+  int steps;
+  (void)state;
+  assert_int_equal(pendres_attractors_count(set), 2);
+  check_ok(pendres_switching_choose_steps(ctx, &q, 1, &steps));
+  assert_true(steps >= 20 && steps <= 60);
+  for (size_t s = 0; s < 2; s++) {
+    const pendres_orbit *o = &pendres_attractors_get(set, s)->orbit;
+    point[s][0] = o->x;
+    point[s][1] = -o->v / p.drive_frequency;
+    check_ok(pendres_switching_depth(ctx, set, s, &depth));
+    /* LA: three times the energy of 1.95(54)e-5 that rates at four temperatures gave. */
+    assert_true(s == 0 ? depth > 1e-4 : depth > 2e-5 && depth < 8e-5);
+  }
+  const pendres_switching_request counted = {.pendulum = p, .set = set, .from = 1,
+                                             .trajectories = 192, .periods = 30000,
+                                             .steps_per_period = steps};
+  check_ok(pendres_switching_count(ctx, &counted, &tally));
+  check_ok(pendres_switching_rate_of(&tally, 1, 0, 0.95, &r));
+  const double own = averaged_rate(&p, point[1], point[0], 3e8, &events);
+  assert_true(r.events > 20.0 && events > 200.0);
+  check_near(r.value, own, sigmas * hypot(r.error, own / sqrt(events)));
+  pendres_context_free(ctx);
+  pendres_attractors_free(set);
+}
+
 /*
  * The barrier of the large-amplitude state is below two temperatures: neither way has an activation
  * energy, and both say so. Rates imply in which basins trajectories end; where they do not, as when
@@ -143,6 +220,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(rates_are_those_of_a_simulation), cmocka_unit_test(both_ways_are_judged),
+    cmocka_unit_test(quality_of_5000),
   };
   return cmocka_run_group_tests_name("switching_small", tests, NULL, NULL);
 }

@@ -53,6 +53,7 @@ static const struct {
   { "exposure", TIME }, { "exposure_*", TIME },
   { "loop_area", ENERGY }, { "dissipation", ENERGY }, { "torque_work", ENERGY },
   { "parametric_work", ENERGY }, { "activation_energy*", ENERGY },
+  { "linear_depth_*", ENERGY },
   { "power", POWER },
   { "temperature", TEMPERATURE }, { "fit_temperature*", TEMPERATURE },
   { "cov_xx", COVARIANCE_XX }, { "cov_xv", COVARIANCE_XV }, { "cov_vv", COVARIANCE_VV },

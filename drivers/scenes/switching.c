@@ -13,6 +13,10 @@
 
 static const double level = 0.95; /* of confidence intervals */
 
+/* Of a basin so many temperatures deep the activation energy is 60 of them at least: no transition
+   is seen in 1e26 relaxations. */
+static const double never = 200.0;
+
 enum { SA, LA, STATES, WAYS = PENDRES_SWITCHING_WAYS };
 
 typedef struct work {
@@ -25,6 +29,7 @@ typedef struct work {
   pendres_switching_tally *sums;    /* [temperature] which are added up here */
   pendres_switching_rates *rates;   /* [temperature] */
   pendres_switching_activation activation[WAYS];
+  double depth[STATES];             /* of the states' basins, in linear theory */
   pendres_switching_way way[WAYS];  /* those that exist: to wells if there are any */
   int ways, told;                   /* how many, and how many the table tells */
   int escapes;                      /* to infinity; there are no other wells then */
@@ -217,6 +222,32 @@ static pendres_status conclude(work *w, size_t i)
                                     broken ? NULL : &w->sums[i], &w->rates[i]);
 }
 
+/* Whether a state was left at a temperature, by any way. */
+static int was_left(const work *w, int s, size_t i)
+{
+  for (int k = 0; k < w->ways; k++) {
+    const int from = w->way[k] == PENDRES_SWITCHING_BACK ||
+                     w->way[k] == PENDRES_SWITCHING_SECOND_WELL;
+    if (from == s && w->rates[i].way[w->way[k]].events > 0.0) return 1;
+  }
+  return 0;
+}
+
+/* How deep the basins are of states that were not left at some temperature; NaN where that is not
+   known. */
+static void find_depths(scene_run *run, work *w)
+{
+  for (int s = 0; s < STATES; s++) {
+    const int state = w->survey.state[s];
+    int stayed = 0;
+    for (size_t i = 0; i < w->temperatures; i++) stayed |= !was_left(w, s, i);
+    pendres_context *ctx = stayed && state >= 0 ? scene_context(run) : NULL;
+    w->depth[s] = NAN;
+    if (ctx != NULL && pendres_switching_depth(ctx, w->set, (size_t)state, &w->depth[s]))
+      w->depth[s] = NAN;
+  }
+}
+
 static void compute(scene_run *run, work *w)
 {
   pendres_status status = PENDRES_OK;
@@ -234,6 +265,7 @@ static void compute(scene_run *run, work *w)
   if (status == PENDRES_OK)
     status = pendres_switching_activate(&w->survey, w->temperatures, w->rates, w->activation);
   if (status != PENDRES_OK) scene_fail(run, status, "rates cannot be computed");
+  if (scene_going(run)) find_depths(run, w);
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
@@ -305,6 +337,11 @@ static void write_circumstances(scene_run *run, const work *w)
 {
   static const scene_column exposure = {
     .name = "exposure_*", .long_name = "time spent on", .type = SCENE_PLAIN};
+  static const scene_column depth = {
+    .name = "linear_depth_*", .type = SCENE_PLAIN,
+    .long_name = "depth of the basin, the widest ellipse in it by linear theory; an activation "
+                 "energy is a third of it or more; where nothing was counted at some temperature, "
+                 "of"};
   typedef struct whole {
     double level;
     int steps;
@@ -321,7 +358,10 @@ static void write_circumstances(scene_run *run, const work *w)
     const scene_table table = {
       .dimensions = {"temperature"}, .star = w->name[s], .words = w->state[s],
       .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].exposure[s]};
+    const scene_table of_state = {.star = w->name[s], .words = w->state[s],
+                                  SCENE_ROWS(&w->depth[s], 1)};
     scene_columns_write(run, &table, 1, &exposure);
+    scene_columns_write(run, &of_state, 1, &depth);
     write_occupation(run, w, s);
   }
   scene_columns_write(run, &scalars, 1, &steps);
@@ -378,6 +418,19 @@ static line line_of(const work *w, pendres_switching_way k, size_t i)
   return out;
 }
 
+/* Where nothing was seen since nothing can be, that is said: by the highest such temperature. */
+static void print_hopeless(scene_run *run, const work *w, int s)
+{
+  const double *t = w->d->axis[DECK_AXIS_TEMPERATURE].value;
+  size_t i = w->temperatures;
+  while (i > 0 && !(w->depth[s] > never * t[i - 1] && !was_left(w, s, i - 1))) i--;
+  if (i == 0) return;
+  fprintf(run->table,
+          "%s is not left in any time at temperatures up to %.5g: the activation energy is of "
+          "the order of %.2g of them (linear theory). Its rates are bounds by the time counted.\n",
+          w->state[s], t[i - 1], w->depth[s] / t[i - 1]);
+}
+
 static void print_table(scene_run *run, const work *w)
 {
   static const scene_cell cells[] = {
@@ -406,6 +459,7 @@ static void print_table(scene_run *run, const work *w)
     if (!isnan(f->energy)) fprintf(run->table, "%.5f +- %.5f", f->energy, f->energy_error);
     fprintf(run->table, "%s\n", verdicts[f->verdict]);
   }
+  for (int s = 0; s < STATES; s++) print_hopeless(run, w, s);
 }
 
 static pendres_status run_scene(scene_run *run)

@@ -263,6 +263,19 @@ pendres_status pendres_switching_choose_steps(pendres_context *ctx,
                                               const pendres_switching_survey *survey, int state,
                                               int *steps);
 
+/**
+ * How deep the basin of attractor i is, in linear theory: half the square of the width, in standard
+ * deviations of the small cloud, of the widest ellipse of the cloud's shape that is within the
+ * basin, times the temperature. The activation energy of leaving it is of this order: next to a
+ * fold a third of it, as the potential is a cubic there. *energy does not depend on the
+ * temperature; it is NaN where linear theory or the trapping ellipse is missing. Widths are tried
+ * in steps of a fifth.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT; those of pendres_attractors_settle.
+ */
+pendres_status pendres_switching_depth(pendres_context *ctx, const pendres_attractors *set,
+                                       size_t i, double *energy);
+
 /** How many parts the trajectories at one temperature are followed in; 0 without a survey. */
 size_t pendres_switching_parts(const pendres_switching_survey *survey);
 

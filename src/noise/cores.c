@@ -4,8 +4,11 @@
 #include <math.h>
 
 #include "base/angles.h"
+#include "engine/context_internal.h"
+#include "engine/door.h"
 #include "model/model.h"
 #include "noise/numbers.h"
+#include "orbits/attractor_internal.h"
 
 /* A symmetric matrix over (x, v): a covariance, or its inverse. */
 typedef pendres_langevin_covariance matrix;
@@ -54,6 +57,53 @@ static pendres_status settles(pendres_context *ctx, const pendres_attractors *se
   for (size_t k = 0; k < n && status == PENDRES_OK; k++)
     if (outcome[k].attractor != i || outcome[k].well != 0) *inside = 0;
   return status;
+}
+
+/* The form of the trapping ellipse, at most, at one standard deviation of the cloud. */
+static double widest_in_trap(const matrix *trap, const matrix *cloud)
+{
+  const matrix p = inverse(cloud);
+  /* The larger eigenvalue of trap relative to p. */
+  const double determinant = p.xx * p.vv - p.xv * p.xv;
+  const double trace =
+    (trap->xx * p.vv - 2.0 * trap->xv * p.xv + trap->vv * p.xx) / determinant;
+  const double product = (trap->xx * trap->vv - trap->xv * trap->xv) / determinant;
+  return 0.5 * trace + sqrt(fmax(0.0, 0.25 * trace * trace - product));
+}
+
+static pendres_status depth(pendres_context *ctx, const pendres_attractors *set, size_t i,
+                            double *out)
+{
+  if (set == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractors and out");
+  const pendres_attractor *a = pendres_attractors_get(set, i);
+  *out = NAN;
+  if (a == NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "there is no such attractor");
+  pendres_pendulum p = a->orbit.pendulum;
+  pendres_langevin_linear linear;
+  p.temperature = 1.0; /* widths are in proportion to its root */
+  if (!(a->trap_radius > 0.0) ||
+      pendres_langevin_linear_find(&p, a->orbit.x, a->orbit.v, a->orbit.period, &linear) !=
+        PENDRES_OK)
+    return PENDRES_OK;
+  const matrix trap = ellipse_of(a);
+  double reach = 1.0 / sqrt(widest_in_trap(&trap, &linear.covariance));
+  pendres_status status = PENDRES_OK;
+  for (int k = 0, inside = 1; k < CORES_TRIALS && inside && status == PENDRES_OK; k++) {
+    *out = 0.5 * reach * reach;
+    reach *= cores_deeper;
+    status = settles(ctx, set, (int)i, &linear.covariance, reach, &inside);
+  }
+  return status;
+}
+
+pendres_status pendres_switching_depth(pendres_context *ctx, const pendres_attractors *set,
+                                       size_t i, double *energy)
+{
+  pendres_door d = pendres_attractors_open(ctx, set);
+  const pendres_attractors *inside = pendres_attractors_inside(&d, set);
+  (void)pendres_door_out(&d, &pendres_dim_energy, 1, energy);
+  return PENDRES_DOOR_END(&d, depth(ctx, inside, i, energy));
 }
 
 /* The ellipse of a core, before it is scaled by its size: P. */

@@ -415,8 +415,7 @@ static void worst_of(const pendres_langevin_bias *bias, unsigned statistics, dou
   }
 }
 
-/* The search begins with the fewest steps that may resolve the well and the friction. */
-static int first_steps(const pendres_pendulum *p)
+int pendres_noise_first_steps(const pendres_pendulum *p)
 {
   const double period = two_pi / p->drive_frequency;
   return (int)ceil(fmin(PENDRES_MOST_STEPS / 2, fmax(4.0, period * fmax(1.0, p->damping))));
@@ -434,7 +433,7 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_langevin_
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "choosing steps needs a positive tolerance, temperature and "
                                 "damping, and a statistic");
-  int steps = first_steps(&request->pendulum);
+  int steps = pendres_noise_first_steps(&request->pendulum);
   for (int trial = 0; trial < NOISE_TRIALS; trial++) {
     pendres_status status = accept(ctx, request, steps);
     if (status == PENDRES_OK) status = measure_bias(ctx, request, steps, trajectories, bias);

@@ -37,6 +37,17 @@ pendres_status pendres_noise_choose_steps(pendres_context *ctx,
                                           unsigned statistics, double tolerance,
                                           pendres_langevin_bias *bias);
 
+/* The search begins with the fewest steps that may resolve the well and the friction. */
+int pendres_noise_first_steps(const pendres_pendulum *p);
+
+/*
+ * The same by linear theory, without trajectories, for an orbit whose relaxation takes so long that
+ * the scatter of trajectories would hide a bias: steps with which the widths of a small cloud are
+ * right to `tolerance`. 0 where there are none.
+ */
+pendres_status pendres_noise_steps_by_orbit(pendres_context *ctx, const pendres_orbit *orbit,
+                                            double tolerance, int *steps);
+
 /* Trajectories are divided into parts of at most `most`: how many parts there are, and of one part
  * the number of its first trajectory and how many it has. A part has two or more, if there are two
  * or more in all and `most` is 4 or more. */

@@ -33,6 +33,14 @@ static const double noise_farthest = 1e7;
 /* The correction of a step, 1 - bend cos y, must stay positive; longer ones resolve no motion. */
 static const double noise_longest_step = 3.0;
 
+/* Where trajectories would take more periods than this to settle, linear theory chooses the steps:
+   pairs of trajectories take minutes there. */
+static const double noise_by_theory = 1000.0;
+
+/* Derivatives are taken between points so far from each other, relative to the orbit's amplitude:
+   curvature changes them by 1e-10 of what it is, and rounding by as much. */
+static const double noise_apart = 1e-5;
+
 /* A trajectory has settled when this is left of its start's influence; at least four periods. */
 static const double noise_settled = 1e-5;
 
@@ -79,6 +87,9 @@ enum {
 /* A core has this share of the width of the ellipse that is tested, which is at most this many
    standard deviations wide: a trajectory at its edge will hardly leave immediately. */
 static const double cores_share = 0.5, cores_widest = 2.0;
+
+/* How deep a basin is, is found in such steps of width: to a factor of 1.5 in energy. */
+static const double cores_deeper = 1.22;
 
 /* The first ellipse is at most as wide as a well or, where the force has no wells, as this multiple
    of its length. */

@@ -74,6 +74,12 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_switching
   if (q->state[state] < 0) return PENDRES_OK;
   const size_t from = (size_t)q->state[state];
   const pendres_orbit *o = &pendres_attractors_get(q->set, from)->orbit;
+  if ((double)pendres_noise_settle(o) > noise_by_theory) {
+    const pendres_status status =
+      pendres_noise_steps_by_orbit(ctx, o, pendres_noise_bias, steps);
+    *steps *= 2;
+    if (status != PENDRES_OK || *steps > 0) return status;
+  }
   pendres_cores cores;
   pendres_langevin_request r = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                 .trajectories = PENDRES_NOISE_LANES,
