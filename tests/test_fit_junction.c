@@ -158,8 +158,40 @@ static void no_jumps(void **state)
   pendres_context_free(ctx);
 }
 
+/* Where nothing jumps, gain and damping may change together: both have no finite error, unless one
+   of them has a prior. */
+static void gain_or_damping(void **state)
+{
+  (void)state;
+  static const set overdamped = {2.0, 0.0, 2.4, 0.003};
+  pendres_context *ctx = NULL;
+  pendres_fit_datum data[DATA];
+  check_ok(pendres_context_create(NULL, &ctx));
+  measure(&overdamped, 7, data);
+  for (int held = 0; held < 2; held++) {
+    pendres_fit *fit = NULL;
+    const pendres_fit_unknown open[OPEN] = {
+      {.quantity = PENDRES_DAMPING, .guess = NAN},
+      {.quantity = PENDRES_FIT_TORQUE_SCALE, .guess = NAN},
+      {.quantity = PENDRES_FIT_AMPLITUDE_SCALE, .guess = NAN, .prior = volts,
+       .prior_error = held ? 0.01 * volts : 0.0},
+      {.quantity = PENDRES_FIT_OFFSET, .guess = NAN}};
+    const pendres_fit_model model = {.unknowns = OPEN, .unknown = open};
+    const pendres_fit_data all = {.n = DATA, .datum = data, .axis = PENDRES_TORQUE,
+                                  .other = PENDRES_PARAMETER_COUNT};
+    check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+    const double error = sqrt(pendres_fit_covariance(fit, 0, 0));
+    assert_int_equal(pendres_fit_summary_get(fit).determined, held);
+    assert_int_equal(isfinite(error) != 0, held);
+    if (held) check_near(pendres_fit_value(fit, 0), overdamped.damping, 4.5 * error);
+    pendres_fit_free(fit);
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(junctions), cmocka_unit_test(no_jumps)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(junctions), cmocka_unit_test(no_jumps),
+                                     cmocka_unit_test(gain_or_damping)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include <gsl/gsl_multifit_nlinear.h>
 
 #include "base/angles.h"
+#include "model/rotation_slope.h"
 
 /* ---- the numbers that the solver sees ---- */
 
@@ -249,6 +250,34 @@ static void read_decomposition(const fit_problem *p, const gsl_matrix *u, const 
   }
 }
 
+/* The number of a free quantity that no prior and no bound holds; -1: there is none. */
+static int loose(const fit_problem *p, int quantity)
+{
+  for (size_t k = 0; k < p->unknowns; k++)
+    if (p->free[k].quantity == quantity && p->free[k].prior_error <= 0.0 && !p->free[k].at_bound)
+      return (int)k;
+  return -1;
+}
+
+/*
+ * Currents and voltages of a junction without a jump follow sqrt(I^2 - 1)/damping but for a share
+ * that falls with the damping's fourth power: gain and damping may grow together by factors, while
+ * derivatives next to the kink at the critical current seem to tell them apart. What the voltage's
+ * return at a lower current tells is missing, so the two are not determined.
+ */
+static void doubt_without_jumps(const fit_problem *p, fit_result *out)
+{
+  double torque, by_damping;
+  const int damping = p->m->rotates ? loose(p, PENDRES_DAMPING) : -1;
+  const int gain = loose(p, PENDRES_FIT_AMPLITUDE_SCALE);
+  if (damping < 0 || gain < 0 || !out->determined) return;
+  if (!pendres_rotation_onset_slope(out->v[PENDRES_DAMPING], &torque, &by_damping)) return;
+  if (torque < 1.0) return;
+  out->open[damping] = out->v[PENDRES_DAMPING];
+  out->open[gain] = out->v[PENDRES_FIT_AMPLITUDE_SCALE];
+  out->determined = 0;
+}
+
 static double freedom_of(const fit_problem *p)
 {
   double count = (double)(p->m->data - p->m->left) - (double)p->unknowns;
@@ -280,6 +309,7 @@ pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out)
   }
   if (status == PENDRES_OK) {
     read_decomposition(p, j, v, s, length, out);
+    doubt_without_jumps(p, out);
     out->chi_square = pendres_fit_sum_of_squares(p);
     out->freedom = freedom_of(p);
     out->computed = 1;
