@@ -221,7 +221,7 @@ static void whatever_came_before(void **state)
     pendres_resonance r[2];
     for (int i = 0; i < 2; i++) {
       pendres_context *ctx = context();
-      const double work = cut ? 0.5 : 6.0 /* of two */;
+      const double work = cut ? 0.2 : 6.0 /* of one */;
       if (i > 0)
         check_ok(pendres_resonance_find_within(ctx, &calm, calm_range, &e, 6.0,
                                                &r[1]));
