@@ -169,11 +169,11 @@ static void test_carried_error_holds_the_rounding(void **state)
     check_ok(pendres_block_period(flow));
     take_rows(flow, rounded);
     load_flow(flow, steps, &p, y, w, rounding * rounding);
-    check_ok(pendres_block_period_float(flow));
+    check_ok(pendres_block_period_by(flow, PENDRES_FLOW_FLOAT));
     take_rows(flow, got);
     compare(&alone, flow, got, rounded);
     load_flow(flow, steps, &p, y, w, rounding * rounding + accuracy * accuracy / steps);
-    check_ok(pendres_block_period_float(flow));
+    check_ok(pendres_block_period_by(flow, PENDRES_FLOW_FLOAT));
     compare(&in_all, flow, got, exact);
   }
   const double typical = sqrt(alone.square / alone.count);

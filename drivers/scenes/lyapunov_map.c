@@ -146,8 +146,11 @@ static pendres_status run_scene(scene_run *run)
   scene_points *p = &w.points;
   (void)deck_axes(run->deck, axis);
   scene_points_over(p, run->deck, AXES, axis);
-  /* Small maps are two tasks: in more, the few lanes that are left in the end take longer. */
-  p->chunk = p->n < 2 * TASK_EXPONENTS ? (p->n + 1) / 2 : TASK_EXPONENTS;
+  /* In large tasks the few points that take long share their blocks. Small maps are two tasks. */
+  p->chunk = p->n / TASKS_OF_EXPONENTS;
+  if (p->chunk > 4 * TASK_EXPONENTS) p->chunk = 4 * TASK_EXPONENTS;
+  if (p->chunk < TASK_EXPONENTS) p->chunk = TASK_EXPONENTS;
+  if (p->n < 2 * p->chunk) p->chunk = (p->n + 1) / 2;
   SCENE_COMPUTE(run, p, "parts of the map", .last = 1);
   for (int i = 0; i < AXES; i++) scene_dimension(run, NULL, axis[i]);
   scene_points_write(run, p);

@@ -12,7 +12,8 @@ enum {
   TASK_ATTRACTORS = 16,   /* values whose attractors are found together, to fill blocks */
   TASK_RESONANCES = 8,    /* at most, and so few that there are ... */
   RESONANCE_TASKS = 12,   /* ... as many tasks as this */
-  TASK_EXPONENTS = 8192,  /* pendulums */
+  TASK_EXPONENTS = 8192,  /* pendulums, at least; four times as many at most, and so few that ... */
+  TASKS_OF_EXPONENTS = 32, /* ... there are as many tasks as this */
   TASK_SAMPLES = 65536,   /* of a record, or one period */
   TASK_STATES = 65536,    /* of a basin: whole rows of about this number */
   TASK_REFINED = 4096,    /* states in a refinement: several blocks; fewer are not worth a stage */

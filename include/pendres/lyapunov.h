@@ -7,7 +7,7 @@
  * pendulum is not checked; see attractor.h for that.
  *
  * A pendulum that comes close to a stable orbit has that orbit's exponent, period and winding.
- * Otherwise growth is averaged along tangent vectors or a neighbour, and the motion is chaotic,
+ * Otherwise growth is averaged along tangent vectors, and the motion is chaotic,
  * quasi-periodic (a rotation that is not locked to the drive, with the exponent 0), or unresolved.
  * Chaos that ends, or changes, later than the pendulum is followed (by default after 2264 drive
  * periods) is not distinguished from chaos that lasts. docs/sweeps.md describes the method, its

@@ -16,7 +16,6 @@
 #include "engine/compat.h"
 #include "engine/block_internal.h"
 #include "engine/flow_table.h"
-#include "engine/kernels_float.h"
 #include "engine/lanes_tape.h"
 #include "engine/tables.h"
 
@@ -142,7 +141,7 @@ void pendres_block_free(pendres_block *b)
   pendres_lanes_replays_free(b->replays);
   pendres_block_lanes_close(b);
   pendres_block_drive_free(&b->drive);
-  free(b->in_float.cosine);
+  pendres_block_alone_free(b);
   free(b);
 }
 
@@ -308,20 +307,16 @@ static pendres_status advance_to(pendres_block *b, int span, double end)
   return status != PENDRES_OK ? status : ended(b);
 }
 
-/* A period in single precision. */
-static pendres_status advance_float(pendres_block *b)
+/* A period that ARKODE has no part in. */
+static pendres_status advance_alone(pendres_block *b, pendres_flow_way way)
 {
-  const pendres_lanes_shape *s = &b->shape;
   const int steps = b->drive.steps;
-  if (steps < 1 || b->load != PENDRES_FLOW_ERRORS || s->model != PENDRES_MODEL_PLAIN)
-    return PENDRES_INVALID_ARGUMENT;
-  if (pendres_block_float_prepare(&b->in_float, steps) != 0) return PENDRES_OUT_OF_MEMORY;
-  const pendres_float_lanes lanes = {.lanes = s->stride, .y = b->rows,
-                                     .w = b->rows + s->stride, .k = s->coefficients,
-                                     .off = s->off};
+  const int slopes = way == PENDRES_FLOW_FLOAT ? pendres_block_run_float(b)
+                                               : pendres_block_run_split(b);
+  if (slopes < 0) return slopes == PENDRES_BLOCK_STARVED ? PENDRES_OUT_OF_MEMORY
+                                                         : PENDRES_INVALID_ARGUMENT;
   b->stopped = 0;
-  PENDRES_INSTRUCTIONS_BEST(pendres_kernels_float)->run(&b->in_float, &lanes);
-  b->evaluations += (double)steps * b->in_float.stages * (double)b->lanes;
+  b->evaluations += (double)slopes * (double)b->lanes;
   return count_steps(b, steps) == 0 ? PENDRES_OK : PENDRES_INTERRUPTED;
 }
 
@@ -351,17 +346,19 @@ static pendres_status ran(pendres_block *b, double periods, pendres_status statu
   return tell(b, status);
 }
 
-pendres_status pendres_block_period(pendres_block *b)
+pendres_status pendres_block_period_by(pendres_block *b, pendres_flow_way way)
 {
-  const pendres_status status = pendres_context_poll(b->ctx);
+  pendres_status status = pendres_context_poll(b->ctx);
   if (status != PENDRES_OK) return status;
-  return ran(b, 1.0, advance_to(b, SPAN_PERIOD, b->drive.steps > 0 ? b->end : two_pi));
+  status = way == PENDRES_FLOW_TABLE
+             ? advance_to(b, SPAN_PERIOD, b->drive.steps > 0 ? b->end : two_pi)
+             : advance_alone(b, way);
+  return ran(b, 1.0, status);
 }
 
-pendres_status pendres_block_period_float(pendres_block *b)
+pendres_status pendres_block_period(pendres_block *b)
 {
-  const pendres_status status = pendres_context_poll(b->ctx);
-  return status == PENDRES_OK ? ran(b, 1.0, advance_float(b)) : status;
+  return pendres_block_period_by(b, PENDRES_FLOW_TABLE);
 }
 
 pendres_status pendres_block_half_period(pendres_block *b)

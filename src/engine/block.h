@@ -88,11 +88,13 @@ void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, d
 /*
  * Advance all lanes by one drive period; asks before and now and then within long periods whether
  * to go on, and counts the cost. In single precision: plain pendulums that carry errors, which must
- * allow for this rounding. Half a period, from drive phase 0 to pi: for an even number of fixed
- * steps. Orbits that are their own mirror image close after half a period and a reflection.
+ * allow for this rounding. By splitting: errors that are carried stay as they are; of tangents both
+ * become those with the block's steps. Half a period, from drive phase 0 to pi: for an even number
+ * of fixed steps. Orbits that are their own mirror image close after half a period and a
+ * reflection.
  */
 pendres_status pendres_block_period(pendres_block *b);
-pendres_status pendres_block_period_float(pendres_block *b);
+pendres_status pendres_block_period_by(pendres_block *b, pendres_flow_way way);
 pendres_status pendres_block_half_period(pendres_block *b);
 
 /* The same, and call sample(arg, step, rows) after each step 1..n; fixed steps only, so that the

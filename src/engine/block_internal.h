@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "engine/kernels_float.h"
+#include "engine/kernels_split.h"
 #include "engine/lanes.h"
 #include "engine/lanes_replay.h"
 #include "engine/lanes_shape.h"
@@ -67,10 +68,6 @@ int pendres_block_drive_resize(pendres_block_drive *drive, int steps);
 
 void pendres_block_drive_free(pendres_block_drive *drive);
 
-/* Make the steps of a period in single precision, unless they are there; 0, or -1 if out of memory.
-   */
-int pendres_block_float_prepare(pendres_float_steps *s, int steps);
-
 struct pendres_block {
   pendres_context *ctx;
   pendres_lanes_shape shape;
@@ -83,6 +80,7 @@ struct pendres_block {
   double *off[CARRIED];   /* in these; NULL until anything is */
   pendres_block_drive drive;
   pendres_float_steps in_float;   /* steps in single precision, once there are any */
+  pendres_split_steps split;      /* steps by splitting, likewise */
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
@@ -91,6 +89,18 @@ struct pendres_block {
   size_t lanes; /* in use */
   int failure;
 };
+
+/* Make the steps of a period, unless they are there; 0, or -1 if out of memory. */
+int pendres_block_float_prepare(pendres_float_steps *s, int steps);
+int pendres_block_split_prepare(pendres_split_steps *s, int steps);
+
+/* block_alone.c: the lanes of a block over a period without ARKODE, in single precision or by
+   splitting. Returns how many right-hand sides that took for each lane; if negative, nothing was
+   done: there is no memory, or such a block cannot. */
+enum { PENDRES_BLOCK_STARVED = -2, PENDRES_BLOCK_CANNOT = -1 };
+int pendres_block_run_float(struct pendres_block *b);
+int pendres_block_run_split(struct pendres_block *b);
+void pendres_block_alone_free(struct pendres_block *b);
 
 /* Make the arrays for the coefficients of all lanes and for the rows. 0, or -1 without memory:
    pendres_block_free then frees what there is. */

@@ -171,6 +171,13 @@ typedef struct pendres_flow_error {
   double yy, yw, ww;
 } pendres_flow_error;
 
+/* By what periods with fixed steps are computed. */
+typedef enum pendres_flow_way {
+  PENDRES_FLOW_TABLE, /* a Butcher table, with ARKODE */
+  PENDRES_FLOW_FLOAT, /* one in single precision (kernels_float.h) */
+  PENDRES_FLOW_SPLIT  /* exact free motion and kicks, of fourth order (kernels_split.h) */
+} pendres_flow_way;
+
 /* A few lanes side by side: where in each vector they are, and their coefficients. */
 typedef struct pendres_strip {
   size_t lanes; /* a multiple of 8 */

@@ -20,8 +20,9 @@ typedef struct pendres_strobe_lane {
   long turns;                       /* whole turns taken out of y */
   long period;                      /* strobes so far */
   int steps;                        /* a period; unused by adaptive methods */
-  int in_float;                     /* block_fixed computes its periods in single precision, for
-                                       which `added` allows (block.h) */
+  pendres_flow_way way;             /* of block_fixed. In single precision errors are propagated,
+                                       and `added` allows for it; by splitting they stay as they
+                                       are (block.h) */
   double added;                     /* variance that a step adds to y's error (block.h); 0: errors
                                        are not propagated. With fixed steps only */
   pendres_flow_error off;           /* covariance of the errors of y and w */

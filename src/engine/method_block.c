@@ -20,7 +20,8 @@ static void put(filling *f, size_t slot, size_t i)
   const pendres_strobe_lane *l = &f->job->lanes[index];
   f->slot[slot] = index;
   pendres_block_load(f->block, slot, l->pendulum, l->y, l->w);
-  if (f->carry) pendres_block_set_error(f->block, slot, &l->off, l->added);
+  if (f->carry && l->way != PENDRES_FLOW_SPLIT)
+    pendres_block_set_error(f->block, slot, &l->off, l->added);
 }
 
 /* Take the states over from the block after a period; returns whether the lane is done. */
@@ -33,7 +34,7 @@ static int look(filling *f, size_t slot)
   l->period++;
   pendres_coordinates_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   pendres_block_put_state(f->block, slot, l->y, l->w);
-  if (f->carry) {
+  if (f->carry && l->way != PENDRES_FLOW_SPLIT) {
     l->off = pendres_block_get_error(f->block, slot);
     const double off = l->off.yy + l->off.ww;
     /* An error that is NaN counts as infinite. */
@@ -59,8 +60,7 @@ static pendres_status run_class(filling *f, const pendres_rank *queue, size_t n)
     next++;
   }
   while (f->filled > 0) {
-    status = queue[0].in_float ? pendres_block_period_float(f->block)
-                               : pendres_block_period(f->block);
+    status = pendres_block_period_by(f->block, queue[0].way);
     if (status != PENDRES_OK) return status;
     for (size_t slot = 0; slot < f->filled;) {
       if (!look(f, slot)) {
@@ -101,7 +101,7 @@ static pendres_status run_block(pendres_context *ctx, pendres_block *block, int 
     const size_t index = pendres_strobe_which(job, i);
     queue[i] = (pendres_rank){.steps = fixed ? lanes[index].steps : 0,
                               .model = pendres_model_kind(lanes[index].pendulum),
-                              .in_float = f.carry && lanes[index].in_float,
+                              .way = fixed ? lanes[index].way : PENDRES_FLOW_TABLE,
                               .index = i};
   }
   pendres_rank_order(n, queue);

@@ -33,12 +33,17 @@ static const double lattice_ratio = 1.25;
 static const double lattice_frequency = 1e-4, lattice_frequency_ratio = 1.06;
 static const double lattice_speed = 2.0, lattice_speed_ratio = 1.5;
 
+/* Steps of a splitting for each of a table's at an error of 1e-4 a period: with these, one in a
+   hundred pendulums has a larger one, of all forces alike, and none more than four times that. */
+static const double split_steps = 3.0;
+
 /* ---- how many steps: probes of a cell ---- */
 
 enum {
   PROBES = 16,       /* initial states a cell is probed with, two vectors of eight */
   PROBE_POINTS = 65, /* of a period at which they are compared: 64 intervals and the end */
-  STEPS_FEWEST = 8
+  STEPS_FEWEST = 8,
+  STEPS_FEWEST_OF_FEW = 12
 };
 
 /* Growth of an error of the start beyond which a probe is not followed. */

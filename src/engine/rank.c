@@ -8,7 +8,7 @@ static int by_steps(const void *a, const void *b)
   const pendres_rank *p = a, *q = b;
   if (p->model != q->model) return p->model < q->model ? -1 : 1;
   if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
-  if (p->in_float != q->in_float) return p->in_float < q->in_float ? -1 : 1;
+  if (p->way != q->way) return p->way < q->way ? -1 : 1;
   return p->index < q->index ? -1 : p->index > q->index;
 }
 

@@ -6,22 +6,22 @@
 
 #include <stddef.h>
 
-#include "model/model.h"
+#include "engine/kernels.h"
 
 /* A lane's place in a list, its steps and the kernels that it needs. */
 typedef struct pendres_rank {
   int steps;
   pendres_model_terms model;
-  int in_float; /* in single precision */
+  pendres_flow_way way;
   size_t index;
 } pendres_rank;
 
-/* Sort lanes by model, steps and precision; those that may share a block keep their order. */
+/* Sort lanes by model, steps and way; those that may share a block keep their order. */
 void pendres_rank_order(size_t n, pendres_rank *rank);
 
 static inline int pendres_rank_equal(const pendres_rank *a, const pendres_rank *b)
 {
-  return a->steps == b->steps && a->model == b->model && a->in_float == b->in_float;
+  return a->steps == b->steps && a->model == b->model && a->way == b->way;
 }
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "base/grow.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/block.h"
 #include "engine/numbers.h"
@@ -22,6 +23,13 @@ int pendres_steps_rung(int n)
     while (octave * 16 <= rung) octave *= 2;
     rung += rung < 24 ? 2 : octave;
   }
+  return rung;
+}
+
+int pendres_steps_rung_of_few(int n)
+{
+  int rung = STEPS_FEWEST_OF_FEW;
+  while (rung < n) rung += (rung & (rung - 1)) == 0 ? rung / 2 : rung / 3;
   return rung;
 }
 
@@ -415,5 +423,14 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
   }
   if (chosen > PENDRES_MOST_STEPS) return too_many(ctx, &key, p, speed);
   *steps = chosen;
+  return status;
+}
+
+pendres_status pendres_steps_choose_split(pendres_context *ctx, const pendres_pendulum *p,
+                                          double speed, int *steps)
+{
+  const double accuracy = pendres_accuracy_to_follow(ctx);
+  const pendres_status status = pendres_steps_choose(ctx, p, speed, accuracy, steps);
+  if (status == PENDRES_OK) *steps = pendres_steps_rung((int)ceil(split_steps * *steps));
   return status;
 }

@@ -17,6 +17,10 @@
    or above n. */
 int pendres_steps_rung(int n);
 
+/* The rung at or above n of a ladder of half octaves: of a few pendulums that are computed together
+   more share a block, which costs less than the steps that some take in vain. */
+int pendres_steps_rung_of_few(int n);
+
 /* The steps of the finer of two computations: 1.4 times as many, with which the errors of a method
    of order eight fall to a fifteenth, so that the difference of the two tells them. */
 int pendres_steps_finer(int n);
@@ -39,6 +43,10 @@ double pendres_steps_turning_speed(const pendres_pendulum *p);
  */
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                     double tolerance, int *steps);
+
+/* The same for a splitting (kernels_split.h), and errors as what is followed may have. */
+pendres_status pendres_steps_choose_split(pendres_context *ctx, const pendres_pendulum *p,
+                                          double speed, int *steps);
 
 /* The steps that were chosen for cells of the lattice. */
 typedef struct pendres_steps_memo pendres_steps_memo;

@@ -93,8 +93,9 @@ static double fastest_in_float(const pendres_context *ctx, const pendres_pendulu
 static void choose_precision(double speed, double fastest, double accuracy, double rounding,
                              pendres_strobe_lane *lane)
 {
-  lane->in_float = speed <= fastest && accuracy * accuracy >= lane->steps * rounding * rounding;
-  if (lane->in_float) lane->added += rounding * rounding;
+  if (speed > fastest || accuracy * accuracy < lane->steps * rounding * rounding) return;
+  lane->way = PENDRES_FLOW_FLOAT;
+  lane->added += rounding * rounding;
 }
 
 /*

@@ -1,4 +1,5 @@
 /* settle_certain.c -- making labels certain; see settle_lanes.h. */
+#include "engine/steps.h"
 #include "orbits/settle_lanes.h"
 
 #include <math.h>
@@ -62,25 +63,12 @@ static pendres_status gather(const pendres_settle_labelling *job, size_t all, do
   return PENDRES_OK;
 }
 
-/* The error a period that should leave no label uncertain: a power of ten, so that many pendulums
-   share it and blocks stay full. Where the error has grown beyond all bounds, it is not known how
-   much more exact the next run must be: the most exact one follows. A ratio that was not kept, as
-   that of lanes whose attractor was searched for, is NaN, which leaves at_least. */
-static double tighter(double accuracy, double error_ratio)
+double pendres_settle_tighter(double accuracy, double error_ratio)
 {
   if (isinf(error_ratio)) return settle_most_exact;
   const double wanted = accuracy / fmax(settle_at_least, settle_to_spare * error_ratio);
   if (!(wanted > settle_most_exact)) return settle_most_exact;
   return fmax(settle_most_exact, pow(10.0, floor(log10(wanted))));
-}
-
-/* A number of steps not below this one, out of few: the few pendulums that are run again then share
-   blocks. */
-static int coarse_rung(int steps)
-{
-  int rung = 16;
-  while (rung < steps) rung *= 2;
-  return rung / 4 * 3 >= steps ? rung / 4 * 3 : rung;
 }
 
 /* Load what is to be run, with errors a period of d->accuracy, and drop what needs too many
@@ -96,7 +84,7 @@ static pendres_status load(pendres_context *ctx, const pendres_settle_labelling 
                                                       &d->lanes[n]);
     if (status == PENDRES_TOLERANCE_UNREACHABLE) continue; /* it stays uncertain: no failure */
     if (status != PENDRES_OK) return status;
-    d->lanes[n].steps = coarse_rung(d->lanes[n].steps);
+    d->lanes[n].steps = pendres_steps_rung_of_few(d->lanes[n].steps);
     d->index[n] = i;
     d->set[n] = d->set[k];
     d->accuracy[n] = d->accuracy[k];
@@ -169,7 +157,7 @@ static pendres_status compare(pendres_context *ctx, const pendres_settle_labelli
     status = run(ctx, &other, from, d);
     if (status == PENDRES_OK) take_over(&other, d);
     for (size_t k = 0; k < d->count; k++)
-      d->accuracy[k] = tighter(d->accuracy[k], d->error_ratio[k]);
+      d->accuracy[k] = pendres_settle_tighter(d->accuracy[k], d->error_ratio[k]);
   }
   for (size_t i = 0; i < from->n && status == PENDRES_OK; i++) {
     pendres_outcome *o = &job->outcome[i];
@@ -193,7 +181,7 @@ pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle
     ctx->options = asked;
   }
   while (pendres_settle_carries(ctx) && d.count > 0 && status == PENDRES_OK) {
-    for (size_t k = 0; k < d.count; k++) d.accuracy[k] = tighter(d.accuracy[k], d.error_ratio[k]);
+    for (size_t k = 0; k < d.count; k++) d.accuracy[k] = pendres_settle_tighter(d.accuracy[k], d.error_ratio[k]);
     status = run(ctx, job, from, &d);
     if (status == PENDRES_OK) take_over(job, &d);
   }

@@ -83,7 +83,7 @@ pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbou
   pendres_strobe_lane lane = pendres_strobe_lane_at(neighbour->pendulum, x, v);
   lane.steps = neighbour->steps;
   lane.added = neighbour->added;
-  lane.in_float = neighbour->in_float;
+  lane.way = neighbour->way;
   return lane;
 }
 

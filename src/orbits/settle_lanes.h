@@ -110,6 +110,14 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
 /* ---- settle_certain.c: labels that no error of the integration can change -------------------- */
 
 /*
+ * The error a period that should leave no label uncertain: a power of ten, so that many pendulums
+ * share it and blocks stay full. Where the error has grown beyond all bounds, it is not known how
+ * much more exact the next run must be: the most exact one follows. A ratio that was not kept, as
+ * that of lanes whose attractor was searched for, is NaN, which leaves at_least.
+ */
+double pendres_settle_tighter(double accuracy, double error_ratio);
+
+/*
  * Make labels certain that are not: of pendulums whose propagated error is not small against what
  * separates one outcome from another. They are integrated again from their starts, more and more
  * exactly, down to rounding. Of the runs in which the error stayed below what separates outcomes,

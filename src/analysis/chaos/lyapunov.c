@@ -29,7 +29,7 @@
  */
 
 enum {
-  AT_A_TIME = 1024 /* pendulums with copies: they need memory */
+  AT_A_TIME = 4096 /* pendulums with copies: they need memory */
 };
 
 typedef pendres_lyapunov verdict;
@@ -74,6 +74,7 @@ typedef struct family {
   size_t n;
   const size_t *which;
   size_t first, copies;
+  const double *each;   /* of the pendulums themselves: errors a period */
   pendres_orbit *orbit; /* that the pendulums are on: of copies they are known, else this is room */
 } family;
 
@@ -98,10 +99,12 @@ static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
   }
   if (f->first > 0 && j.longer > j.periods) j.longer = j.periods; /* they need less than it */
   j.n = all;
+  j.few = 1;
   j.pendulum = p;
   j.x = x;
   j.v = x + all;
   j.out = out;
+  j.each = f->each;
   j.orbit = f->first > 0 ? NULL : f->orbit;
   if (f->first > 0) {
     j.copies = f->copies;
@@ -129,7 +132,8 @@ static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *
     const size_t copies = begin[part + 1] - begin[part];
     size_t left = 0;
     for (size_t i = 0; i < n; i++) orbit[i] = job->orbit[which[i]];
-    status = judge(ctx, &(family){job, n, which, begin[part], copies, orbit}, copy);
+    const family f = {job, n, which, begin[part], copies, NULL, orbit};
+    status = judge(ctx, &f, copy);
     for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
       verdict *l = &job->out[which[i]];
       const verdict before = *l;
@@ -147,16 +151,23 @@ static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *
   return pendres_room_close(&room, status);
 }
 
-/* Start pendulums again, with the job's accuracy. What they do counts, unless it is not known. */
+/* Start pendulums again, as exactly as their doubts ask for. What they do counts, unless it is not
+   known. */
 static pendres_status repeat(pendres_context *ctx, const pendres_lyapunov_job *job, size_t n,
                              const size_t *which)
 {
   pendres_room room = pendres_room_open(ctx, "verdicts");
   verdict *again = pendres_room_take(&room, n, sizeof *again);
   pendres_orbit *orbit = pendres_room_take(&room, n, sizeof *orbit);
+  double *each = pendres_room_take(&room, n, sizeof *each);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  for (size_t i = 0; i < n; i++) orbit[i] = pendres_orbit_none(&job->pendulum[which[i]]);
-  const pendres_status status = judge(ctx, &(family){job, n, which, 0, 1, orbit}, again);
+  for (size_t i = 0; i < n; i++) {
+    const double doubt = copies_parted * job->runner[which[i]].doubt;
+    orbit[i] = pendres_orbit_none(&job->pendulum[which[i]]);
+    each[i] = fmax(pendres_settle_tighter(job->accuracy, doubt), PENDRES_ACCURACY_TIGHTEST);
+  }
+  const family f = {job, n, which, 0, 1, each, orbit};
+  const pendres_status status = judge(ctx, &f, again);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     if (again[i].label == PENDRES_LABEL_UNRESOLVED) continue;
     job->out[which[i]] = again[i];
@@ -165,14 +176,15 @@ static pendres_status repeat(pendres_context *ctx, const pendres_lyapunov_job *j
   return pendres_room_close(&room, status);
 }
 
-/* Put those of n pendulums first that are in doubt, of them only those with hope if it is asked
-   for, and the others behind them; returns how many come first. */
-static size_t put_first(const pendres_lyapunov_job *job, size_t n, size_t *which, int with_hope)
+/* Put those of n pendulums first that are in doubt, but for those that are left out, and the others
+   behind them; returns how many come first. */
+static size_t put_first(const pendres_lyapunov_job *job, size_t n, size_t *which,
+                        int (*left_out)(const pendres_lyapunov_job *, size_t))
 {
   size_t left = 0;
   for (size_t i = 0; i < n; i++) {
     const size_t at = which[i];
-    if (!in_doubt(&job->out[at]) || (with_hope && hopeless(job, at))) continue;
+    if (!in_doubt(&job->out[at]) || (left_out != NULL && left_out(job, at))) continue;
     which[i] = which[left];
     which[left++] = at;
   }
@@ -185,12 +197,12 @@ static pendres_status make_certain(pendres_context *ctx, const pendres_lyapunov_
 {
   pendres_lyapunov_job exact = *job;
   exact.accuracy = PENDRES_ACCURACY_TIGHTEST;
-  pendres_status status = repeat(ctx, &exact, n, which);
+  pendres_status status = repeat(ctx, job, n, which);
   if (status != PENDRES_OK) return status;
-  n = put_first(job, n, which, 0);
+  n = put_first(job, n, which, NULL);
   status = compare(ctx, job, n, which, 0);
   if (status != PENDRES_OK) return status;
-  n = put_first(job, n, which, 1);
+  n = put_first(job, n, which, hopeless);
   return compare(ctx, &exact, n, which, 1);
 }
 

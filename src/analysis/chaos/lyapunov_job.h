@@ -15,6 +15,7 @@ typedef struct pendres_lyapunov_job {
   const pendres_pendulum *pendulum; /* checked */
   const double *x, *v;              /* starts */
   double accuracy;                  /* error a period on the way from the start */
+  const double *each;               /* the same of each pendulum; NULL: of all */
   long transient, periods;          /* 0: as is best; of the first average */
   long longer;                      /* periods by which what may be chaos is followed further, by
                                        its states alone, before it is averaged */
@@ -22,6 +23,7 @@ typedef struct pendres_lyapunov_job {
   int rounds;
   int coarse;                       /* the first average: as exact as what is followed. Sweeps come
                                        next to folds, beyond which such steps may be */
+  int few;                          /* they are so few that they should have equal steps */
   size_t copies;                    /* of one pendulum each, side by side; 0: they are no copies */
   const pendres_orbit *known;       /* of copies: orbits that those are on which they are copies
                                        of; of period 0 if on none */

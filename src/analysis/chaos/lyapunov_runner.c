@@ -69,9 +69,9 @@ int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
     return 1;
   }
   if (l->period >= r->next) {
-    const long longest = 2 * PENDRES_RUNNER_LONGEST_ORBIT;
+    const long share = l->period / LOOK_AGAIN, longest = 2 * PENDRES_RUNNER_LONGEST_ORBIT;
     look_from(r, l);
-    r->next = l->period + (l->period < longest ? l->period : longest);
+    r->next = l->period + (share < LOOK_SOON ? LOOK_SOON : share < longest ? share : longest);
   }
   return 0;
 }
@@ -92,7 +92,7 @@ int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l)
 
 pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 {
-  runner r = {.lane = *lane, .u = PENDRES_TANGENTS_BEGIN, .near = near, .next = 8,
+  runner r = {.lane = *lane, .u = PENDRES_TANGENTS_BEGIN, .near = near, .next = LOOK_SOON,
               .open = pendres_escape_possible(lane->pendulum),
               .before_y = lane->y, .before_w = lane->w,
               .sure_y = lane->y, .sure_w = lane->w, .back = INFINITY};
@@ -102,44 +102,21 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/* Load a runner into a lane, and its neighbour, if it has one, into the next lane. */
-static void put(const average_job *a, size_t lane, const runner *r)
-{
-  const pendres_strobe_lane *l = &r->lane;
-  pendres_block_put_state(a->block, lane, l->y, l->w);
-  if (a->beside == PENDRES_BESIDE_NEIGHBOUR)
-    pendres_block_put_state(a->block, lane + 1, l->y + neighbour_apart * r->u[0][0],
-                            l->w + neighbour_apart * r->u[0][1]);
-}
-
 static void load(const average_job *a, size_t lane, runner *r)
 {
   for (int b = 0; b < BATCHES; b++)
     r->growth[0][b] = r->growth[1][b] = r->turned[b] = 0.0;
   r->turns = r->squares = (pendres_mean){.sum = {0.0}};
   pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
-  if (a->beside == PENDRES_BESIDE_NEIGHBOUR)
-    pendres_block_load(a->block, lane + 1, r->lane.pendulum, r->lane.y, r->lane.w);
-  else if (a->beside == PENDRES_BESIDE_TANGENTS)
-    pendres_tangents_put(a->block, lane, r->u);
-  put(a, lane, r);
+  if (a->beside == PENDRES_BESIDE_TANGENTS) pendres_tangents_put(a->block, lane, r->u);
 }
 
-/* Add to a batch what tangent vectors, or the distance of a neighbour, have grown by. */
+/* Add to a batch what tangent vectors have grown by. */
 static void turn(const average_job *a, size_t lane, long step, runner *r)
 {
   double grown[2];
   if (a->beside == PENDRES_BESIDE_NOTHING) return;
-  if (a->beside == PENDRES_BESIDE_NEIGHBOUR) {
-    const pendres_rows rows = pendres_block_rows(a->block);
-    for (int k = 0; k < 2; k++)
-      r->u[0][k] = r->u[1][k] = (pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane + 1) -
-                                 pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane)) /
-                                neighbour_apart;
-    pendres_tangents_shorten(r->u, grown);
-  } else {
-    pendres_tangents_take(a->block, lane, (step + 1) % a->batch == 0, r->u, grown);
-  }
+  pendres_tangents_take(a->block, lane, (step + 1) % a->batch == 0, r->u, grown);
   for (int i = 0; i < 2 && step >= 0; i++) r->growth[i][step / a->batch] += grown[i];
 }
 
@@ -162,7 +139,7 @@ static void arrive(const average_job *a, size_t lane, long step,
   }
   pendres_coordinates_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   l->period++;
-  put(a, lane, r);
+  pendres_block_put_state(a->block, lane, l->y, l->w);
   pendres_runner_pass(r, l);
   if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_leaves(r, l)) return;
   if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_comes_back(r, l))
@@ -174,14 +151,13 @@ static pendres_status average_block(const average_job *a, size_t n, const pendre
                                     runner *runners)
 {
   pendres_status status = PENDRES_OK;
-  const size_t each = a->beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1;
-  pendres_block_resize(a->block, each * n);
-  for (size_t i = 0; i < n; i++) load(a, each * i, &runners[rank[i].index]);
+  pendres_block_resize(a->block, n);
+  for (size_t i = 0; i < n; i++) load(a, i, &runners[rank[i].index]);
   for (long k = -EXPONENT_TURNING; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
     const pendres_mean_weights weights = pendres_mean_weights_at(k, a->batch * BATCHES);
-    status = pendres_block_period(a->block);
+    status = pendres_block_period_by(a->block, rank[0].way);
     for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-      arrive(a, each * i, k, &weights, &runners[rank[i].index]);
+      arrive(a, i, k, &weights, &runners[rank[i].index]);
   }
   return status;
 }
@@ -196,8 +172,7 @@ static pendres_status average_class(pendres_context *ctx, runner *runners, long 
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, rank[0].steps, &block);
   if (status != PENDRES_OK) return status;
   const average_job a = {.block = block, .batch = batch, .beside = beside};
-  const size_t most =
-    pendres_block_capacity(block) / (beside == PENDRES_BESIDE_NEIGHBOUR ? 2 : 1);
+  const size_t most = pendres_block_capacity(block);
   if (*n > most) *n = most;
   if (tangents) status = pendres_block_carry(block, PENDRES_FLOW_TANGENTS);
   if (status == PENDRES_OK) status = average_block(&a, *n, rank, runners);
@@ -218,6 +193,7 @@ static pendres_status average(pendres_context *ctx, size_t n, runner *runners, l
     if (runners[i].state == PENDRES_RUNNER_MOVING && runners[i].beside == beside)
       rank[count++] = (pendres_rank){.steps = runners[i].lane.steps,
                                      .model = pendres_model_kind(runners[i].lane.pendulum),
+                                     .way = runners[i].lane.way,
                                      .index = i};
   pendres_rank_order(count, rank);
   for (size_t first = 0, some; first < count && status == PENDRES_OK; first += some) {
@@ -233,7 +209,7 @@ pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_r
                                        long batch)
 {
   pendres_status status = PENDRES_OK;
-  for (int k = PENDRES_BESIDE_NOTHING; k <= PENDRES_BESIDE_NEIGHBOUR && status == PENDRES_OK; k++)
+  for (int k = PENDRES_BESIDE_NOTHING; k <= PENDRES_BESIDE_TANGENTS && status == PENDRES_OK; k++)
     status = average(ctx, n, runners, batch, (pendres_runner_beside)k);
   return status;
 }

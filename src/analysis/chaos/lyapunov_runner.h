@@ -1,8 +1,8 @@
 /*
  * lyapunov_runner.h -- pendulums that run until their strobe points repeat, or averages are known.
  *
- * Owns: whether strobe points have repeated; the growth of tangent vectors and of distances to
- * neighbours, and its averages, batch by batch; the means over time that tell rotations.
+ * Owns: whether strobe points have repeated; the growth of tangent vectors, and its averages, batch
+ * by batch; the means over time that tell rotations.
  */
 #ifndef PENDRES_LYAPUNOV_RUNNER_H
 #define PENDRES_LYAPUNOV_RUNNER_H
@@ -28,8 +28,7 @@ typedef enum pendres_runner_state {
 /* What is carried along beside a runner in averages, to see how errors grow. */
 typedef enum pendres_runner_beside {
   PENDRES_BESIDE_NOTHING,
-  PENDRES_BESIDE_TANGENTS,
-  PENDRES_BESIDE_NEIGHBOUR /* in place of tangent vectors: exact, at twice the cost */
+  PENDRES_BESIDE_TANGENTS
 } pendres_runner_beside;
 
 typedef struct pendres_runner {
@@ -50,9 +49,10 @@ typedef struct pendres_runner {
   double before_y, before_w; /* and was here a period ago */
   int rotates;         /* it may be on a rotation that is not locked to the drive */
   pendres_runner_beside beside;
+  int weak;            /* its chaos may be due to the errors of a splitting: by tables from then on */
   int rough;           /* its mean turns are known, and are to be averaged again with more steps */
-  double u[2][2];      /* tangent vectors by steps, and by steps twice as long; with a neighbour
-                          both are the direction to it */
+  double u[2][2];      /* tangent vectors by steps, and by steps twice as long; by a splitting
+                          both are by its steps */
   /* Sums over the periods of each batch. */
   double growth[2][BATCHES], turned[BATCHES];
   pendres_mean turns, squares; /* of rotations: turns a period, and w at its end, squared */

@@ -61,14 +61,16 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const job *j = arg;
   pendres_runner *r = &j->runner[index];
-  pendres_runner_trust(r, lane, pendres_settle_error_ratio(lane->worst));
+  const int exactly = lane->way == PENDRES_FLOW_TABLE;
+  if (exactly) pendres_runner_trust(r, lane, pendres_settle_error_ratio(lane->worst));
   if (r->followed && !(r->doubt <= 1.0)) pendres_runner_pass(r, lane);
   if (pendres_runner_leaves(r, lane)) return 1;
   if (pendres_runner_comes_back(r, lane)) {
     r->state = PENDRES_RUNNER_CAUGHT;
     return 1;
   }
-  return lane->period >= r->until || !(isfinite(lane->y) && isfinite(lane->w));
+  return lane->period >= r->until || (exactly && !r->weak && r->doubt > copies_parted) ||
+         !(isfinite(lane->y) && isfinite(lane->w));
 }
 
 /* ---- escapes ---- */
@@ -137,36 +139,50 @@ static pendres_growth_verdict tell_growth(const pendres_runner *r, double off)
   return pendres_growth_tell(all, latter, off);
 }
 
+/* A look at all that move: the number of the round, periods a batch, and how well means must be
+   known. */
+typedef struct round_of {
+  int number;
+  long batch;
+  double enough;
+} round_of;
+
+/* Whether a runner's averages are taken by a splitting. */
+static int splits(const job *j, const pendres_runner *r, const round_of *now)
+{
+  return r->beside == PENDRES_BESIDE_TANGENTS && now->number == 0 && j->coarse && !r->weak;
+}
+
 /* Judge runners by their averages; those on chaos or on rotations that are not locked are done. So
    are those that shrink, and still do not come back: their orbits have more periods than are
-   looked for. */
-static void judge(const job *j, long batch, double enough)
+   looked for. Averages by a splitting tell chaos alone: its steps may be beyond a fold. */
+static void judge(const job *j, const round_of *now)
 {
+  const long batch = now->batch, periods = batch * BATCHES;
   for (size_t i = 0; i < j->n; i++) {
     pendres_runner *r = &j->runner[i];
     double error = 0.0, turned_error = 0.0;
     if (r->state != PENDRES_RUNNER_MOVING) continue;
     const double rate = r->lane.pendulum->drive_frequency / two_pi;
     const double off = pendres_runner_extrapolate(r, batch);
-    const pendres_growth_verdict told = tell_growth(r, off * (double)(batch * BATCHES));
+    const pendres_growth_verdict told = tell_growth(r, off * (double)periods);
     const double growth = pendres_batches_mean(r->growth[0], batch, &error);
     const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
     const int chaotic = told == PENDRES_GROWTH_CHAOS && !pendres_batches_change(r->growth[0]) &&
                         forgets_start(j, &r->lane);
+    const int by_table = !splits(j, r, now);
+    r->weak |= chaotic && !by_table && growth < exponent_weak;
     j->out[i] = (pendres_lyapunov){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
       .rotation = turned, .rotation_error = turned_error};
     if (r->beside == PENDRES_BESIDE_NOTHING) j->out[i].exponent = j->out[i].exponent_error = NAN;
-    const long periods = batch * BATCHES;
-    if (!chaotic && r->rotates) r->rough = pendres_means_tell(r, periods, enough, &j->out[i]);
-    const int coarse = r->beside == PENDRES_BESIDE_TANGENTS && j->coarse;
-    const int ordered = told == PENDRES_GROWTH_ORDER && !coarse;
-    if (chaotic || r->rough || ordered ||
+    if (!chaotic && r->rotates && by_table)
+      r->rough = pendres_means_tell(r, periods, now->enough, &j->out[i]);
+    const int ordered = told == PENDRES_GROWTH_ORDER && by_table;
+    if ((chaotic && (by_table || !r->weak)) || r->rough || ordered ||
         (j->care == PENDRES_CARE_CLOSE && pendres_means_scatter(r, periods)))
       r->state = PENDRES_RUNNER_DONE;
-    /* Those that are left run beside a neighbour from here on. */
-    if (j->care != PENDRES_CARE_CLOSE) r->beside = PENDRES_BESIDE_NEIGHBOUR;
   }
 }
 
@@ -199,6 +215,7 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   pendres_runner *r = &j->runner[i];
   const pendres_strobe_lane lane = pendres_strobe_lane_at(p, j->x[i], j->v[i]);
   const double usual = accuracy_of_averages(ctx, j);
+  const double wanted = j->each != NULL ? j->each[i] : j->accuracy;
   const double speed =
     fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
   *r = pendres_runner_at(&lane, caught_close_by);
@@ -208,11 +225,13 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   double accuracy = usual;
   pendres_status status = pendres_steps_choose(ctx, p, speed, usual, &r->steps);
   r->lane.steps = r->steps;
-  if (status == PENDRES_OK && j->accuracy < usual) {
-    status = pendres_steps_choose(ctx, p, speed, j->accuracy, &r->lane.steps);
-    if (status == PENDRES_OK) accuracy = j->accuracy;
+  if (status == PENDRES_OK && wanted < usual) {
+    status = pendres_steps_choose(ctx, p, speed, wanted, &r->lane.steps);
+    if (status == PENDRES_OK) accuracy = wanted;
     if (status == PENDRES_TOLERANCE_UNREACHABLE) status = PENDRES_OK; /* it stays in doubt */
   }
+  if (j->few) r->steps = pendres_steps_rung_of_few(r->steps);
+  if (j->few) r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   r->steps += r->steps % 2; /* for tangents by steps twice as long */
   r->lane.steps += r->lane.steps % 2;
   r->lane.added = pendres_settle_added(ctx, accuracy, r->lane.steps);
@@ -220,7 +239,15 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   return status;
 }
 
-/* Run all lanes that are moving until they come back or their time is over. */
+/* After a run by other steps: with its own again. */
+static void go_on_exactly(pendres_runner *r)
+{
+  r->lane.steps = r->steps;
+  r->lane.way = PENDRES_FLOW_TABLE;
+}
+
+/* Run all lanes that are moving until they come back, or their time is over, or their errors have
+   become so large that it does not matter how exactly they go on. */
 static pendres_status run_lanes(pendres_context *ctx, const job *j)
 {
   size_t moving = 0;
@@ -229,14 +256,15 @@ static pendres_status run_lanes(pendres_context *ctx, const job *j)
   size_t *which = pendres_room_take(&room, j->n, sizeof *which);
   for (size_t i = 0; i < j->n && room.status == PENDRES_OK; i++) {
     lanes[i] = j->runner[i].lane;
-    if (j->runner[i].state == PENDRES_RUNNER_MOVING) which[moving++] = i;
+    const pendres_runner *r = &j->runner[i];
+    if (r->state == PENDRES_RUNNER_MOVING && lanes[i].period < r->until) which[moving++] = i;
   }
   pendres_status status = room.status;
   if (status == PENDRES_OK)
     status = pendres_strobe_run_some(ctx, moving, which, lanes, visit, (void *)j);
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     j->runner[i].lane = lanes[i];
-    j->runner[i].lane.steps = j->runner[i].steps;
+    go_on_exactly(&j->runner[i]);
   }
   return pendres_room_close(&room, status);
 }
@@ -275,70 +303,111 @@ static double speed_of(const pendres_strobe_lane *lane)
               pendres_steps_turning_speed(lane->pendulum));
 }
 
-/* Follow what may be chaos by its states alone, before it is averaged: chaos that ends comes to an
-   orbit, or leaves. Where errors are large already, they may be larger. */
-static pendres_status follow(pendres_context *ctx, const job *j)
+/* Go on by a splitting. */
+static pendres_status split(pendres_context *ctx, pendres_runner *r)
 {
-  const double usual = accuracy_of_averages(ctx, j);
+  r->lane.way = PENDRES_FLOW_SPLIT;
+  r->near = fmin(r->near, caught_in_chaos);
+  return pendres_steps_choose_split(ctx, r->lane.pendulum, speed_of(&r->lane), &r->lane.steps);
+}
+
+/* Run all that move until their time is over; those whose errors are large already by a splitting,
+   in which they may be larger. */
+static pendres_status run_on(pendres_context *ctx, const job *j)
+{
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING) continue;
-    r->until = transient_of(j, &r->lane) + j->longer;
-    r->followed = 1;
-    r->lane.added = pendres_settle_added(ctx, usual, r->steps);
-    if (r->doubt > 1.0)
+    if (r->weak)
       status = pendres_steps_choose(ctx, r->lane.pendulum, speed_of(&r->lane),
                                     pendres_accuracy_to_follow(ctx), &r->lane.steps);
+    else if (r->doubt > 1.0 || j->copies > 0)
+      status = split(ctx, r);
+    else
+      r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   }
-  if (status == PENDRES_OK) status = run_lanes(ctx, j);
+  return status == PENDRES_OK ? run_lanes(ctx, j) : status;
+}
+
+/* Follow what may be chaos by its states alone, before it is averaged: chaos that ends comes to an
+   orbit, or leaves. */
+static pendres_status follow(pendres_context *ctx, const job *j)
+{
+  const double usual = accuracy_of_averages(ctx, j);
+  for (size_t i = 0; i < j->n; i++) {
+    pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_MOVING) continue;
+    r->until = (r->weak ? r->lane.period : transient_of(j, &r->lane)) + j->longer;
+    r->followed = 1;
+    r->lane.added = pendres_settle_added(ctx, usual, r->steps);
+  }
+  pendres_status status = run_on(ctx, j);
+  if (status == PENDRES_OK) status = run_on(ctx, j); /* those whose errors have grown meanwhile */
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   return status == PENDRES_OK ? pendres_lyapunov_settle_caught(ctx, j) : status;
 }
 
-/* First averages need be no more exact than what is followed: their scatter hides the errors. They
-   tell chaos alone, and what they do not tell is averaged again by finer steps. */
-static pendres_status coarsen(pendres_context *ctx, const job *j)
+/* Averages of chaos need be no more exact than what is followed: their scatter hides the errors.
+   What they do not tell is averaged again, exactly; then it is so little that it should have equal
+   steps. */
+static pendres_status choose_steps(pendres_context *ctx, const job *j, const round_of *now)
 {
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < j->n && j->coarse && status == PENDRES_OK; i++) {
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
-    if (r->state != PENDRES_RUNNER_MOVING || r->beside != PENDRES_BESIDE_TANGENTS) continue;
-    status = pendres_steps_choose(ctx, r->lane.pendulum, speed_of(&r->lane),
-                                  pendres_accuracy_to_follow(ctx), &r->lane.steps);
-    r->lane.steps += r->lane.steps % 2; /* for tangents by steps twice as long */
+    if (r->state != PENDRES_RUNNER_MOVING) continue;
+    if (splits(j, r, now)) status = split(ctx, r);
+    else if (now->number > 0) r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   }
   return status;
 }
 
 /* Average all that move over `batch` periods a batch, and judge them. */
-static pendres_status look(pendres_context *ctx, const job *j, long batch, double enough)
+static pendres_status look(pendres_context *ctx, const job *j, const round_of *now)
 {
-  pendres_status status = coarsen(ctx, j);
-  if (status == PENDRES_OK) status = pendres_runners_average(ctx, j->n, j->runner, batch);
-  for (size_t i = 0; i < j->n; i++) j->runner[i].lane.steps = j->runner[i].steps;
+  pendres_status status = choose_steps(ctx, j, now);
+  if (status == PENDRES_OK) status = pendres_runners_average(ctx, j->n, j->runner, now->batch);
+  for (size_t i = 0; i < j->n; i++) go_on_exactly(&j->runner[i]);
   grow_errors(j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
   /* Runners whose orbit was not stable have averages of this round, and no result yet. */
-  if (status == PENDRES_OK) judge(j, batch, enough);
+  if (status == PENDRES_OK) judge(j, now);
   if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
   if (status == PENDRES_OK && j->care != PENDRES_CARE_ONCE && j->care != PENDRES_CARE_LABEL)
-    status = pendres_means_refine(ctx, j->n, j->runner, batch, j->out);
+    status = pendres_means_refine(ctx, j->n, j->runner, now->batch, j->out);
   return status;
 }
 
-/* Look at what may be rotations by their states alone; the others wait. Those that are none run
-   beside a neighbour from here on. */
-static pendres_status look_at_rotations(pendres_context *ctx, const job *j, long batch,
-                                        double enough)
+/* Look at what may be rotations by their states alone; the others wait. */
+static pendres_status look_at_rotations(pendres_context *ctx, const job *j, const round_of *now)
 {
   for (size_t i = 0; i < j->n; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->rotates) r->beside = PENDRES_BESIDE_NOTHING;
     else if (r->state == PENDRES_RUNNER_MOVING) r->state = PENDRES_RUNNER_WAITING;
   }
-  const pendres_status status = look(ctx, j, batch, enough);
+  const pendres_status status = look(ctx, j, now);
+  for (size_t i = 0; i < j->n; i++) {
+    j->runner[i].beside = PENDRES_BESIDE_TANGENTS;
+    if (j->runner[i].state == PENDRES_RUNNER_WAITING) j->runner[i].state = PENDRES_RUNNER_MOVING;
+  }
+  return status;
+}
+
+/* Follow and average weak chaos once more; the others that move wait. */
+static pendres_status look_at_weak(pendres_context *ctx, const job *j, const round_of *now)
+{
+  size_t weak = 0;
+  for (size_t i = 0; i < j->n; i++) {
+    pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_MOVING) continue;
+    weak += r->weak != 0;
+    if (!r->weak) r->state = PENDRES_RUNNER_WAITING;
+  }
+  pendres_status status = weak > 0 ? follow(ctx, j) : PENDRES_OK;
+  if (status == PENDRES_OK && weak > 0) status = look(ctx, j, now);
   for (size_t i = 0; i < j->n; i++)
     if (j->runner[i].state == PENDRES_RUNNER_WAITING) j->runner[i].state = PENDRES_RUNNER_MOVING;
   return status;
@@ -346,22 +415,25 @@ static pendres_status look_at_rotations(pendres_context *ctx, const job *j, long
 
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
 {
-  const double least = means_least;
-  const double wanted = j->care == PENDRES_CARE_LABEL ? least : pendres_accuracy_of_means(ctx);
-  long batch = (j->periods + BATCHES - 1) / BATCHES;
+  const double wanted =
+    j->care == PENDRES_CARE_LABEL ? means_least : pendres_accuracy_of_means(ctx);
+  round_of now = {.batch = (j->periods + BATCHES - 1) / BATCHES, .enough = wanted};
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) status = load(ctx, j, i);
   if (status == PENDRES_OK) status = tell_linear(ctx, j);
   if (status == PENDRES_OK) status = run_lanes(ctx, j);
+  if (status == PENDRES_OK) status = run_on(ctx, j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
-  give_up(j, batch, 1);
+  give_up(j, now.batch, 1);
   if (status == PENDRES_OK && j->care <= PENDRES_CARE_LABEL)
-    status = look_at_rotations(ctx, j, batch, wanted);
+    status = look_at_rotations(ctx, j, &now);
   if (status == PENDRES_OK && j->longer > 0) status = follow(ctx, j);
-  for (int round = 0; round < j->rounds && status == PENDRES_OK; round++, batch *= 2) {
-    if (round > 0) give_up(j, batch, 0);
-    status = look(ctx, j, batch, round + 1 < j->rounds ? wanted : least);
+  for (; now.number < j->rounds && status == PENDRES_OK; now.number++, now.batch *= 2) {
+    if (now.number + 1 == j->rounds) now.enough = means_least;
+    if (now.number > 0) give_up(j, now.batch, 0);
+    status = look(ctx, j, &now);
+    if (status == PENDRES_OK && now.number == 0 && j->coarse) status = look_at_weak(ctx, j, &now);
   }
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++)
     j->out[i].certain = is_certain(&j->runner[i], j->out[i].label);

@@ -26,19 +26,28 @@ static const double exponent_most_steps = 5e7;
    to an orbit and elsewhere. */
 static const double exponent_forgets = 25.0, exponent_forgets_all = 80.0;
 
+/* Chaos that stretches by less than this a period is in bands, or next to a window: errors of a
+   splitting may make it of an orbit. One hump of a map stretches by up to ln 2, in two bands by half
+   of that. */
+static const double exponent_weak = 0.35;
+
 /* ---- exponents: what is next to an orbit ---- */
+
+enum {
+  LOOK_SOON = 8, /* periods for which strobe points are compared with an earlier one, at least; ... */
+  LOOK_AGAIN = 4 /* ... this part of all so far, so that no more than that is waited in vain */
+};
 
 /* A pendulum whose strobe point comes back this closely is taken to be next to an orbit, at first.
    Each time that an orbit has turned out not to attract it, as the unstable one beside a fold does
    not, it must come closer, by the second factor. */
 static const double caught_close_by = 1e-4, caught_closer = 0.1;
 
+/* The same where it may be chaotic: there points come back by chance. */
+static const double caught_in_chaos = 1e-5;
+
 /* Copies of a pendulum that are caught this close to each other are next to the same orbit. */
 static const double caught_same_place = 1e-3;
-
-/* The distance of a neighbour. Both its rounding errors and its departure from the linear equation
-   are some 1e-8 of that distance. */
-static const double neighbour_apart = 1e-8;
 
 /* ---- exponents: copies, which tell whether a verdict depends on rounding ---- */
 

@@ -1,0 +1,97 @@
+/* block_alone.c -- periods without ARKODE, in single precision or by splitting; see block_internal.h. */
+#include "engine/block.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/angles.h"
+#include "base/grow.h"
+#include "base/instructions.h"
+#include "base/sine.h"
+#include "engine/block_internal.h"
+#include "engine/tables.h"
+
+/* ---- single precision ---- */
+
+static void add_term(pendres_float_sum *q, int stage, double coefficient)
+{
+  if (coefficient == 0.0) return;
+  q->term[q->terms].stage = stage;
+  q->term[q->terms++].c = (float)coefficient;
+}
+
+int pendres_block_float_prepare(pendres_float_steps *s, int steps)
+{
+  const pendres_tables_method *m = pendres_tables_get(pendres_tables_float);
+  int stages = m->stages;
+  if (s->steps == steps) return 0;
+  while (m->b[stages - 1] == 0.0) stages--;
+  s->steps = 0;
+  if (!pendres_regrow(&s->cosine, (size_t)steps * (size_t)stages, sizeof *s->cosine)) return -1;
+  const double step = two_pi / steps;
+  for (int i = 0; i <= stages; i++) s->sum[i].terms = 0;
+  for (int k = 0; k < m->entries; k++)
+    if (m->a[k].row < stages)
+      add_term(&s->sum[m->a[k].row], m->a[k].column, step * m->a[k].value);
+  for (int i = 0; i < stages; i++) add_term(&s->sum[stages], i, step * m->b[i]);
+  float *cosine = s->cosine;
+  for (int k = 0; k < steps; k++)
+    for (int i = 0; i < stages; i++) *cosine++ = (float)cos(step * (k + m->c[i]));
+  s->steps = steps;
+  s->stages = stages;
+  s->step = (float)step;
+  return 0;
+}
+
+int pendres_block_run_float(pendres_block *b)
+{
+  const pendres_lanes_shape *s = &b->shape;
+  if (b->drive.steps < 1 || b->load != PENDRES_FLOW_ERRORS || s->model != PENDRES_MODEL_PLAIN)
+    return PENDRES_BLOCK_CANNOT;
+  if (pendres_block_float_prepare(&b->in_float, b->drive.steps) != 0) return PENDRES_BLOCK_STARVED;
+  const pendres_float_lanes lanes = {.lanes = s->stride, .y = b->rows, .w = b->rows + s->stride,
+                                     .k = s->coefficients, .off = s->off};
+  PENDRES_INSTRUCTIONS_BEST(pendres_kernels_float)->run(&b->in_float, &lanes);
+  return b->drive.steps * b->in_float.stages;
+}
+
+/* ---- splitting ---- */
+
+int pendres_block_split_prepare(pendres_split_steps *s, int steps)
+{
+  if (s->steps == steps) return 0;
+  s->steps = 0;
+  if (!pendres_regrow(&s->cosine, (size_t)steps, sizeof *s->cosine) ||
+      !pendres_regrow(&s->sine, (size_t)steps, sizeof *s->sine))
+    return -1;
+  for (int k = 0; k < steps; k++)
+    pendres_kernels_sincos(two_pi * (k + 0.5) / steps, &s->sine[k], &s->cosine[k]);
+  s->steps = steps;
+  return 0;
+}
+
+int pendres_block_run_split(pendres_block *b)
+{
+  const pendres_lanes_shape *s = &b->shape;
+  const int tangents = b->load == PENDRES_FLOW_TANGENTS;
+  if (b->drive.steps < 1 || s->rows != PENDRES_ROWS_STATE) return PENDRES_BLOCK_CANNOT;
+  if (pendres_block_split_prepare(&b->split, b->drive.steps) != 0) return PENDRES_BLOCK_STARVED;
+  const pendres_split_lanes lanes = {.lanes = s->stride, .model = s->model, .y = b->rows,
+                                     .w = b->rows + s->stride, .k = s->coefficients,
+                                     .tangent_y = tangents ? s->tangent.y[0] : NULL,
+                                     .tangent_w = tangents ? s->tangent.w[0] : NULL};
+  PENDRES_INSTRUCTIONS_BEST(pendres_kernels_split)->run(&b->split, &lanes);
+  if (tangents) {
+    memcpy(s->tangent.y[1], s->tangent.y[0], s->stride * sizeof(double));
+    memcpy(s->tangent.w[1], s->tangent.w[0], s->stride * sizeof(double));
+  }
+  return b->drive.steps;
+}
+
+void pendres_block_alone_free(pendres_block *b)
+{
+  free(b->in_float.cosine);
+  free(b->split.cosine);
+  free(b->split.sine);
+}

@@ -1,0 +1,192 @@
+/* kernels_split.c -- a period by exact free motion and kicks; see kernels_split.h. */
+#include "engine/kernels_split.h"
+
+#include "base/angles.h"
+#include "base/instructions.h"
+#include "engine/kernels_force.h"
+
+#define FMA(a, b, c) __builtin_fma((a), (b), (c))
+
+/* Lanes that go through a period together: enough vectors for one kick's operations not to wait
+   for each other, and few enough for the nearest cache. */
+enum { STRIP = 32, UNIT = 8 };
+
+/* Some lanes, in the shaken frame, and what a step does to them. */
+typedef struct strip {
+  double u[STRIP], w[STRIP], a[STRIP], b[STRIP]; /* states, and tangents (a, b) */
+  double reach[2][STRIP], decay[2][STRIP];       /* of free motion over half a step, and a step */
+  double pivot_cos[STRIP], pivot_sin[STRIP];     /* y = u + pivot */
+  double push[STRIP], bend[STRIP];               /* a kick is -push f (1 - bend f') */
+  double torque[STRIP];                          /* over the stiffness */
+} strip;
+
+enum { HALF, WHOLE };
+
+#define LANES _Pragma("omp simd") for (size_t i = 0; i < count; i++)
+#define INLINE static inline __attribute__((always_inline))
+
+/* (1 - exp(-x)) / x to rounding, for x < 2. */
+INLINE double mean_decay(double x)
+{
+  enum { TERMS = 24 };
+  double sum = 1.0;
+#pragma GCC unroll 24
+  for (int k = TERMS; k > 1; k--) sum = FMA(-x * (1.0 / k), sum, 1.0);
+  return sum;
+}
+
+/* A force, and its first two derivatives by y. */
+typedef struct spring {
+  double f, by_y, twice;
+} spring;
+
+/* The force f (1 + b cos theta) - I, without the stiffness. */
+INLINE spring spring_at(pendres_model_terms model, const pendres_coefficients *k, double torque,
+                        size_t i, double y, double cosine)
+{
+  double f, by_y;
+  pendres_kernels_force(model, k->power, i, y, &f, &by_y);
+  const double twice = pendres_kernels_curvature(model, k->power, i, y, f);
+  if (model == PENDRES_MODEL_PLAIN) return (spring){f, by_y, twice};
+  const double drive = FMA(k->modulation[i], cosine, 1.0);
+  return (spring){FMA(f, drive, -torque), by_y * drive, twice * drive};
+}
+
+INLINE void drift(size_t count, int length, int tangents, strip *s)
+{
+  LANES
+  {
+    s->u[i] = FMA(s->reach[length][i], s->w[i], s->u[i]);
+    s->w[i] *= s->decay[length][i];
+    if (!tangents) continue;
+    s->a[i] = FMA(s->reach[length][i], s->b[i], s->a[i]);
+    s->b[i] *= s->decay[length][i];
+  }
+}
+
+/* A kick at the drive phase with this cosine and sine, and the free motion after it. */
+INLINE void kick(pendres_model_terms model, size_t count, int length, int tangents,
+                 const pendres_coefficients *k, double cosine, double sine, strip *s)
+{
+  LANES
+  {
+    const double y = s->u[i] + FMA(s->pivot_cos[i], cosine, s->pivot_sin[i] * sine);
+    const spring at = spring_at(model, k, s->torque[i], i, y, cosine);
+    const double less = FMA(-s->bend[i], at.by_y, 1.0), w = FMA(-s->push[i] * at.f, less, s->w[i]);
+    s->u[i] = FMA(s->reach[length][i], w, s->u[i]);
+    s->w[i] = w * s->decay[length][i];
+    if (!tangents) continue;
+    const double spring = FMA(at.by_y, less, -(s->bend[i] * at.f * at.twice));
+    const double b = FMA(-s->push[i] * spring, s->a[i], s->b[i]);
+    s->a[i] = FMA(s->reach[length][i], b, s->a[i]);
+    s->b[i] = b * s->decay[length][i];
+  }
+}
+
+/* From strobe points to the steps' coordinates, or (`back` -1) from these to strobe points. */
+INLINE void change(pendres_model_terms model, size_t count, double back, double step,
+                   const pendres_coefficients *k, const strip *s, double *y, double *w)
+{
+  const double shift = back * step * step * (1.0 / 24.0);
+  LANES
+  {
+    const spring at = spring_at(model, k, s->torque[i], i, y[i], 1.0);
+    const double much = shift * k->stiffness[i];
+    const double turned = FMA(at.by_y, w[i], at.f * k->friction[i]);
+    y[i] = FMA(much, at.f, y[i]);
+    w[i] = FMA(-much, turned, w[i]);
+  }
+}
+
+/* What a step does to the lanes, from their coefficients. */
+INLINE void prepare(pendres_model_terms model, size_t count, double step,
+                    const pendres_coefficients *k, strip *s)
+{
+  LANES
+  {
+    const double g = k->friction[i], x = 0.5 * step * g;
+    const double reduced = k->drive[i] / FMA(g, g, 1.0);
+    s->reach[HALF][i] = 0.5 * step * mean_decay(x);
+    s->decay[HALF][i] = FMA(-g, s->reach[HALF][i], 1.0);
+    s->reach[WHOLE][i] = FMA(s->decay[HALF][i], s->reach[HALF][i], s->reach[HALF][i]);
+    s->decay[WHOLE][i] = s->decay[HALF][i] * s->decay[HALF][i];
+    s->pivot_cos[i] = -reduced;
+    s->pivot_sin[i] = reduced * g;
+    s->push[i] = step * k->stiffness[i];
+    s->bend[i] = step * step * (1.0 / 12.0) * k->stiffness[i];
+    s->torque[i] = 0.0;
+    if (model != PENDRES_MODEL_PLAIN) s->torque[i] = k->torque[i] / k->stiffness[i];
+  }
+}
+
+/* All lanes of a strip over a period. */
+INLINE void run_strip(pendres_model_terms model, size_t count, int tangents,
+                      const pendres_split_steps *t, const pendres_split_lanes *block, size_t lane)
+{
+  strip s;
+  const double step = two_pi / t->steps;
+  double *y = block->y + lane, *w = block->w + lane;
+  pendres_coefficients k = {.stiffness = block->k.stiffness + lane, .drive = block->k.drive + lane,
+                            .friction = block->k.friction + lane};
+  if (model != PENDRES_MODEL_PLAIN) {
+    k.torque = block->k.torque + lane;
+    k.modulation = block->k.modulation + lane;
+    for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) k.power[c] = block->k.power[c] + lane;
+  }
+  prepare(model, count, step, &k, &s);
+  change(model, count, -1.0, step, &k, &s, y, w);
+  LANES
+  {
+    s.u[i] = y[i] - s.pivot_cos[i];
+    s.w[i] = w[i] - s.pivot_sin[i];
+    if (!tangents) continue;
+    s.a[i] = block->tangent_y[lane + i];
+    s.b[i] = FMA(-0.5 * k.friction[i], s.a[i], block->tangent_w[lane + i]);
+  }
+  drift(count, HALF, tangents, &s);
+  for (int n = 0; n < t->steps; n++)
+    kick(model, count, n + 1 < t->steps ? WHOLE : HALF, tangents, &k, t->cosine[n], t->sine[n], &s);
+  LANES
+  {
+    y[i] = s.u[i] + s.pivot_cos[i];
+    w[i] = s.w[i] + s.pivot_sin[i];
+    if (!tangents) continue;
+    block->tangent_y[lane + i] = s.a[i];
+    block->tangent_w[lane + i] = FMA(0.5 * k.friction[i], s.a[i], s.b[i]);
+  }
+  change(model, count, 1.0, step, &k, &s, y, w);
+}
+
+#define RUN_STRIP(MODEL, COUNT, TANGENTS)                                                  \
+  static void strip_##MODEL##_##COUNT##_##TANGENTS(const pendres_split_steps *t,           \
+                                                   const pendres_split_lanes *b, size_t lane) \
+  {                                                                                        \
+    run_strip(PENDRES_MODEL_##MODEL, COUNT, TANGENTS, t, b, lane);                         \
+  }
+#define RUN_MODEL(MODEL, name)  \
+  RUN_STRIP(MODEL, 8, 0)        \
+  RUN_STRIP(MODEL, 8, 1)        \
+  RUN_STRIP(MODEL, 32, 0)       \
+  RUN_STRIP(MODEL, 32, 1)
+RUN_MODEL(PLAIN, plain)
+RUN_MODEL(PENDULUM, pendulum)
+RUN_MODEL(POLYNOMIAL, polynomial)
+PENDRES_FORCE_LIST(RUN_MODEL)
+
+typedef void run_some(const pendres_split_steps *, const pendres_split_lanes *, size_t);
+#define OF_MODEL(MODEL, name)                                       \
+  [PENDRES_MODEL_##MODEL] = {{strip_##MODEL##_8_0, strip_##MODEL##_32_0}, \
+                             {strip_##MODEL##_8_1, strip_##MODEL##_32_1}},
+static run_some *const strips[PENDRES_MODEL_COUNT][2][2] = {
+  OF_MODEL(PLAIN, plain) OF_MODEL(PENDULUM, pendulum) OF_MODEL(POLYNOMIAL, polynomial)
+  PENDRES_FORCE_LIST(OF_MODEL)};
+
+static void run(const pendres_split_steps *s, const pendres_split_lanes *b)
+{
+  run_some *const *of = strips[b->model][b->tangent_y != NULL];
+  size_t lane = 0;
+  for (; lane + STRIP <= b->lanes; lane += STRIP) of[1](s, b, lane);
+  for (; lane < b->lanes; lane += UNIT) of[0](s, b, lane);
+}
+
+const pendres_kernels_split PENDRES_INSTRUCTIONS_OWN(pendres_kernels_split) = {run};
