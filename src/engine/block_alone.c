@@ -11,6 +11,7 @@
 #include "base/sine.h"
 #include "engine/block_internal.h"
 #include "engine/tables.h"
+#include "model/model.h"
 
 /* ---- single precision ---- */
 
@@ -62,11 +63,15 @@ int pendres_block_split_prepare(pendres_split_steps *s, int steps)
 {
   if (s->steps == steps) return 0;
   s->steps = 0;
-  if (!pendres_regrow(&s->cosine, (size_t)steps, sizeof *s->cosine) ||
-      !pendres_regrow(&s->sine, (size_t)steps, sizeof *s->sine))
+  const int kicks = PENDRES_SPLIT_KICKS * steps;
+  const double at[PENDRES_SPLIT_KICKS] = {pendres_split_a, 0.5, 1.0 - pendres_split_a};
+  if (!pendres_regrow(&s->cosine, (size_t)kicks, sizeof *s->cosine) ||
+      !pendres_regrow(&s->sine, (size_t)kicks, sizeof *s->sine))
     return -1;
-  for (int k = 0; k < steps; k++)
-    pendres_kernels_sincos(two_pi * (k + 0.5) / steps, &s->sine[k], &s->cosine[k]);
+  for (int k = 0; k < kicks; k++)
+    pendres_kernels_sincos(
+      two_pi * (k / PENDRES_SPLIT_KICKS + at[k % PENDRES_SPLIT_KICKS]) / steps, &s->sine[k],
+      &s->cosine[k]);
   s->steps = steps;
   return 0;
 }
@@ -86,7 +91,19 @@ int pendres_block_run_split(pendres_block *b)
     memcpy(s->tangent.y[1], s->tangent.y[0], s->stride * sizeof(double));
     memcpy(s->tangent.w[1], s->tangent.w[0], s->stride * sizeof(double));
   }
-  return b->drive.steps;
+  return b->drive.steps * PENDRES_SPLIT_KICKS;
+}
+
+void pendres_block_split_state(const pendres_pendulum *p, int steps, int back, double *y, double *w)
+{
+  double force, slope;
+  const double omega = p->drive_frequency, step = two_pi / (steps * omega);
+  const double shift = (back ? -1.0 : 1.0) * pendres_split_k * step * step;
+  pendres_model_force(p, *y, &force, &slope);
+  const double drive = 1.0 + p->parametric_amplitude, f = drive * force - p->torque;
+  const double turned = drive * slope * *w + p->damping / omega * f;
+  *y += shift * f;
+  *w -= shift * turned;
 }
 
 void pendres_block_alone_free(pendres_block *b)

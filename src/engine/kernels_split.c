@@ -11,21 +11,24 @@
    for each other, and few enough for the nearest cache. */
 enum { STRIP = 32, UNIT = 8 };
 
+/* Free motion: to a step's first kick, between its kicks, and on to the next step's first; and its
+   kicks. */
+enum { EDGE, INNER, BETWEEN, DURATIONS };
+enum { OUTER, MIDDLE };
+
 /* Some lanes, in the shaken frame, and what a step does to them. */
 typedef struct strip {
   double u[STRIP], w[STRIP], a[STRIP], b[STRIP]; /* states, and tangents (a, b) */
-  double reach[2][STRIP], decay[2][STRIP];       /* of free motion over half a step, and a step */
+  double reach[DURATIONS][STRIP], decay[DURATIONS][STRIP]; /* of free motion */
   double pivot_cos[STRIP], pivot_sin[STRIP];     /* y = u + pivot */
-  double push[STRIP], bend[STRIP];               /* a kick is -push f (1 - bend f') */
+  double push[2][STRIP], bend[2][STRIP];         /* a kick is -push f (1 - bend f') */
   double torque[STRIP];                          /* over the stiffness */
 } strip;
-
-enum { HALF, WHOLE };
 
 #define LANES _Pragma("omp simd") for (size_t i = 0; i < count; i++)
 #define INLINE static inline __attribute__((always_inline))
 
-/* (1 - exp(-x)) / x to rounding, for x < 2. */
+/* (1 - exp(-x)) / x to rounding, for |x| < 2. */
 INLINE double mean_decay(double x)
 {
   enum { TERMS = 24 };
@@ -65,36 +68,21 @@ INLINE void drift(size_t count, int length, int tangents, strip *s)
 }
 
 /* A kick at the drive phase with this cosine and sine, and the free motion after it. */
-INLINE void kick(pendres_model_terms model, size_t count, int length, int tangents,
+INLINE void kick(pendres_model_terms model, size_t count, int which, int length, int tangents,
                  const pendres_coefficients *k, double cosine, double sine, strip *s)
 {
   LANES
   {
     const double y = s->u[i] + FMA(s->pivot_cos[i], cosine, s->pivot_sin[i] * sine);
     const spring at = spring_at(model, k, s->torque[i], i, y, cosine);
-    const double less = FMA(-s->bend[i], at.by_y, 1.0), w = FMA(-s->push[i] * at.f, less, s->w[i]);
+    const double less = FMA(-s->bend[which][i], at.by_y, 1.0), w = FMA(-s->push[which][i] * at.f, less, s->w[i]);
     s->u[i] = FMA(s->reach[length][i], w, s->u[i]);
     s->w[i] = w * s->decay[length][i];
     if (!tangents) continue;
-    const double spring = FMA(at.by_y, less, -(s->bend[i] * at.f * at.twice));
-    const double b = FMA(-s->push[i] * spring, s->a[i], s->b[i]);
+    const double spring = FMA(at.by_y, less, -(s->bend[which][i] * at.f * at.twice));
+    const double b = FMA(-s->push[which][i] * spring, s->a[i], s->b[i]);
     s->a[i] = FMA(s->reach[length][i], b, s->a[i]);
     s->b[i] = b * s->decay[length][i];
-  }
-}
-
-/* From strobe points to the steps' coordinates, or (`back` -1) from these to strobe points. */
-INLINE void change(pendres_model_terms model, size_t count, double back, double step,
-                   const pendres_coefficients *k, const strip *s, double *y, double *w)
-{
-  const double shift = back * step * step * (1.0 / 24.0);
-  LANES
-  {
-    const spring at = spring_at(model, k, s->torque[i], i, y[i], 1.0);
-    const double much = shift * k->stiffness[i];
-    const double turned = FMA(at.by_y, w[i], at.f * k->friction[i]);
-    y[i] = FMA(much, at.f, y[i]);
-    w[i] = FMA(-much, turned, w[i]);
   }
 }
 
@@ -102,18 +90,26 @@ INLINE void change(pendres_model_terms model, size_t count, double back, double 
 INLINE void prepare(pendres_model_terms model, size_t count, double step,
                     const pendres_coefficients *k, strip *s)
 {
+  const double edge = pendres_split_a * step, inner = 0.5 * step - edge;
+  const double time[DURATIONS] = {[EDGE] = edge, [INNER] = inner, [BETWEEN] = 2.0 * edge};
+  const double share[2] = {[OUTER] = pendres_split_b, [MIDDLE] = 1.0 - 2.0 * pendres_split_b};
+  for (int d = 0; d < DURATIONS; d++)
+    LANES
+    {
+      s->reach[d][i] = time[d] * mean_decay(time[d] * k->friction[i]);
+      s->decay[d][i] = FMA(-k->friction[i], s->reach[d][i], 1.0);
+    }
+  for (int d = OUTER; d <= MIDDLE; d++)
+    LANES
+    {
+      s->push[d][i] = share[d] * step * k->stiffness[i];
+      s->bend[d][i] = pendres_split_bend[d] * step * step * k->stiffness[i];
+    }
   LANES
   {
-    const double g = k->friction[i], x = 0.5 * step * g;
-    const double reduced = k->drive[i] / FMA(g, g, 1.0);
-    s->reach[HALF][i] = 0.5 * step * mean_decay(x);
-    s->decay[HALF][i] = FMA(-g, s->reach[HALF][i], 1.0);
-    s->reach[WHOLE][i] = FMA(s->decay[HALF][i], s->reach[HALF][i], s->reach[HALF][i]);
-    s->decay[WHOLE][i] = s->decay[HALF][i] * s->decay[HALF][i];
+    const double g = k->friction[i], reduced = k->drive[i] / FMA(g, g, 1.0);
     s->pivot_cos[i] = -reduced;
     s->pivot_sin[i] = reduced * g;
-    s->push[i] = step * k->stiffness[i];
-    s->bend[i] = step * step * (1.0 / 12.0) * k->stiffness[i];
     s->torque[i] = 0.0;
     if (model != PENDRES_MODEL_PLAIN) s->torque[i] = k->torque[i] / k->stiffness[i];
   }
@@ -134,7 +130,6 @@ INLINE void run_strip(pendres_model_terms model, size_t count, int tangents,
     for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) k.power[c] = block->k.power[c] + lane;
   }
   prepare(model, count, step, &k, &s);
-  change(model, count, -1.0, step, &k, &s, y, w);
   LANES
   {
     s.u[i] = y[i] - s.pivot_cos[i];
@@ -143,9 +138,14 @@ INLINE void run_strip(pendres_model_terms model, size_t count, int tangents,
     s.a[i] = block->tangent_y[lane + i];
     s.b[i] = FMA(-0.5 * k.friction[i], s.a[i], block->tangent_w[lane + i]);
   }
-  drift(count, HALF, tangents, &s);
-  for (int n = 0; n < t->steps; n++)
-    kick(model, count, n + 1 < t->steps ? WHOLE : HALF, tangents, &k, t->cosine[n], t->sine[n], &s);
+  drift(count, EDGE, tangents, &s);
+  const double *cosine = t->cosine, *sine = t->sine;
+  for (int n = 1; n <= t->steps; n++, cosine += PENDRES_SPLIT_KICKS, sine += PENDRES_SPLIT_KICKS) {
+    const int last = n < t->steps ? BETWEEN : EDGE;
+    kick(model, count, OUTER, INNER, tangents, &k, cosine[0], sine[0], &s);
+    kick(model, count, MIDDLE, INNER, tangents, &k, cosine[1], sine[1], &s);
+    kick(model, count, OUTER, last, tangents, &k, cosine[2], sine[2], &s);
+  }
   LANES
   {
     y[i] = s.u[i] + s.pivot_cos[i];
@@ -154,7 +154,6 @@ INLINE void run_strip(pendres_model_terms model, size_t count, int tangents,
     block->tangent_y[lane + i] = s.a[i];
     block->tangent_w[lane + i] = FMA(0.5 * k.friction[i], s.a[i], s.b[i]);
   }
-  change(model, count, 1.0, step, &k, &s, y, w);
 }
 
 #define RUN_STRIP(MODEL, COUNT, TANGENTS)                                                  \

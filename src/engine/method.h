@@ -22,7 +22,7 @@ typedef struct pendres_strobe_lane {
   int steps;                        /* a period; unused by adaptive methods */
   pendres_flow_way way;             /* of block_fixed. In single precision errors are propagated,
                                        and `added` allows for it; by splitting they stay as they
-                                       are (block.h) */
+                                       are, and visitors see its coordinates (block.h) */
   double added;                     /* variance that a step adds to y's error (block.h); 0: errors
                                        are not propagated. With fixed steps only */
   pendres_flow_error off;           /* covariance of the errors of y and w */

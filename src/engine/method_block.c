@@ -17,8 +17,10 @@ typedef struct filling {
 static void put(filling *f, size_t slot, size_t i)
 {
   const size_t index = pendres_strobe_which(f->job, i);
-  const pendres_strobe_lane *l = &f->job->lanes[index];
+  pendres_strobe_lane *l = &f->job->lanes[index];
   f->slot[slot] = index;
+  if (l->way == PENDRES_FLOW_SPLIT)
+    pendres_block_split_state(l->pendulum, l->steps, 0, &l->y, &l->w);
   pendres_block_load(f->block, slot, l->pendulum, l->y, l->w);
   if (f->carry && l->way != PENDRES_FLOW_SPLIT)
     pendres_block_set_error(f->block, slot, &l->off, l->added);
@@ -40,7 +42,10 @@ static int look(filling *f, size_t slot)
     /* An error that is NaN counts as infinite. */
     if (!(off <= l->worst)) l->worst = off;
   }
-  return f->job->visit(f->job->arg, f->slot[slot], l);
+  const int done = f->job->visit(f->job->arg, f->slot[slot], l);
+  if (done && l->way == PENDRES_FLOW_SPLIT)
+    pendres_block_split_state(l->pendulum, l->steps, 1, &l->y, &l->w);
+  return done;
 }
 
 /* Run all lanes of one class of steps, queue[0..n). */

@@ -8,7 +8,6 @@
 
 #include "base/angles.h"
 #include "base/grow.h"
-#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/block.h"
 #include "engine/numbers.h"
@@ -427,10 +426,11 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
 }
 
 pendres_status pendres_steps_choose_split(pendres_context *ctx, const pendres_pendulum *p,
-                                          double speed, int *steps)
+                                          double speed, double tolerance, int *steps)
 {
-  const double accuracy = pendres_accuracy_to_follow(ctx);
-  const pendres_status status = pendres_steps_choose(ctx, p, speed, accuracy, steps);
-  if (status == PENDRES_OK) *steps = pendres_steps_rung((int)ceil(split_steps * *steps));
+  const double rough = fmax(tolerance, split_rough);
+  const pendres_status status = pendres_steps_choose(ctx, p, speed, rough, steps);
+  const double more = pow(rough / tolerance, 1.0 / SPLIT_ORDER);
+  if (status == PENDRES_OK) *steps = pendres_steps_rung((int)ceil(split_steps * more * *steps));
   return status;
 }

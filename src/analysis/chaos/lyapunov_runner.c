@@ -20,6 +20,7 @@ typedef struct average_job {
   pendres_block *block;
   long batch; /* periods */
   pendres_runner_beside beside;
+  pendres_flow_way way;
 } average_job;
 
 /* ---- coming back --------------------------------------------------------------------------- */
@@ -102,11 +103,19 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
+/* To the coordinates of a splitting, and back. */
+static void change(const average_job *a, int back, pendres_strobe_lane *l)
+{
+  if (a->way == PENDRES_FLOW_SPLIT)
+    pendres_block_split_state(l->pendulum, l->steps, back, &l->y, &l->w);
+}
+
 static void load(const average_job *a, size_t lane, runner *r)
 {
   for (int b = 0; b < BATCHES; b++)
     r->growth[0][b] = r->growth[1][b] = r->turned[b] = 0.0;
   r->turns = r->squares = (pendres_mean){.sum = {0.0}};
+  change(a, 0, &r->lane);
   pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
   if (a->beside == PENDRES_BESIDE_TANGENTS) pendres_tangents_put(a->block, lane, r->u);
 }
@@ -155,10 +164,11 @@ static pendres_status average_block(const average_job *a, size_t n, const pendre
   for (size_t i = 0; i < n; i++) load(a, i, &runners[rank[i].index]);
   for (long k = -EXPONENT_TURNING; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
     const pendres_mean_weights weights = pendres_mean_weights_at(k, a->batch * BATCHES);
-    status = pendres_block_period_by(a->block, rank[0].way);
+    status = pendres_block_period_by(a->block, a->way);
     for (size_t i = 0; i < n && status == PENDRES_OK; i++)
       arrive(a, i, k, &weights, &runners[rank[i].index]);
   }
+  for (size_t i = 0; i < n; i++) change(a, 1, &runners[rank[i].index].lane);
   return status;
 }
 
@@ -171,7 +181,7 @@ static pendres_status average_class(pendres_context *ctx, runner *runners, long 
   const int tangents = beside == PENDRES_BESIDE_TANGENTS;
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, rank[0].steps, &block);
   if (status != PENDRES_OK) return status;
-  const average_job a = {.block = block, .batch = batch, .beside = beside};
+  const average_job a = {.block = block, .batch = batch, .beside = beside, .way = rank[0].way};
   const size_t most = pendres_block_capacity(block);
   if (*n > most) *n = most;
   if (tangents) status = pendres_block_carry(block, PENDRES_FLOW_TANGENTS);

@@ -49,7 +49,6 @@ typedef struct pendres_runner {
   double before_y, before_w; /* and was here a period ago */
   int rotates;         /* it may be on a rotation that is not locked to the drive */
   pendres_runner_beside beside;
-  int weak;            /* its chaos may be due to the errors of a splitting: by tables from then on */
   int rough;           /* its mean turns are known, and are to be averaged again with more steps */
   double u[2][2];      /* tangent vectors by steps, and by steps twice as long; by a splitting
                           both are by its steps */

@@ -69,7 +69,7 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
     r->state = PENDRES_RUNNER_CAUGHT;
     return 1;
   }
-  return lane->period >= r->until || (exactly && !r->weak && r->doubt > copies_parted) ||
+  return lane->period >= r->until || (exactly && r->doubt > copies_parted) ||
          !(isfinite(lane->y) && isfinite(lane->w));
 }
 
@@ -147,15 +147,16 @@ typedef struct round_of {
   double enough;
 } round_of;
 
-/* Whether a runner's averages are taken by a splitting. */
+/* Whether a runner's averages are taken by a splitting: means of rotations must be more exact. */
 static int splits(const job *j, const pendres_runner *r, const round_of *now)
 {
-  return r->beside == PENDRES_BESIDE_TANGENTS && now->number == 0 && j->coarse && !r->weak;
+  return r->beside == PENDRES_BESIDE_TANGENTS && j->coarse && !(r->rotates && now->number > 0);
 }
 
 /* Judge runners by their averages; those on chaos or on rotations that are not locked are done. So
    are those that shrink, and still do not come back: their orbits have more periods than are
-   looked for. Averages by a splitting tell chaos alone: its steps may be beyond a fold. */
+   looked for. First averages by a splitting, whose steps may be beyond a fold, tell strong chaos
+   alone. */
 static void judge(const job *j, const round_of *now)
 {
   const long batch = now->batch, periods = batch * BATCHES;
@@ -170,8 +171,9 @@ static void judge(const job *j, const round_of *now)
     const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
     const int chaotic = told == PENDRES_GROWTH_CHAOS && !pendres_batches_change(r->growth[0]) &&
                         forgets_start(j, &r->lane);
-    const int by_table = !splits(j, r, now);
-    r->weak |= chaotic && !by_table && growth < exponent_weak;
+    const int by_table = !splits(j, r, now), roughly = !by_table && now->number == 0;
+    const double weak = exponent_weak * fmax(1.0, 1.0 / r->lane.pendulum->drive_frequency);
+    const int strong = chaotic && !(roughly && growth < weak);
     j->out[i] = (pendres_lyapunov){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
@@ -179,8 +181,8 @@ static void judge(const job *j, const round_of *now)
     if (r->beside == PENDRES_BESIDE_NOTHING) j->out[i].exponent = j->out[i].exponent_error = NAN;
     if (!chaotic && r->rotates && by_table)
       r->rough = pendres_means_tell(r, periods, now->enough, &j->out[i]);
-    const int ordered = told == PENDRES_GROWTH_ORDER && by_table;
-    if ((chaotic && (by_table || !r->weak)) || r->rough || ordered ||
+    const int ordered = told == PENDRES_GROWTH_ORDER && !roughly;
+    if (strong || r->rough || ordered ||
         (j->care == PENDRES_CARE_CLOSE && pendres_means_scatter(r, periods)))
       r->state = PENDRES_RUNNER_DONE;
   }
@@ -303,12 +305,13 @@ static double speed_of(const pendres_strobe_lane *lane)
               pendres_steps_turning_speed(lane->pendulum));
 }
 
-/* Go on by a splitting. */
-static pendres_status split(pendres_context *ctx, pendres_runner *r)
+/* Go on by a splitting of this error a period. */
+static pendres_status split(pendres_context *ctx, pendres_runner *r, double accuracy)
 {
   r->lane.way = PENDRES_FLOW_SPLIT;
   r->near = fmin(r->near, caught_in_chaos);
-  return pendres_steps_choose_split(ctx, r->lane.pendulum, speed_of(&r->lane), &r->lane.steps);
+  return pendres_steps_choose_split(ctx, r->lane.pendulum, speed_of(&r->lane), accuracy,
+                                    &r->lane.steps);
 }
 
 /* Run all that move until their time is over; those whose errors are large already by a splitting,
@@ -319,11 +322,8 @@ static pendres_status run_on(pendres_context *ctx, const job *j)
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING) continue;
-    if (r->weak)
-      status = pendres_steps_choose(ctx, r->lane.pendulum, speed_of(&r->lane),
-                                    pendres_accuracy_to_follow(ctx), &r->lane.steps);
-    else if (r->doubt > 1.0 || j->copies > 0)
-      status = split(ctx, r);
+    if (r->doubt > 1.0 || j->copies > 0)
+      status = split(ctx, r, pendres_accuracy_to_follow(ctx));
     else
       r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   }
@@ -338,7 +338,7 @@ static pendres_status follow(pendres_context *ctx, const job *j)
   for (size_t i = 0; i < j->n; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING) continue;
-    r->until = (r->weak ? r->lane.period : transient_of(j, &r->lane)) + j->longer;
+    r->until = transient_of(j, &r->lane) + j->longer;
     r->followed = 1;
     r->lane.added = pendres_settle_added(ctx, usual, r->steps);
   }
@@ -348,17 +348,19 @@ static pendres_status follow(pendres_context *ctx, const job *j)
   return status == PENDRES_OK ? pendres_lyapunov_settle_caught(ctx, j) : status;
 }
 
-/* Averages of chaos need be no more exact than what is followed: their scatter hides the errors.
-   What they do not tell is averaged again, exactly; then it is so little that it should have equal
-   steps. */
+/* First averages need be no more exact than what is followed: the scatter of strong chaos hides the
+   errors. What they do not tell is averaged again, exactly; then it is so little that it should have
+   equal steps. */
 static pendres_status choose_steps(pendres_context *ctx, const job *j, const round_of *now)
 {
+  const double accuracy =
+    now->number > 0 ? accuracy_of_averages(ctx, j) : pendres_accuracy_to_follow(ctx);
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING) continue;
-    if (splits(j, r, now)) status = split(ctx, r);
-    else if (now->number > 0) r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
+    if (splits(j, r, now)) status = split(ctx, r, accuracy);
+    if (now->number > 0) r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   }
   return status;
 }
@@ -396,23 +398,6 @@ static pendres_status look_at_rotations(pendres_context *ctx, const job *j, cons
   return status;
 }
 
-/* Follow and average weak chaos once more; the others that move wait. */
-static pendres_status look_at_weak(pendres_context *ctx, const job *j, const round_of *now)
-{
-  size_t weak = 0;
-  for (size_t i = 0; i < j->n; i++) {
-    pendres_runner *r = &j->runner[i];
-    if (r->state != PENDRES_RUNNER_MOVING) continue;
-    weak += r->weak != 0;
-    if (!r->weak) r->state = PENDRES_RUNNER_WAITING;
-  }
-  pendres_status status = weak > 0 ? follow(ctx, j) : PENDRES_OK;
-  if (status == PENDRES_OK && weak > 0) status = look(ctx, j, now);
-  for (size_t i = 0; i < j->n; i++)
-    if (j->runner[i].state == PENDRES_RUNNER_WAITING) j->runner[i].state = PENDRES_RUNNER_MOVING;
-  return status;
-}
-
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
 {
   const double wanted =
@@ -433,7 +418,6 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
     if (now.number + 1 == j->rounds) now.enough = means_least;
     if (now.number > 0) give_up(j, now.batch, 0);
     status = look(ctx, j, &now);
-    if (status == PENDRES_OK && now.number == 0 && j->coarse) status = look_at_weak(ctx, j, &now);
   }
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++)
     j->out[i].certain = is_certain(&j->runner[i], j->out[i].label);

@@ -26,9 +26,9 @@ static const double exponent_most_steps = 5e7;
    to an orbit and elsewhere. */
 static const double exponent_forgets = 25.0, exponent_forgets_all = 80.0;
 
-/* Chaos that stretches by less than this a period is in bands, or next to a window: errors of a
-   splitting may make it of an orbit. One hump of a map stretches by up to ln 2, in two bands by half
-   of that. */
+/* Chaos that stretches by less than this in a drive period, or in one of small oscillations if that
+   is shorter, is in bands, or next to a window: the errors of a first look may make it of an orbit.
+   One hump of a map stretches by up to ln 2, in two bands by half of that. */
 static const double exponent_weak = 0.35;
 
 /* ---- exponents: what is next to an orbit ---- */
