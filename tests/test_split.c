@@ -1,5 +1,5 @@
-/* test_split.c -- periods by a splitting: the same bytes everywhere; order four for strobe points and
-   six for multipliers, with every force; and whether the steps that are chosen are enough. */
+/* test_split.c -- periods by a splitting: the same bytes everywhere; order four for strobe points
+   and six for multipliers, with every force; and whether the steps that are chosen are enough. */
 #include "check.h"
 
 #include <stdlib.h>
@@ -153,8 +153,8 @@ static void test_order_is_four_for_every_force(void **state)
   }
 }
 
-/* The trace of the derivative of a period's map, by a splitting of n steps, on the orbit of one period
-   that the pendulum settles on within 200 from (*x, *v), which becomes that orbit's point. */
+/* The trace of the derivative of a period's map, by a splitting of n steps, on the orbit of one
+   period that the pendulum settles on within 200 from (*x, *v): they become its point. */
 static double trace_of(pendres_context *ctx, const pendres_pendulum *p, int n, double *x, double *v)
 {
   pendres_block *b;
@@ -212,9 +212,9 @@ static int by_size(const void *a, const void *b)
   return x < y ? -1 : x > y;
 }
 
-/* What does not depend on coordinates has an error of sixth order: with twice the steps, 64 for 32 or
-   of polynomials, which are stiffer, 128 for 64, it falls to a sixty-fourth. So does the median of
-   seven orbits of each force, within a quarter of that; at some the leading error is small. */
+/* What does not depend on coordinates has an error of sixth order: with twice the steps, 64 for 32
+   or of polynomials, which are stiffer, 128 for 64, it falls to a sixty-fourth. So does the median
+   of seven orbits of each force, within a quarter of that; at some the leading error is small. */
 static void test_multipliers_are_of_order_six(void **state)
 {
   enum { ORBITS = 7 };
@@ -239,8 +239,8 @@ static void test_multipliers_are_of_order_six(void **state)
   }
 }
 
-/* With the steps that are chosen multipliers of 200 drawn pendulums are right to 1e-3, and of nineteen
-   in twenty to 1e-5: numbers.h says so. */
+/* With the steps that are chosen multipliers of 200 drawn pendulums are right to 1e-3, and of
+   nineteen in twenty to 1e-5: numbers.h says so. */
 static void test_steps_are_enough(void **state)
 {
   enum { PENDULUMS = 200 };

@@ -1,4 +1,5 @@
-/* block_alone.c -- periods without ARKODE, in single precision or by splitting; see block_internal.h. */
+/* block_alone.c -- periods without ARKODE, in single precision or by splitting; see
+   block_internal.h. */
 #include "engine/block.h"
 
 #include <math.h>

@@ -97,8 +97,8 @@ PENDRES_VECTOR_INLINE void pendres_kernels_force(pendres_model_terms model,
     pendres_kernels_sincos(y, f, slope);
 }
 
-/* The second derivative of f at a lane's y, where f is `force`. Of a force of its own header it is a
-   difference of slopes, right to a ten-thousand-millionth. */
+/* The second derivative of f at a lane's y, where f is `force`. Of a force of its own header it is
+   a difference of slopes, right to a ten-thousand-millionth. */
 PENDRES_VECTOR_INLINE double pendres_kernels_curvature(pendres_model_terms model,
                                                        const double *const *power, size_t i,
                                                        double y, double force)

@@ -67,22 +67,28 @@ INLINE void drift(size_t count, int length, int tangents, strip *s)
   }
 }
 
-/* A kick at the drive phase with this cosine and sine, and the free motion after it. */
-INLINE void kick(pendres_model_terms model, size_t count, int which, int length, int tangents,
-                 const pendres_coefficients *k, double cosine, double sine, strip *s)
+/* A kick: which of them, the cosine and sine of the drive's phase, and the free motion after it. */
+typedef struct moment {
+  int which, length;
+  double cosine, sine;
+} moment;
+
+INLINE void kick(pendres_model_terms model, size_t count, int tangents,
+                 const pendres_coefficients *k, moment m, strip *s)
 {
   LANES
   {
-    const double y = s->u[i] + FMA(s->pivot_cos[i], cosine, s->pivot_sin[i] * sine);
-    const spring at = spring_at(model, k, s->torque[i], i, y, cosine);
-    const double less = FMA(-s->bend[which][i], at.by_y, 1.0), w = FMA(-s->push[which][i] * at.f, less, s->w[i]);
-    s->u[i] = FMA(s->reach[length][i], w, s->u[i]);
-    s->w[i] = w * s->decay[length][i];
+    const double y = s->u[i] + FMA(s->pivot_cos[i], m.cosine, s->pivot_sin[i] * m.sine);
+    const spring at = spring_at(model, k, s->torque[i], i, y, m.cosine);
+    const double push = s->push[m.which][i], bend = s->bend[m.which][i];
+    const double less = FMA(-bend, at.by_y, 1.0), w = FMA(-push * at.f, less, s->w[i]);
+    s->u[i] = FMA(s->reach[m.length][i], w, s->u[i]);
+    s->w[i] = w * s->decay[m.length][i];
     if (!tangents) continue;
-    const double spring = FMA(at.by_y, less, -(s->bend[which][i] * at.f * at.twice));
-    const double b = FMA(-s->push[which][i] * spring, s->a[i], s->b[i]);
-    s->a[i] = FMA(s->reach[length][i], b, s->a[i]);
-    s->b[i] = b * s->decay[length][i];
+    const double spring_here = FMA(at.by_y, less, -(bend * at.f * at.twice));
+    const double b = FMA(-push * spring_here, s->a[i], s->b[i]);
+    s->a[i] = FMA(s->reach[m.length][i], b, s->a[i]);
+    s->b[i] = b * s->decay[m.length][i];
   }
 }
 
@@ -142,9 +148,9 @@ INLINE void run_strip(pendres_model_terms model, size_t count, int tangents,
   const double *cosine = t->cosine, *sine = t->sine;
   for (int n = 1; n <= t->steps; n++, cosine += PENDRES_SPLIT_KICKS, sine += PENDRES_SPLIT_KICKS) {
     const int last = n < t->steps ? BETWEEN : EDGE;
-    kick(model, count, OUTER, INNER, tangents, &k, cosine[0], sine[0], &s);
-    kick(model, count, MIDDLE, INNER, tangents, &k, cosine[1], sine[1], &s);
-    kick(model, count, OUTER, last, tangents, &k, cosine[2], sine[2], &s);
+    kick(model, count, tangents, &k, (moment){OUTER, INNER, cosine[0], sine[0]}, &s);
+    kick(model, count, tangents, &k, (moment){MIDDLE, INNER, cosine[1], sine[1]}, &s);
+    kick(model, count, tangents, &k, (moment){OUTER, last, cosine[2], sine[2]}, &s);
   }
   LANES
   {

@@ -14,12 +14,12 @@
  *       exp(b h B_1) exp(a h A),
  *
  * where B_1 and B_2 are B with a multiple of h^2 [B, [A, B]], which is twice the force times its
- * derivative, so that they are kicks as well. Up to a change of coordinates, k h^2 [A, B] + ..., the
- * step is that of the pendulum to sixth order (a processed method: S. Blanes, F. Casas and J. Ros,
- * Applied Numerical Mathematics 39 (2001) 245). Coordinates of a splitting are therefore those of
- * its own, and what does not depend on them, such as multipliers, exponents and where chaos ends,
- * has an error of sixth order. Going over to them and back at both ends of a run leaves one of
- * fourth order, once. A is solved exactly: in the frame of a free particle that the drive shakes,
+ * derivative, so that they are kicks as well. Up to a change of coordinates, k h^2 [A, B] + ...,
+ * the step is that of the pendulum to sixth order (a processed method: S. Blanes, F. Casas and J.
+ * Ros, Applied Numerical Mathematics 39 (2001) 245). A splitting therefore has coordinates of its
+ * own, and what does not depend on them, such as multipliers, exponents and where chaos ends, has
+ * an error of sixth order. Going over to them and back at both ends of a run leaves one of fourth
+ * order, once. A is solved exactly: in the frame of a free particle that the drive shakes,
  * y = u + pivot, u only slows down.
  */
 #ifndef PENDRES_KERNELS_SPLIT_H
@@ -33,8 +33,8 @@ enum { PENDRES_SPLIT_KICKS = 3 /* a step */ };
 
 /*
  * The three conditions of sixth order leave one of a, b and the multiples of [B, [A, B]] free. They
- * were solved with b given, in 40 digits; of b between 0.2 and 0.32 this one has the least errors in
- * multipliers of pendulums. `bend`: a kick is f (1 - bend h^2 f'), the outer ones and the middle one.
+ * were solved with b given, in 40 digits; of b between 0.2 and 0.32 this one has the least errors
+ * in multipliers of pendulums. `bend`: an outer kick and the middle one are f (1 - bend h^2 f').
  */
 static const double pendres_split_a = -0.067272469177126937895, pendres_split_b = 0.27;
 static const double pendres_split_bend[2] = {-2.0 * -0.00085875763051635054237 / 0.27,

@@ -35,8 +35,8 @@ static const double lattice_speed = 2.0, lattice_speed_ratio = 1.5;
 
 /*
  * Steps of a splitting, with three kicks each, for each of a table's at this error a period. Then
- * multipliers of 480 random pendulums of four forces are right to 1e-5 at nineteen in twenty, and to
- * 1e-3 at all. More exact ones have as many more steps as its order says.
+ * multipliers of 480 random pendulums of four forces are right to 1e-5 at nineteen in twenty, and
+ * to 1e-3 at all. More exact ones have as many more steps as its order says.
  */
 enum { SPLIT_ORDER = 6 };
 static const double split_rough = 1e-4;

@@ -181,7 +181,8 @@ pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle
     ctx->options = asked;
   }
   while (pendres_settle_carries(ctx) && d.count > 0 && status == PENDRES_OK) {
-    for (size_t k = 0; k < d.count; k++) d.accuracy[k] = pendres_settle_tighter(d.accuracy[k], d.error_ratio[k]);
+    for (size_t k = 0; k < d.count; k++)
+      d.accuracy[k] = pendres_settle_tighter(d.accuracy[k], d.error_ratio[k]);
     status = run(ctx, job, from, &d);
     if (status == PENDRES_OK) take_over(job, &d);
   }

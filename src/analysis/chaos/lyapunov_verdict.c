@@ -349,8 +349,8 @@ static pendres_status follow(pendres_context *ctx, const job *j)
 }
 
 /* First averages need be no more exact than what is followed: the scatter of strong chaos hides the
-   errors. What they do not tell is averaged again, exactly; then it is so little that it should have
-   equal steps. */
+   errors. What they do not tell is averaged again, exactly; that is so little then that it should
+   have equal steps. */
 static pendres_status choose_steps(pendres_context *ctx, const job *j, const round_of *now)
 {
   const double accuracy =

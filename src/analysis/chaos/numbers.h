@@ -34,8 +34,8 @@ static const double exponent_weak = 0.35;
 /* ---- exponents: what is next to an orbit ---- */
 
 enum {
-  LOOK_SOON = 8, /* periods for which strobe points are compared with an earlier one, at least; ... */
-  LOOK_AGAIN = 4 /* ... this part of all so far, so that no more than that is waited in vain */
+  LOOK_SOON = 8, /* periods for which strobe points are compared with an earlier one, and ... */
+  LOOK_AGAIN = 4 /* ... a quarter of all so far if that is more: no longer is waited in vain */
 };
 
 /* A pendulum whose strobe point comes back this closely is taken to be next to an orbit, at first.
