@@ -259,7 +259,8 @@ static pendres_status mean_life(const search *w, double value, const double *x, 
 /*
  * Chaos that ends in a crisis lasts the longer the closer to that, so that it seems to last a
  * little beyond. How far beyond follows from lives at two distances, as a power law tells, and for
- * how long the chaos was watched that was thought to last. It is added to the error.
+ * how long the chaos was watched that was thought to last. It is added to the error; where that is
+ * not known, as of chaos that averages have told, the last step of the halving is.
  */
 static pendres_status leave_open(const search *w, pendres_jump *jump)
 {
@@ -267,6 +268,8 @@ static pendres_status leave_open(const search *w, pendres_jump *jump)
   const double step = 2.0 * jump->value_error, first = ENDS_FURTHER * step;
   const double watched = w->before.attractor.watched_periods;
   double x[LIVES], v[LIVES], near, far;
+  if (isnan(watched)) jump->value_error += step;
+  if (isnan(watched)) return PENDRES_OK;
   pendres_status status = spread(w, &w->before, LIVES, x, v);
   if (status == PENDRES_OK)
     status = mean_life(w, jump->value + direction * first, x, v, &near);
