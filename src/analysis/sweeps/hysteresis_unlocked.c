@@ -137,10 +137,13 @@ static void leave_open(pendres_path *w, size_t i)
 pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled *next)
 {
   const double close = sweep_close_by * pendres_parameter_scale(w->parameter);
+  const size_t first = *i;
   pendres_status status = make_table(w);
   next->attractor.label = PENDRES_LABEL_UNRESOLVED;
   while (*i < w->n && status == PENDRES_OK) {
     const pendres_unlocked *u = at(w, w->value[*i]);
+    /* What it goes to where there is no rotation is asked when it has come there. */
+    if (!u->found && !u->slips && u->tried && *i > first) break;
     if (!u->found && !u->slips) status = average(w, *i, next);
     if (status != PENDRES_OK || !(u->found || u->slips)) break;
     if (u->found) take(w, (*i)++, u);
