@@ -9,6 +9,7 @@
 #include "engine/accuracy.h"
 #include "orbits/attractor_set.h"
 #include "orbits/growth.h"
+#include "orbits/orbit_span.h"
 #include "engine/context_internal.h"
 #include "engine/block.h"
 #include "engine/coordinates.h"
@@ -35,22 +36,6 @@ typedef struct watched_block {
 } watched_block;
 
 enum { WATCHED = 7 /* such arrays */ };
-
-/*
- * The angle where it turns back between two samples, `spacing` apart, of opposite velocities: that
- * of the cubic which has both angles and both velocities.
- */
-static double turning_angle(double spacing, double y0, double w0, double y1, double w1)
-{
-  const double mean = (y1 - y0) / spacing;
-  const double a = 3.0 * (w0 + w1 - 2.0 * mean), b = 2.0 * (3.0 * mean - 2.0 * w0 - w1);
-  /* Its velocity is w0 + b t + a t^2, t from 0 to 1: of opposite signs at the ends. */
-  const double root = sqrt(fmax(0.0, b * b - 4.0 * a * w0));
-  const double q = -0.5 * (b + copysign(root, b));
-  const double first = q != 0.0 ? w0 / q : -1.0, second = a != 0.0 ? q / a : -1.0;
-  const double t = first >= 0.0 && first <= 1.0 ? first : fmin(fmax(second, 0.0), 1.0);
-  return y0 + spacing * t * (w0 + t * (0.5 * b + t * a / 3.0));
-}
 
 /*
  * At the end of each half period the latest two halves form a whole one, whose amplitude is added
@@ -112,7 +97,7 @@ static void watch(void *arg, int step, const pendres_rows *rows)
   add_other(b, spacing, cosine, y, w);
   for (size_t i = 0; i < b->n; i++) {
     if (!(b->last_w[i] * w[i] < 0.0)) continue;
-    const double turned = turning_angle(spacing, b->last_y[i], b->last_w[i], y[i], w[i]);
+    const double turned = pendres_turning_angle(spacing, b->last_y[i], b->last_w[i], y[i], w[i]);
     if (turned < b->low[i]) b->low[i] = turned;
     if (turned > b->high[i]) b->high[i] = turned;
   }

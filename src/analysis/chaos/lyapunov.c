@@ -244,7 +244,7 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = m->pendulum, .x = m->x, .v = m->v, .out = m->out, .orbit = m->orbit,
     .accuracy = close ? pendres_accuracy_of_rough_means(ctx) : pendres_accuracy_to_average(ctx),
-    .care = care, .periods = looks[care].periods,
+    .care = care, .points = m->points, .periods = looks[care].periods,
     .rounds = looks[care].rounds, .longer = care <= PENDRES_CARE_LABEL ? 3 * EXPONENT_PERIODS : 0,
     .runner = malloc((n + 1) * sizeof *j.runner)};
   if (j.runner == NULL)

@@ -30,6 +30,7 @@ typedef struct pendres_lyapunov_motion {
                             in at the end, less whole turns */
   pendres_lyapunov *out; /* what they do, and ... */
   pendres_orbit *orbit;  /* ... the orbits that they have come to; of period 0 if to none */
+  int points;            /* nothing else of orbits is wanted (orbits/orbit_pair.h) */
 } pendres_lyapunov_motion;
 
 /* As pendres_lyapunov_find with its defaults but for `care`, for pendulums that have been

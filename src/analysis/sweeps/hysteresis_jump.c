@@ -12,6 +12,7 @@
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/attractor_set.h"
+#include "orbits/orbit_span.h"
 #include "analysis/sweeps/rotation_table.h"
 
 enum {
@@ -120,9 +121,11 @@ static pendres_status make_averaged(pendres_context *ctx, size_t n, averaged *a)
   return PENDRES_OK;
 }
 
-/* Those of s that have the numbers `which`; NULL: the first n. */
+/* Those of s that have the numbers `which`; NULL: the first n. points: of orbits nothing else is
+   found. */
 static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const size_t *which,
-                                         pendres_lyapunov_care care, pendres_settled *s)
+                                         pendres_lyapunov_care care, int points,
+                                         pendres_settled *s)
 {
   averaged a;
   pendres_status status = make_averaged(ctx, n, &a);
@@ -133,7 +136,8 @@ static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const s
     a.v[k] = from->v;
   }
   const pendres_lyapunov_motion motion = {.n = n, .pendulum = a.pendulum, .x = a.x, .v = a.v,
-                                          .out = a.told, .orbit = a.orbit};
+                                          .out = a.told, .orbit = a.orbit,
+                                          .points = points};
   if (status == PENDRES_OK) status = pendres_lyapunov_move(ctx, &motion, care);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
     pendres_settled *to = &s[which != NULL ? which[k] : k];
@@ -173,7 +177,42 @@ static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const s
   return status;
 }
 
-/* Settle n pendulums, at most TRIALS, from their states. */
+/* The amplitudes of the orbits that some of s have come to, of which the points are known. */
+static pendres_status tell_apart(pendres_context *ctx, size_t n, const size_t *which,
+                                 pendres_settled *s)
+{
+  pendres_orbit orbit[TRIALS];
+  size_t count = 0;
+  for (size_t k = 0; k < n; k++)
+    if (pendres_settled_closed(&s[which[k]].attractor))
+      orbit[count++] = s[which[k]].attractor.orbit;
+  const pendres_status status = pendres_orbits_span(ctx, count, orbit);
+  count = 0;
+  for (size_t k = 0; k < n; k++)
+    if (pendres_settled_closed(&s[which[k]].attractor))
+      s[which[k]].attractor.orbit = orbit[count++];
+  return status;
+}
+
+/* Measure the orbit that a pendulum has come to, of which the point is known. */
+static pendres_status measure(pendres_context *ctx, pendres_settled *s)
+{
+  pendres_orbit *o = &s->attractor.orbit, found;
+  pendres_status outcome = PENDRES_OK;
+  if (!pendres_settled_closed(&s->attractor)) return PENDRES_OK;
+  const pendres_orbit_guess guess = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
+                                     .period = o->period, .winding = o->winding};
+  const pendres_status status =
+    pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &found, &outcome);
+  if (status != PENDRES_OK || outcome == PENDRES_NOT_CONVERGED || !found.stable) return status;
+  s->attractor = pendres_settled_orbit(&found);
+  s->x = found.x;
+  s->v = found.v;
+  return status;
+}
+
+/* Settle n pendulums, at most TRIALS, from their states. Where they are several of which some may
+   be told by averages, of the orbits that these come to points and rough amplitudes are known. */
 static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapunov_care care,
                                  pendres_settled *s)
 {
@@ -190,7 +229,8 @@ static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapuno
     if (rotates) pendres_settled_rotate(&s[i].pendulum, &r, &s[i]);
     else trapped[t++] = i;
   }
-  if (a > 0 && status == PENDRES_OK) status = settle_by_averages(ctx, a, averaged, care, s);
+  if (a > 0 && status == PENDRES_OK) status = settle_by_averages(ctx, a, averaged, care, n > 1, s);
+  if (a > 0 && n > 1 && status == PENDRES_OK) status = tell_apart(ctx, a, averaged, s);
   if (t > 0 && status == PENDRES_OK) status = settle_by_trapping(ctx, t, trapped, s);
   return status;
 }
@@ -209,7 +249,9 @@ static pendres_status settle_trials(pendres_context *ctx, size_t n, pendres_lyap
 
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s)
 {
-  return settle_by_averages(ctx, n, NULL, PENDRES_CARE_CLOSE, s);
+  pendres_status status = settle_by_averages(ctx, n, NULL, PENDRES_CARE_CLOSE, n > 1, s);
+  if (status == PENDRES_OK && n > 1) status = measure(ctx, &s[0]);
+  return status;
 }
 
 /* Advance a pendulum until it is on its attractor. */
@@ -313,6 +355,8 @@ static pendres_status count(pendres_context *ctx, const pendres_settled went[TRI
     best = i;
   }
   *to = went[best];
+  const pendres_status status = measure(ctx, to);
+  if (status != PENDRES_OK) return status;
   jump->to = to->attractor.label;
   jump->to_period = pendres_settled_closed(&to->attractor) ? to->attractor.orbit.period : 0;
   jump->share = (double)most / TRIALS;

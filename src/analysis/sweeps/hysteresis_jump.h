@@ -41,8 +41,8 @@ pendres_attractor pendres_settled_orbit(const pendres_orbit *o);
 void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r,
                             pendres_settled *out);
 
-/* Find what n pendulums settle on, which may rotate without a
-   lock to the drive and start close to such rotations. */
+/* Find what n pendulums settle on, which may rotate without a lock to the drive and start close to
+   such rotations. Of the orbits that others than the first come to points alone are known. */
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s);
 
 /* Settle one pendulum. One that may rotate without a lock to the drive, which no search for closed
