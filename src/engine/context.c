@@ -76,6 +76,8 @@ const char *pendres_options_check(const pendres_options *options)
 void pendres_context_free(pendres_context *ctx)
 {
   if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
+  for (int i = 0; i < ctx->mates; i++) pendres_context_free(ctx->mate[i]);
+  free(ctx->mate);
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_block_free(ctx->blocks[i]);
   pendres_steps_memo_free(ctx->steps);
   SUNContext sun = ctx->sun;

@@ -32,6 +32,8 @@ struct pendres_context {
   int canonical;       /* a door (door.h) is open: all is in canonical units */
   void *sun;           /* a SUNContext, for the blocks */
   pendres_block *blocks[PENDRES_FLOW_KINDS];
+  pendres_context **mate; /* of the threads of a team (team.h), kept from one call to the next */
+  int mates;
   struct pendres_steps_memo *steps;
   pendres_cost cost;
   double most_slopes;    /* pendres_context_slopes at which a computation ends; INFINITY: never */

@@ -1,7 +1,8 @@
 /*
  * team.h -- one call's work on as many threads as its context may use.
  *
- * Owns: contexts of the other threads, which compute as the caller's does, and what they cost.
+ * Owns: the contexts of its threads, which compute as the caller's does and are kept with it, and
+ * what they cost.
  */
 #ifndef PENDRES_TEAM_H
 #define PENDRES_TEAM_H

@@ -10,6 +10,7 @@
 #include "base/angles.h"
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
+#include "engine/team.h"
 #include "model/model.h"
 #include "orbits/attractor_set.h"
 #include "orbits/orbit_span.h"
@@ -121,35 +122,59 @@ static pendres_status make_averaged(pendres_context *ctx, size_t n, averaged *a)
   return PENDRES_OK;
 }
 
-/* Those of s that have the numbers `which`; NULL: the first n. points: of orbits nothing else is
-   found. */
-static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const size_t *which,
-                                         pendres_lyapunov_care care, int points,
-                                         pendres_settled *s)
+/* Which of s are averaged, those with the numbers `which`, or the first n where it is NULL; and how.
+   points: of orbits nothing else is found. */
+typedef struct averages {
+  size_t n;
+  const size_t *which;
+  pendres_lyapunov_care care;
+  int points;
+  pendres_settled *s;
+  size_t parts; /* each has one of so many pendulums, so that all take about as long */
+} averages;
+
+static pendres_settled *number(const averages *of, size_t k)
 {
+  return &of->s[of->which != NULL ? of->which[k] : k];
+}
+
+static pendres_status average_part(pendres_context *ctx, size_t part, size_t count, void *arg)
+{
+  const averages *of = arg;
+  const size_t n = (of->n - part + of->parts - 1) / of->parts;
   averaged a;
+  (void)count;
   pendres_status status = make_averaged(ctx, n, &a);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    const pendres_settled *from = &s[which != NULL ? which[k] : k];
+    const pendres_settled *from = number(of, part + k * of->parts);
     a.pendulum[k] = from->pendulum;
     a.x[k] = from->x;
     a.v[k] = from->v;
   }
   const pendres_lyapunov_motion motion = {.n = n, .pendulum = a.pendulum, .x = a.x, .v = a.v,
                                           .out = a.told, .orbit = a.orbit,
-                                          .points = points};
-  if (status == PENDRES_OK) status = pendres_lyapunov_move(ctx, &motion, care);
+                                          .points = of->points};
+  if (status == PENDRES_OK) status = pendres_lyapunov_move(ctx, &motion, of->care);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    pendres_settled *to = &s[which != NULL ? which[k] : k];
+    pendres_settled *to = number(of, part + k * of->parts);
     to->x = a.x[k];
     to->v = a.v[k];
     to->certain = a.told[k].certain;
-    to->slips = care == PENDRES_CARE_CLOSE && a.told[k].label == PENDRES_LABEL_UNRESOLVED &&
+    to->slips = of->care == PENDRES_CARE_CLOSE && a.told[k].label == PENDRES_LABEL_UNRESOLVED &&
                 a.told[k].rotation_error < jump_scatter;
     take_verdict(&a.told[k], &a.orbit[k], to);
   }
   free_averaged(&a);
   return status;
+}
+
+static pendres_status settle_by_averages(pendres_context *ctx, averages *of)
+{
+  const size_t threads = (size_t)ctx->options.threads, most = of->n / AVERAGED_FEWEST;
+  if (of->n == 0) return PENDRES_OK;
+  of->parts = most < threads ? most : threads;
+  if (of->parts == 0) of->parts = 1;
+  return pendres_team_run(ctx, of->parts, 1, average_part, of);
 }
 
 static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const size_t *which,
@@ -229,7 +254,8 @@ static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapuno
     if (rotates) pendres_settled_rotate(&s[i].pendulum, &r, &s[i]);
     else trapped[t++] = i;
   }
-  if (a > 0 && status == PENDRES_OK) status = settle_by_averages(ctx, a, averaged, care, n > 1, s);
+  averages of = {.n = a, .which = averaged, .care = care, .points = n > 1, .s = s};
+  if (a > 0 && status == PENDRES_OK) status = settle_by_averages(ctx, &of);
   if (a > 0 && n > 1 && status == PENDRES_OK) status = tell_apart(ctx, a, averaged, s);
   if (t > 0 && status == PENDRES_OK) status = settle_by_trapping(ctx, t, trapped, s);
   return status;
@@ -249,7 +275,8 @@ static pendres_status settle_trials(pendres_context *ctx, size_t n, pendres_lyap
 
 pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s)
 {
-  pendres_status status = settle_by_averages(ctx, n, NULL, PENDRES_CARE_CLOSE, n > 1, s);
+  averages of = {.n = n, .care = PENDRES_CARE_CLOSE, .points = n > 1, .s = s};
+  pendres_status status = settle_by_averages(ctx, &of);
   if (status == PENDRES_OK && n > 1) status = measure(ctx, &s[0]);
   return status;
 }

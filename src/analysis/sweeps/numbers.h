@@ -60,6 +60,10 @@ enum {
    periods. */
 static const double jump_further = 10.0;
 
+/* A thread averages no fewer pendulums: one alone takes as long as so many, the lanes of the widest
+   vectors. */
+enum { AVERAGED_FEWEST = 8 };
+
 /* Trials start this far from an orbit that has become unstable, where deviations grow fast. */
 static const double jump_away = 0.03;
 
