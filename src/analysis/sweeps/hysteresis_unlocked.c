@@ -13,6 +13,7 @@
 struct pendres_unlocked {
   double value;
   int tried, found;
+  int again; /* it is tried once more, from a rotation that is nearer */
   int slips; /* not found: it turns past the end of a lock too seldom */
   double x, v, turns, turns_error;
 };
@@ -71,12 +72,36 @@ static pendres_status go_on(pendres_context *ctx, size_t n, pendres_settled *s)
   return status;
 }
 
-/* Average the rotations at values from number i on that are not known yet, side by side. *next
-   receives what is found at value number i. */
+/* Whether value number k is one of the next few from number i on, before the path turns round. */
+static int is_next(const pendres_path *w, size_t i, size_t k)
+{
+  const int way = pendres_path_direction(w, i);
+  return k > i && k - i < AVERAGED_FEWEST && (w->value[k] - w->value[k - 1]) * way > 0.0;
+}
+
+/* Take over what has been found at a value; where it had been tried before, from a rotation further
+   away, only that there is one. */
+static void keep(const pendres_settled *s, pendres_unlocked *u)
+{
+  const int found = s->attractor.label == PENDRES_LABEL_QUASI_PERIODIC, again = u->again;
+  u->again = 0;
+  if (again && !found) return;
+  u->found = found;
+  u->slips = s->slips;
+  u->x = s->x;
+  u->v = s->v;
+  u->turns = s->attractor.drift;
+  u->turns_error = s->attractor.drift_error;
+}
+
+/* Average the rotations at values from number i on that are not known yet, side by side; with them
+   the next few again, since one alone takes as long. *next receives what is found at value number
+   i. */
 static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
 {
   const double scale = pendres_parameter_scale(w->parameter);
   pendres_unlocked *known[SWEEP_ABREAST];
+  int onward = 1;
   pendres_settled *s = malloc(SWEEP_ABREAST * sizeof *s);
   size_t n = 0;
   if (s == NULL)
@@ -84,7 +109,9 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
   for (size_t k = i; k < w->n && n < SWEEP_ABREAST; k++) {
     if (fabs(w->value[k] - w->at) > sweep_side_by_side * scale && k > i) break;
     pendres_unlocked *u = at(w, w->value[k]);
-    if (u->tried && k > i) continue;
+    onward = onward && (k == i || is_next(w, i, k));
+    u->again = k > i && u->tried && !u->found && onward;
+    if (u->tried && k > i && !u->again) continue;
     const pendres_pendulum p = pendres_path_pendulum(w, u->value);
     u->tried = 1;
     known[n] = u;
@@ -94,15 +121,7 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
   pendres_status status = pendres_settled_rotations(w->ctx, n, s);
   if (status == PENDRES_OK) status = go_on(w->ctx, n, s);
   pendres_path_allow(w);
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    const pendres_attractor *a = &s[k].attractor;
-    known[k]->found = a->label == PENDRES_LABEL_QUASI_PERIODIC;
-    known[k]->slips = s[k].slips;
-    known[k]->x = s[k].x;
-    known[k]->v = s[k].v;
-    known[k]->turns = a->drift;
-    known[k]->turns_error = a->drift_error;
-  }
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) keep(&s[k], known[k]);
   *next = s[0];
   free(s);
   return status;
