@@ -26,6 +26,11 @@ pendres_status pendres_branch_begin(pendres_context *ctx, const pendres_orbit *o
 pendres_status pendres_branch_extend(pendres_context *ctx, pendres_branch *branch,
                                      const pendres_curve_bounds *bounds);
 
+/* A bifurcation with the Poincare point of its orbit from which orbits of twice the period leave
+   furthest: at others they may be so close to it that their branch is hard to follow. */
+pendres_status pendres_bifurcation_widest(pendres_context *ctx, const pendres_bifurcation *at,
+                                          pendres_bifurcation *out);
+
 /* The parameter of point i. */
 double pendres_branch_value(const pendres_curve *branch, size_t i);
 

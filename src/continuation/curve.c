@@ -164,6 +164,12 @@ static void end_way(pendres_curve_way *w, pendres_branch_end end)
   w->end = end;
 }
 
+/* Whether both multipliers of a node are less than 1: their product is, by the damping. */
+static int attracts(const pendres_curve_node *node)
+{
+  return pendres_map_fold(&node->image) > 0.0 && pendres_map_flip(&node->image) > 0.0;
+}
+
 /* Take over what the follower has found ahead of it. */
 static pendres_status take(pendres_context *ctx, const pendres_curve_bounds *b,
                            pendres_curve_way *w)
@@ -184,8 +190,11 @@ static pendres_status take(pendres_context *ctx, const pendres_curve_bounds *b,
       end_way(w, PENDRES_END_CLOSED);
     } else {
       if (add(w, p) != 0) return no_memory(ctx);
+      w->unstable = attracts(p) ? 0 : w->unstable + 1;
       if (p->growth > b->wildest) end_way(w, PENDRES_END_WILD);
       else if (w->count >= b->most_points) end_way(w, PENDRES_END_POINTS);
+      else if (b->most_unstable > 0 && w->unstable >= b->most_unstable)
+        end_way(w, PENDRES_END_POINTS);
     }
   }
   return PENDRES_OK;

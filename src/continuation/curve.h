@@ -39,6 +39,7 @@ typedef struct pendres_curve_way {
   pendres_follower at;
   int taken, going; /* of the follower's nodes ahead; whether there may be more */
   size_t count, capacity;
+  size_t unstable; /* the latest nodes that do not attract */
   pendres_curve_node start, *node; /* outwards, without the start */
   pendres_branch_end end;
 } pendres_curve_way;
@@ -123,6 +124,8 @@ typedef struct pendres_curve_bounds {
   double low[2], high[2];
   double wildest;
   size_t most_points; /* each way */
+  size_t most_unstable; /* a way ends, as if by points, at so many in turn that do not attract; 0:
+                           at none */
 } pendres_curve_bounds;
 
 /* Makes the results of a curve whose nodes have been found: special points, measures, errors. */

@@ -4,11 +4,14 @@
 #include <math.h>
 #include <string.h>
 
+#include <pendres/strobe.h>
+
 #include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/coordinates.h"
 
 /* Correct a node of a kind of orbits to where they meet the plane across its tangent; *error
    becomes that of the parameter. */
@@ -65,6 +68,53 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
   return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
 }
 
+/* The way in which orbits leave that close after two maps: the null vector of N + I. */
+static pendres_status way_of_doubling(pendres_context *ctx, const pendres_map *once,
+                                      const pendres_u u, int *steps, double v[2])
+{
+  pendres_image image;
+  pendres_status status =
+    pendres_map_steps(ctx, once->force, u, pendres_accuracy_first(ctx), steps);
+  if (status == PENDRES_OK)
+    status = pendres_map_states(ctx, once, *steps, 1, (const pendres_u *)u, &image);
+  if (status != PENDRES_OK) return status;
+  const double a = image.n[0][0] + 1.0, b = image.n[0][1], c = image.n[1][0],
+               d = image.n[1][1] + 1.0;
+  const int upper = hypot(a, b) > hypot(c, d);
+  const double length = upper ? hypot(a, b) : hypot(c, d);
+  v[0] = (upper ? -b : -d) / length;
+  v[1] = (upper ? a : c) / length;
+  return status;
+}
+
+pendres_status pendres_bifurcation_widest(pendres_context *ctx, const pendres_bifurcation *at,
+                                          pendres_bifurcation *out)
+{
+  const pendres_orbit *o = &at->orbit;
+  const pendres_pendulum p[2] = {o->pendulum, o->pendulum};
+  pendres_u u;
+  double way[2], widest = 1.0;
+  int steps = 0;
+  *out = *at;
+  if (at->kind != PENDRES_PERIOD_DOUBLING || o->period == 1) return PENDRES_OK;
+  pendres_followed once = pendres_followed_of(o, PENDRES_CONDITION_NONE, &at->parameter,
+                                              pendres_curve_spacing, u);
+  pendres_map_unfold(&once.system.map);
+  pendres_status status = way_of_doubling(ctx, &once.system.map, u, &steps, way);
+  double x[2] = {o->x, o->x + switch_beside * way[0]};
+  double v[2] = {o->v, o->v + switch_beside * o->pendulum.drive_frequency * way[1]};
+  for (int k = 1; k < o->period && status == PENDRES_OK; k++) {
+    status = pendres_strobe_advance(ctx, 2, p, x, v, 1, NULL);
+    const double wide = hypot(x[1] - x[0], (v[1] - v[0]) / o->pendulum.drive_frequency);
+    if (!(wide > widest * switch_beside)) continue;
+    widest = wide / switch_beside;
+    pendres_coordinates here = pendres_coordinates_in(&o->pendulum, x[0], v[0]);
+    here.turns = 0;
+    pendres_coordinates_out(&o->pendulum, &here, &out->orbit.x, &out->orbit.v);
+  }
+  return status;
+}
+
 static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
                                     pendres_orbit *out)
 {
@@ -85,18 +135,9 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   pendres_map *map = &twice.system.map;
   if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_map_unfold(map);
   const pendres_map once = *map;
-  pendres_status status =
-    pendres_map_steps(ctx, map->force, u, pendres_accuracy_first(ctx), &steps);
-  if (status == PENDRES_OK)
-    status = pendres_map_states(ctx, &once, steps, 1, (const pendres_u *)u, &image);
+  double v[2];
+  pendres_status status = way_of_doubling(ctx, &once, u, &steps, v);
   if (status != PENDRES_OK) return status;
-  /* The null vector of N + I: the way in which the doubled map's orbits leave. */
-  const double a = image.n[0][0] + 1.0, b = image.n[0][1], c = image.n[1][0],
-               d = image.n[1][1] + 1.0;
-  const int upper = hypot(a, b) > hypot(c, d);
-  const double length = upper ? hypot(a, b) : hypot(c, d);
-  const double v[2] = {(upper ? -b : -d) / length, (upper ? a : c) / length};
-
   map->mirror = PENDRES_MIRROR_NONE;
   map->period = once.mirror ? once.period : 2 * once.period;
   map->winding = once.mirror ? 0 : 2 * once.winding;
@@ -115,12 +156,15 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     status = meet_plane(ctx, &twice, &node, &pair, &error);
     if (status != PENDRES_OK) return status;
     if (error > curve_untold || fabs(pair.fine[PENDRES_U_Y] - node.u[PENDRES_U_Y]) > away) continue;
-    /* Keep away from the branch that it came from, which the plane meets as well. Orbits of the
-       other branch are on the far side after one map, and so twice as far away. */
+    /* Keep away from the branch that it came from, which the plane meets as well, and from others.
+       Orbits of the one that crosses are on the far side after one map, and so twice as far away,
+       with the bifurcation in the middle. */
     status = pendres_map_states(ctx, &once, steps, 1, (const pendres_u *)pair.fine, &image);
     if (status != PENDRES_OK) return status;
     const double apart = hypot(image.f[0], image.f[1]);
-    if (!(apart > away && apart < 4.0 * away)) continue;
+    const double middle = hypot(pair.fine[PENDRES_U_Y] + 0.5 * image.f[0] - u[PENDRES_U_Y],
+                                pair.fine[PENDRES_U_W] + 0.5 * image.f[1] - u[PENDRES_U_W]);
+    if (!(apart > away && apart < 4.0 * away && middle < switch_middle * away)) continue;
     return pendres_solution_measure(ctx, 1, &pair, out);
   }
   return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");

@@ -40,6 +40,10 @@ static const double stable_wildest = 3000.0;
    all of its q points, and the part is one of many. */
 enum { STABLE_FEW_POINTS = 48, STABLE_ENOUGH = 8 };
 
+/* A branch is followed no further beyond the end of a part than so many points, enough for it to be
+   told. */
+enum { STABLE_BEYOND = STABLE_ENOUGH + 2 };
+
 /* From an orbit a part goes one way: the branch is followed the other way by this share of the
    margin only, which shows that there is an orbit, too. */
 static const double stable_little = 0.01;

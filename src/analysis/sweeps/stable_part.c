@@ -57,7 +57,7 @@ static pendres_status extend(pendres_context *ctx, pendres_part *s, double limit
   const double below = s->direction > 0 ? behind : room, above = s->direction > 0 ? room : behind;
   const pendres_curve_bounds bounds = {
     .low = {pendres_parameter_beyond(parameter, least, -below)}, .high = {most + above},
-    .wildest = stable_wildest, .most_points = points};
+    .wildest = stable_wildest, .most_points = points, .most_unstable = STABLE_BEYOND};
   s->points_each_way = points;
   return pendres_branch_extend(ctx, s->branch, &bounds);
 }
@@ -111,20 +111,34 @@ pendres_status pendres_part_from(pendres_context *ctx, const pendres_orbit *orbi
   return follow(ctx, orbit, parameter, limit, out);
 }
 
-pendres_status pendres_part_born(pendres_context *ctx, const pendres_bifurcation *at, double limit,
-                                 pendres_part *out)
+/* The part of what is born at a bifurcation. *lost: there may be one, but it cannot be followed from
+   this point of the bifurcation's orbit. */
+static pendres_status born(pendres_context *ctx, const pendres_bifurcation *at, double limit,
+                           pendres_part *out, int *lost)
 {
   pendres_orbit start;
   *out = (pendres_part){.at = at->orbit, .born = 1};
+  *lost = 1;
   pendres_status status = pendres_branch_switch(ctx, at, &start);
   if (status == PENDRES_OK) {
     const double there = pendres_parameter_get(at->parameter, &start.pendulum);
-    const int towards = limit >= at->value ? there > at->value : there < at->value;
-    status = towards ? follow(ctx, &start, at->parameter, limit, out) : PENDRES_NOT_FOUND;
+    *lost = limit >= at->value ? there > at->value : there < at->value;
+    status = *lost ? follow(ctx, &start, at->parameter, limit, out) : PENDRES_NOT_FOUND;
   }
   if (status == PENDRES_OK && pendres_part_last(out) == NULL) status = PENDRES_NOT_FOUND;
   if (status != PENDRES_OK) pendres_part_free(out);
   return status == PENDRES_NOT_CONVERGED ? PENDRES_NOT_FOUND : status;
+}
+
+pendres_status pendres_part_born(pendres_context *ctx, const pendres_bifurcation *at, double limit,
+                                 pendres_part *out)
+{
+  pendres_bifurcation wide;
+  int lost = 0;
+  pendres_status status = born(ctx, at, limit, out, &lost);
+  if (status != PENDRES_NOT_FOUND || !lost) return status;
+  status = pendres_bifurcation_widest(ctx, at, &wide);
+  return status == PENDRES_OK ? born(ctx, &wide, limit, out, &lost) : status;
 }
 
 pendres_status pendres_part_extend(pendres_context *ctx, pendres_part *s, double limit)
