@@ -189,6 +189,11 @@ enum { SWITCH_HALVINGS = 6 /* of the distance, until it does */ };
    lead to one place if what they lead to is closer than this share of their own distance. */
 static const double crossed_not_too_close = 0.2, crossed_besides = 1e-3, crossed_together = 0.1;
 
+/* ---- parts of branches ---- */
+
+/* At so many points from a birth both sides of it are compared. */
+enum { PART_SPREAD = 8 };
+
 /* ---- backbones ---- */
 
 enum {

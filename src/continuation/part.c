@@ -100,11 +100,31 @@ static double unlocated(const pendres_part *s, size_t k)
   return last > 0 ? fmax(behind, fabs(here - pendres_part_value(s, last - 1))) : behind;
 }
 
+/* How far orbits are from the one that they are born from, as the square a parameter: it goes as
+   that near their birth. */
+static double spread(pendres_part *s, int step)
+{
+  const pendres_orbit *from = &pendres_part_point(s, 0)->orbit;
+  const pendres_branch_point *p = NULL;
+  s->step = step;
+  for (size_t k = PART_SPREAD; k > 0 && p == NULL; k--) p = pendres_part_point(s, k);
+  if (p == NULL) return INFINITY;
+  const double x = pendres_less_turns(p->orbit.x - from->x, pendres_model_turn(&from->pendulum));
+  const double v = p->orbit.v - from->v;
+  const double ahead =
+    pendres_part_ahead(s, pendres_parameter_get(parameter_of(s), &p->orbit.pendulum),
+                       pendres_part_value(s, 0));
+  return ahead > pendres_part_same(s) ? (x * x + v * v) / ahead : INFINITY;
+}
+
 int pendres_part_choose_way(pendres_part *s)
 {
   const double same = pendres_part_same(s), from = pendres_part_value(s, 0);
+  /* On both sides of a birth are the same orbits, at other points of theirs. */
+  const int first = s->born && spread(s, -1) < spread(s, 1) ? -1 : 1;
   int back = 0;
-  for (s->step = 1; s->step >= -1; s->step -= 2)
+  for (int way = 0; way < 2; way++) {
+    s->step = way == 0 ? first : -first;
     for (size_t k = 1; pendres_part_point(s, k) != NULL; k++) {
       const double beyond = pendres_part_ahead(s, pendres_part_value(s, k), from);
       if (fabs(beyond) <= same) continue;
@@ -112,6 +132,7 @@ int pendres_part_choose_way(pendres_part *s)
       back++;
       break;
     }
+  }
   s->points = 1;
   s->end = back == 2 ? PENDRES_PART_UNLOCATED : PENDRES_PART_STOPPED;
   s->end_value = from;
