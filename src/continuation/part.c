@@ -79,6 +79,12 @@ static int is_beside(const pendres_part *s, const pendres_branch_point *p,
   return pendres_part_distance(s->branch, p, &at->orbit) < just_beyond / p->orbit.period;
 }
 
+/* Whether a multiplier is so close to 1 that the errors of a point that only leads on decide. */
+static int is_untold(const pendres_branch_point *p)
+{
+  return fabs(hypot(p->orbit.multiplier_re[0], p->orbit.multiplier_im[0]) - 1.0) < curve_untold;
+}
+
 /* Whether point number k has such a bifurcation before it, with nothing in between but points as
    close. */
 static int is_before_bifurcation(const pendres_part *s, size_t k)
@@ -175,6 +181,7 @@ size_t pendres_part_take(pendres_part *s, double limit)
     if ((s->points == 1 || met != NULL) && fabs(here - before) <= same) continue;
     if ((met != NULL && is_beside(s, p, met)) || is_before_bifurcation(s, k)) continue;
     turned = pendres_part_ahead(s, here, before) < -same;
+    if (!turned && is_untold(p)) continue;
     if (!p->orbit.stable || turned) break;
     met = NULL;
     s->points = k + 1;

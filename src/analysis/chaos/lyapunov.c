@@ -236,7 +236,7 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
 {
   static const struct { long periods; int rounds; } looks[] = {
     [PENDRES_CARE_FULL] = {EXPONENT_PERIODS, EXPONENT_ROUNDS},
-    [PENDRES_CARE_LABEL] = {EXPONENT_PERIODS, EXPONENT_ROUNDS},
+    [PENDRES_CARE_LABEL] = {EXPONENT_PERIODS, EXPONENT_ROUNDS - 1},
     [PENDRES_CARE_ONCE] = {EXPONENT_PERIODS, 1},
     [PENDRES_CARE_CLOSE] = {EXPONENT_PERIODS / 2, EXPONENT_ROUNDS + 1}};
   const size_t n = m->n;
