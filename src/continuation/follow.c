@@ -371,6 +371,26 @@ static int follows(const pendres_follower *w, const pendres_curve_node *last, in
   return 1;
 }
 
+/* Whether a place on the way is next to where the branch was born from orbits that close by half. */
+static pendres_status is_birth(pendres_context *ctx, const pendres_follower *w, const pendres_u u,
+                               int *birth)
+{
+  pendres_status status = PENDRES_OK;
+  int steps = 0;
+  *birth = 0;
+  for (int which = 0; which < PENDRES_MAP_HALVES && !*birth && status == PENDRES_OK; which++) {
+    pendres_map half;
+    pendres_map_miss miss = {.off = {NAN, NAN}};
+    if ((w->kind.apart >> which & 1) == 0 || !pendres_map_half(&w->kind.system.map, which, &half))
+      continue;
+    status = pendres_map_steps(ctx, half.force, u, w->kind.tolerance, &steps);
+    if (status == PENDRES_OK)
+      status = pendres_map_closes(ctx, &half, steps, 1, (const pendres_u *)u, &miss);
+    *birth = hypot(miss.off[0], miss.off[1]) < curve_near_birth;
+  }
+  return status;
+}
+
 /* Whether a node is on the branch of the last one. Where branches come close without crossing, the
    step across leads straight from one to another: there, as where they cross, the bordered
    determinant changes its sign. Of what is too close for the steps it may. */
@@ -387,9 +407,12 @@ static pendres_status stays(pendres_context *ctx, const pendres_follower *w,
   if (!(w->step >= follow_to_crossing * follow_shortest && a * b < 0.0)) return PENDRES_OK;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
     u[i] = last->u[i] + a / (a - b) * (node->u[i] - last->u[i]);
+  int birth = 0; /* where the determinant changes its sign, too */
+  pendres_status status = is_birth(ctx, w, u, &birth);
+  if (status != PENDRES_OK || birth) return status;
   const pendres_system crossings =
     pendres_system_of(&s->map, PENDRES_CONDITION_CROSSING, s->unknown);
-  const pendres_status status = pendres_locate(
+  status = pendres_locate(
     ctx, &crossings, u, 2.0 * pendres_arc_distance(last->u, node->u), &at);
   *same = !(status == PENDRES_NOT_CONVERGED && at.parted);
   return pendres_located_found(status) || status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
