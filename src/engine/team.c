@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/lanes.h"
 
 typedef struct team {
   pendres_context *of;
@@ -164,4 +165,11 @@ pendres_status pendres_team_run(pendres_context *ctx, size_t n, size_t each,
   free(hands);
   return t.status == PENDRES_OK ? t.status
                                 : pendres_context_fail(ctx, t.status, "%s", t.message);
+}
+
+size_t pendres_team_share(const pendres_context *ctx, size_t n)
+{
+  const size_t threads = (size_t)ctx->options.threads;
+  const size_t vectors = (n + PENDRES_LANES_MULTIPLE - 1) / PENDRES_LANES_MULTIPLE;
+  return PENDRES_LANES_MULTIPLE * ((vectors + threads - 1) / threads);
 }

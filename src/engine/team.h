@@ -23,4 +23,8 @@ pendres_status pendres_team_run(pendres_context *ctx, size_t n, size_t each,
                                                        size_t count, void *arg),
                                 void *arg);
 
+/* How many of n lanes of a block each thread is to be given: whole vectors, since one lane takes as
+   long as a vector does. */
+size_t pendres_team_share(const pendres_context *ctx, size_t n);
+
 #endif

@@ -170,10 +170,9 @@ static pendres_status average_part(pendres_context *ctx, size_t part, size_t cou
 
 static pendres_status settle_by_averages(pendres_context *ctx, averages *of)
 {
-  const size_t threads = (size_t)ctx->options.threads, most = of->n / AVERAGED_FEWEST;
   if (of->n == 0) return PENDRES_OK;
-  of->parts = most < threads ? most : threads;
-  if (of->parts == 0) of->parts = 1;
+  const size_t share = pendres_team_share(ctx, of->n);
+  of->parts = (of->n + share - 1) / share;
   return pendres_team_run(ctx, of->parts, 1, average_part, of);
 }
 

@@ -76,7 +76,7 @@ static pendres_status go_on(pendres_context *ctx, size_t n, pendres_settled *s)
 static int is_next(const pendres_path *w, size_t i, size_t k)
 {
   const int way = pendres_path_direction(w, i);
-  return k > i && k - i < AVERAGED_FEWEST && (w->value[k] - w->value[k - 1]) * way > 0.0;
+  return k > i && k - i < SWEEP_AT_LEAST && (w->value[k] - w->value[k - 1]) * way > 0.0;
 }
 
 /* Take over what has been found at a value; where it had been tried before, from a rotation further

@@ -21,7 +21,8 @@ enum {
   SWEEP_MOST_JUMPS = 256, /* between two values of the path */
   /* So many at once that the few lanes left at last, which slip past the end of a lock seldom, are
      those of all values of most paths. */
-  SWEEP_ABREAST = 4096
+  SWEEP_ABREAST = 4096,
+  SWEEP_AT_LEAST = 8 /* one alone takes as long as so many, the lanes of the widest vectors */
 };
 
 /* A state is followed to values this close at once; the work for one further away is counted as its
@@ -64,9 +65,6 @@ enum {
    periods. */
 static const double jump_further = 10.0;
 
-/* A thread averages no fewer pendulums: one alone takes as long as so many, the lanes of the widest
-   vectors. */
-enum { AVERAGED_FEWEST = 8 };
 
 /* Trials start this far from an orbit that has become unstable, where deviations grow fast. */
 static const double jump_away = 0.03;
