@@ -26,7 +26,7 @@ pendres_status farm_create(const farm_options *options, farm **out)
   f->options = *options;
   f->run = options->run;
   f->threads = options->threads > 0 ? options->threads : pendres_parts_threads();
-  f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
+  f->context = calloc((size_t)f->threads + 1, sizeof(pendres_context *));
   if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {
     free(f->context);
     free(f);
@@ -39,7 +39,7 @@ pendres_status farm_create(const farm_options *options, farm **out)
 void farm_free(farm *f)
 {
   if (f == NULL) return;
-  for (int i = 0; i < f->threads; i++) pendres_context_free(f->context[i]);
+  for (int i = 0; i <= f->threads; i++) pendres_context_free(f->context[i]);
   free(f->context);
   (void)pthread_mutex_destroy(&f->lock);
   free(f);
@@ -49,8 +49,7 @@ pendres_status farm_context_of(farm *f, int thread, pendres_context **out)
 {
   pendres_status status = PENDRES_OK;
   pendres_options library = f->options.library;
-  /* The first is that of whatever is no task, too, and then all threads are idle. */
-  if (thread == 0) library.threads = f->threads;
+  if (thread == f->threads) library.threads = f->threads;
   if (f->context[thread] == NULL)
     status = pendres_context_create(&library, &f->context[thread]);
   *out = f->context[thread];
@@ -174,7 +173,7 @@ static int stopped_between(void *arg)
 pendres_context *farm_context(farm *f)
 {
   pendres_context *ctx = NULL;
-  if (farm_context_of(f, 0, &ctx) == PENDRES_OK)
+  if (farm_context_of(f, f->threads, &ctx) == PENDRES_OK)
     pendres_context_set_interrupt(ctx, stopped_between, f);
   return ctx;
 }
@@ -197,7 +196,7 @@ size_t farm_points_lost(const farm *f)
 void farm_cost(const farm *f, pendres_cost *cost)
 {
   *cost = f->spent;
-  for (int i = 0; i < f->threads; i++) {
+  for (int i = 0; i <= f->threads; i++) {
     pendres_cost one = { 0 };
     if (f->context[i] == NULL) continue;
     pendres_context_cost(f->context[i], &one);

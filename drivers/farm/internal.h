@@ -31,7 +31,9 @@ struct farm {
 /* Nonzero: the run is to stop. */
 int farm_stop(const farm *f);
 
-/* The context of a thread, made when first asked for; only that thread asks. */
+/* The context of a thread, made when first asked for; only that thread asks. The number after the
+   last thread's is that of what is computed while the others are idle, no task or the only one: the
+   library may use them. */
 pendres_status farm_context_of(farm *f, int thread, pendres_context **out);
 
 /* Add to what the farm has spent; any thread may. */

@@ -256,7 +256,9 @@ static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_re
 static pendres_status run_on(pool *c, worker *w, farm_record *record)
 {
   pendres_context *ctx = NULL;
-  pendres_status status = farm_context_of(c->farm, w->watch.thread, &ctx);
+  const int alone = c->threads == 1 && !c->stage->timed;
+  const int number = alone ? c->farm->threads : w->watch.thread;
+  pendres_status status = farm_context_of(c->farm, number, &ctx);
   note_work(c, w->watch.thread, w->task, pool_milliseconds());
   if (status == PENDRES_OK) status = run_task(c, w, ctx, record);
   note_work(c, w->watch.thread, w->task, 0);

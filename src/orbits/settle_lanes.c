@@ -9,6 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/steps.h"
+#include "engine/team.h"
 #include "model/model.h"
 #include "orbits/escape.h"
 #include "orbits/numbers.h"
@@ -267,6 +268,33 @@ static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
   return left;
 }
 
+/* Lanes that run, each thread's one of so many, so that all take about as long. */
+typedef struct running {
+  pendres_strobe_lane *lanes;
+  pendres_settle_labelling *l;
+  const size_t *which;
+} running;
+
+static pendres_status run_some(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  const running *r = arg;
+  return pendres_strobe_run_some(ctx, count, r->which + first, r->lanes, settle_look, r->l);
+}
+
+/* Run n lanes with the numbers `which`, which are put into another order. */
+static pendres_status run(pendres_context *ctx, size_t n, size_t *which,
+                          pendres_strobe_lane *lanes, pendres_settle_labelling *l)
+{
+  const size_t share = pendres_team_share(ctx, n), parts = share > 0 ? (n + share - 1) / share : 1;
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  size_t *dealt = pendres_room_take(&room, n, sizeof *dealt);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t part = 0, at = 0; part < parts; part++)
+    for (size_t k = part; k < n; k += parts) dealt[at++] = which[k];
+  running r = {.lanes = lanes, .l = l, .which = dealt};
+  return pendres_room_close(&room, pendres_team_run(ctx, n, (n + parts - 1) / parts, run_some, &r));
+}
+
 pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                     pendres_settle_labelling *l)
 {
@@ -286,7 +314,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
     const pendres_strobe_lane *from = &lanes[which[k]];
     l->before[which[k]] = (pendres_settle_place){from->y, from->w, from->worst};
   }
-  pendres_status status = pendres_strobe_run_some(ctx, left, which, lanes, settle_look, l);
+  pendres_status status = run(ctx, left, which, lanes, l);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
     const size_t i = which[k];
     pendres_outcome *o = &l->outcome[i];
