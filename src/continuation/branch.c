@@ -117,8 +117,8 @@ static int is_crossed(const pendres_curve *t, size_t i)
   return 0;
 }
 
-/* Whether a place on the way is where the branch was born, as is known: other tests have zeros there
-   as well, by as much as the points around it are apart. Flips of its own are looked for last. */
+/* Whether a place on the way is where the branch was born, as is known: other tests have zeros
+   there as well, by as much as the points around it are apart. Its own flips come last. */
 static int is_born(const pendres_curve *t, const pendres_u u, double reach)
 {
   for (size_t k = 0; k < t->specials; k++)

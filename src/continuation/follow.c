@@ -371,7 +371,8 @@ static int follows(const pendres_follower *w, const pendres_curve_node *last, in
   return 1;
 }
 
-/* Whether a place on the way is next to where the branch was born from orbits that close by half. */
+/* Whether a place on the way is next to where the branch was born from orbits that close by
+   half. */
 static pendres_status is_birth(pendres_context *ctx, const pendres_follower *w, const pendres_u u,
                                int *birth)
 {

@@ -59,9 +59,9 @@ double pendres_part_distance(const pendres_branch *branch, const pendres_branch_
 
 /* Find which way along the branch the parameter goes in the direction of the part, from the first
    point to the next that is not at the same place: sets the step. Where both ways do, as from a
-   birth, it is that on which the orbits stay closer together, where errors are smaller. Where neither way does, sets the
-   end, and returns 0: where both ways lead back the place is right at the end of the state, else
-   nothing could be followed. */
+   birth, it is that on which the orbits stay closer together, where errors are smaller. Where
+   neither way does, sets the end, and returns 0: where both ways lead back the place is right at
+   the end of the state, else nothing could be followed. */
 int pendres_part_choose_way(pendres_part *part);
 
 /* Take points from the first one on as long as orbits attract and the parameter goes on, up to a

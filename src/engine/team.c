@@ -109,8 +109,8 @@ static pendres_status run_alone(pendres_context *ctx, const team *t)
   return status;
 }
 
-/* Provide contexts for as many threads as are of use; fewer, if memory is short. They are kept: what
-   they have found out of steps, and their blocks, serve the next time. */
+/* Provide contexts for as many threads as are of use; fewer, if memory is short. They are kept:
+   what they have found out of steps, and their blocks, serve the next time. */
 static int provide(pendres_context *ctx, size_t parts)
 {
   const size_t most = (size_t)ctx->options.threads;

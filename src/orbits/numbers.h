@@ -80,6 +80,10 @@ enum { NEWTON_STALLED = 8 };
    y and in w. */
 static const double newton_aside = 1e-6;
 
+/* Candidates are divided among threads where they take more steps than this, some milliseconds: to
+   start a thread takes a tenth of one. */
+static const double newton_worth_threads = 1e5;
+
 /* det (I - M) at an orbit is the same after one more step, and with more steps, up to this factor;
    at the ghost of an orbit it falls to less than half, or past zero. */
 static const double newton_there = 1.4;

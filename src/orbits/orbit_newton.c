@@ -8,6 +8,7 @@
 #include "base/grow.h"
 #include "engine/chain.h"
 #include "engine/context_internal.h"
+#include "engine/team.h"
 #include "engine/room.h"
 #include "engine/block.h"
 #include "engine/coordinates.h"
@@ -315,6 +316,26 @@ void pendres_newton_order(size_t n, pendres_newton_candidate *c)
   qsort(c, n, sizeof *c, in_order);
 }
 
+size_t pendres_newton_each(const pendres_context *ctx, size_t n, const pendres_newton_candidate *c)
+{
+  double steps = 0.0;
+  for (size_t i = 0; i < n; i++) steps += (double)c[i].steps * c[i].guess->period;
+  return steps > newton_worth_threads ? pendres_team_share(ctx, n) : n;
+}
+
+/* One step of Newton's method for some candidates, in the order in which they share blocks. */
+static pendres_status improve_some(pendres_context *ctx, size_t begin, size_t n, void *arg)
+{
+  pendres_newton_candidate *c = (pendres_newton_candidate *)arg + begin;
+  for (size_t first = 0, count; first < n; first += count) {
+    const pendres_status status =
+      pendres_newton_pass(ctx, n - first, c + first, PENDRES_ORBIT_PLAIN, NULL, &count);
+    if (status != PENDRES_OK) return status;
+    for (size_t i = first; i < first + count; i++) improve(&c[i]);
+  }
+  return PENDRES_OK;
+}
+
 pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_newton_candidate *c)
 {
   size_t active = n;
@@ -325,12 +346,9 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_n
   }
   while (active > 0) {
     pendres_newton_order(n, c);
-    for (size_t first = 0, count; first < active; first += count) {
-      const pendres_status status =
-        pendres_newton_pass(ctx, active - first, c + first, PENDRES_ORBIT_PLAIN, NULL, &count);
-      if (status != PENDRES_OK) return status;
-      for (size_t i = first; i < first + count; i++) improve(&c[i]);
-    }
+    const pendres_status status =
+      pendres_team_run(ctx, active, pendres_newton_each(ctx, active, c), improve_some, c);
+    if (status != PENDRES_OK) return status;
     size_t still = 0;
     for (size_t i = 0; i < active; i++) still += c[i].state == PENDRES_NEWTON_ACTIVE;
     active = still;

@@ -59,6 +59,10 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
                                    pendres_orbit_want want, pendres_newton_samples *taken,
                                    size_t *count);
 
+/* How many of n candidates each thread is to be given: all of them, unless they take long. */
+size_t pendres_newton_each(const pendres_context *ctx, size_t n,
+                           const pendres_newton_candidate *c);
+
 /* Put candidates that may share a block side by side; those still active come first. */
 void pendres_newton_order(size_t n, pendres_newton_candidate *c);
 

@@ -6,6 +6,7 @@
 
 #include "base/grow.h"
 #include "engine/context_internal.h"
+#include "engine/team.h"
 #include "orbits/orbit_table.h"
 
 /* Memory for samples and what measuring them takes. */
@@ -48,13 +49,20 @@ static pendres_status provide(pendres_context *ctx, size_t samples, room *r)
   return PENDRES_OK;
 }
 
-pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_reader *reader,
-                                  size_t n, pendres_newton_candidate *c)
+/* Candidates in the order in which they share blocks, some on each thread. */
+typedef struct reading {
+  const pendres_orbit_reader *reader;
+  pendres_newton_candidate *c;
+} reading;
+
+static pendres_status read_some(pendres_context *ctx, size_t begin, size_t n, void *arg)
 {
+  const reading *of = arg;
+  const pendres_orbit_reader *reader = of->reader;
+  pendres_newton_candidate *c = of->c + begin;
   pendres_newton_samples taken = {.bends = reader->bends, .none = reader->points};
   room r = {.work = NULL};
   pendres_status status = PENDRES_OK;
-  pendres_newton_order(n, c);
   for (size_t first = 0, count; first < n && status == PENDRES_OK; first += count) {
     status = pendres_newton_pass(ctx, n - first, c + first, reader->want, &taken, &count);
     if (status == PENDRES_OK) status = provide(ctx, taken.count, &r);
@@ -70,4 +78,12 @@ pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_read
   pendres_orbit_tables_free(&r.tables);
   free(r.work);
   return status;
+}
+
+pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_reader *reader,
+                                  size_t n, pendres_newton_candidate *c)
+{
+  reading of = {.reader = reader, .c = c};
+  pendres_newton_order(n, c);
+  return pendres_team_run(ctx, n, pendres_newton_each(ctx, n, c), read_some, &of);
 }

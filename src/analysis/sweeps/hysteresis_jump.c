@@ -122,8 +122,8 @@ static pendres_status make_averaged(pendres_context *ctx, size_t n, averaged *a)
   return PENDRES_OK;
 }
 
-/* Which of s are averaged, those with the numbers `which`, or the first n where it is NULL; and how.
-   points: of orbits nothing else is found. */
+/* Which of s are averaged, those with the numbers `which`, or the first n where it is NULL; and
+   how. points: of orbits nothing else is found. */
 typedef struct averages {
   size_t n;
   const size_t *which;

@@ -111,8 +111,8 @@ pendres_status pendres_part_from(pendres_context *ctx, const pendres_orbit *orbi
   return follow(ctx, orbit, parameter, limit, out);
 }
 
-/* The part of what is born at a bifurcation. *lost: there may be one, but it cannot be followed from
-   this point of the bifurcation's orbit. */
+/* The part of what is born at a bifurcation. *lost: there may be one, but it cannot be followed
+   from this point of the bifurcation's orbit. */
 static pendres_status born(pendres_context *ctx, const pendres_bifurcation *at, double limit,
                            pendres_part *out, int *lost)
 {
