@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/numbers.h"
+#include "engine/team.h"
 
 /* Some of the periods, whose starts are noted. */
 typedef struct part {
@@ -80,7 +82,8 @@ static void begin(const pendres_chain *c)
   }
 }
 
-pendres_status pendres_chain_run(pendres_context *ctx, const pendres_chain *c)
+/* All periods of a chain's pendulums. */
+static pendres_status run_all(pendres_context *ctx, const pendres_chain *c)
 {
   pendres_block *b;
   pendres_status status = pendres_block_open(ctx, c->kind, c->steps, &b);
@@ -100,4 +103,31 @@ pendres_status pendres_chain_run(pendres_context *ctx, const pendres_chain *c)
   }
   free(y);
   return status;
+}
+
+/* The same for some of them. */
+static pendres_status run_some(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  const pendres_chain *whole = arg;
+  const size_t rows = pendres_flow_kind_rows(whole->kind);
+  pendres_chain some = *whole;
+  some.n = count;
+  some.from = whole->from + first;
+  some.rows = malloc(rows * count * sizeof *some.rows);
+  if (some.rows == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", count);
+  const pendres_status status = run_all(ctx, &some);
+  for (size_t row = 0; row < rows && status == PENDRES_OK; row++)
+    memcpy(whole->rows + row * whole->n + first, some.rows + row * count,
+           count * sizeof *some.rows);
+  free(some.rows);
+  return status;
+}
+
+pendres_status pendres_chain_run(pendres_context *ctx, const pendres_chain *c)
+{
+  const size_t threads = (size_t)ctx->options.threads;
+  const double work = (double)c->n * c->periods * c->steps;
+  if (threads == 1 || c->n < 2 || work < chain_worth_threads) return run_all(ctx, c);
+  return pendres_team_run(ctx, c->n, (c->n + threads - 1) / threads, run_some, (void *)c);
 }

@@ -23,6 +23,10 @@ enum {
   LANES_OF_MORE = 24
 };
 
+/* A chain of derivatives is divided among threads where it has more steps than this, some two
+   milliseconds: to start a thread takes a twentieth of them. */
+static const double chain_worth_threads = 1e4;
+
 /* ---- how many steps: the lattice of cells that share a number of steps (steps.c) ---- */
 
 /* Below these values all pendulums share a cell, and those that follow are so much larger each: as
