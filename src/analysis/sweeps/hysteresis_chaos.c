@@ -239,20 +239,28 @@ static pendres_status halve(search *w, pendres_jump *jump)
   return status;
 }
 
-/* The mean number of periods that pendulums from starts on a chaotic attractor take to leave it at
-   a value at which it has ended; infinite where some do not within their budget. */
-static pendres_status mean_life(const search *w, double value, const double *x, const double *v,
-                                double *life)
+/* The mean numbers of periods that pendulums from starts on a chaotic attractor take to leave it at
+   two values at which it has ended, side by side; infinite where some do not within their
+   budget. */
+static pendres_status mean_lives(const search *w, const double value[2], const double *x,
+                                 const double *v, double life[2])
 {
-  pendres_pendulum p[LIVES];
-  pendres_outcome outcome[LIVES];
-  *life = 0.0;
-  for (int i = 0; i < LIVES; i++) p[i] = pendulum_at(w, value);
-  const pendres_status status = pendres_settle(w->ctx, LIVES, p, x, v, outcome, NULL);
-  for (int i = 0; i < LIVES && status == PENDRES_OK; i++)
-    *life += outcome[i].settling_periods > 0 && outcome[i].label != PENDRES_LABEL_CHAOTIC
-               ? (double)outcome[i].settling_periods / LIVES
-               : INFINITY;
+  pendres_pendulum p[2 * LIVES];
+  pendres_outcome outcome[2 * LIVES];
+  double from_x[2 * LIVES], from_v[2 * LIVES];
+  for (int i = 0; i < 2 * LIVES; i++) {
+    p[i] = pendulum_at(w, value[i / LIVES]);
+    from_x[i] = x[i % LIVES];
+    from_v[i] = v[i % LIVES];
+  }
+  const pendres_status status =
+    pendres_settle(w->ctx, 2 * LIVES, p, from_x, from_v, outcome, NULL);
+  life[0] = life[1] = 0.0;
+  for (int i = 0; i < 2 * LIVES && status == PENDRES_OK; i++)
+    life[i / LIVES] +=
+      outcome[i].settling_periods > 0 && outcome[i].label != PENDRES_LABEL_CHAOTIC
+        ? (double)outcome[i].settling_periods / LIVES
+        : INFINITY;
   return status;
 }
 
@@ -267,17 +275,16 @@ static pendres_status leave_open(const search *w, pendres_jump *jump)
   const int direction = value_of(w) > w->from ? 1 : -1;
   const double step = 2.0 * jump->value_error, first = ENDS_FURTHER * step;
   const double watched = w->before.attractor.watched_periods;
-  double x[LIVES], v[LIVES], near, far;
+  const double at[2] = {jump->value + direction * first,
+                        jump->value + ENDS_FURTHER * direction * first};
+  double x[LIVES], v[LIVES], life[2];
   if (isnan(watched)) jump->value_error += step;
   if (isnan(watched)) return PENDRES_OK;
   pendres_status status = spread(w, &w->before, LIVES, x, v);
-  if (status == PENDRES_OK)
-    status = mean_life(w, jump->value + direction * first, x, v, &near);
-  if (status == PENDRES_OK)
-    status = mean_life(w, jump->value + ENDS_FURTHER * direction * first, x, v, &far);
+  if (status == PENDRES_OK) status = mean_lives(w, at, x, v, life);
   if (status != PENDRES_OK) return status;
-  const double power = fmax(ends_least_power, log(near / far) / log(ENDS_FURTHER));
-  const double open = first * pow(lives_watched * near / watched, 1.0 / power);
+  const double power = fmax(ends_least_power, log(life[0] / life[1]) / log(ENDS_FURTHER));
+  const double open = first * pow(lives_watched * life[0] / watched, 1.0 / power);
   jump->value_error += open < step ? open : step; /* the step where that is not known */
   return status;
 }
