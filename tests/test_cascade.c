@@ -7,7 +7,9 @@
 #include <pendres/attractor.h>
 #include <pendres/cascade.h>
 #include <pendres/reference.h>
+#include <pendres/strobe.h>
 
+#include "analysis/sweeps/stable_part.h"
 #include "check.h"
 
 static const double feigenbaum = 4.66920160910299067;
@@ -70,8 +72,53 @@ static void doublings(void **state)
   pendres_context_free(ctx);
 }
 
+/* In a window of six periods, which double once: the next doubling leads to orbits of 24 periods
+   that are born there, whichever of the twelve points it is told by. At some of them these stay
+   within some 1e-6; at one the plane of a switch meets another branch, 2.8e-4 away. */
+static void from_any_point(void **state)
+{
+  enum { PERIOD = 12 };
+  const double limit = 1.0847;
+  pendres_context *ctx = NULL;
+  pendres_cascade c;
+  pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 1.08459, .drive_frequency = 2.0 / 3.0};
+  pendres_orbit start;
+  pendres_status outcome;
+  const pendres_orbit_guess guess = {.pendulum = p, .x = 1.50008, .v = 1.86151, .period = 6};
+  (void)state;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &ctx));
+  check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
+  check_ok(pendres_cascade_find(ctx, &start, PENDRES_DRIVE_AMPLITUDE, limit, &c));
+  assert_true(c.doublings >= 3 && c.period[1] == PERIOD);
+  p.drive_amplitude = c.value[1];
+  double x = c.x[1], v = c.v[1];
+  for (int k = 0; k < PERIOD; k++) {
+    const pendres_orbit_guess there = {.pendulum = p, .x = x, .v = v, .period = PERIOD};
+    pendres_bifurcation at = {.kind = PENDRES_PERIOD_DOUBLING, .value = c.value[1],
+                              .parameter = PENDRES_DRIVE_AMPLITUDE};
+    pendres_orbit born;
+    pendres_part part;
+    check_ok(pendres_orbit_find(ctx, 1, &there, PENDRES_ORBIT_PLAIN, &at.orbit, &outcome));
+    const pendres_status status = pendres_branch_switch(ctx, &at, &born);
+    if (status == PENDRES_OK) {
+      const double ahead = born.pendulum.drive_amplitude - c.value[1];
+      assert_int_equal(born.period, 2 * PERIOD);
+      assert_true(ahead > 0.0 && ahead < 2.0 * (c.value[2] - c.value[1]));
+    } else {
+      assert_int_equal(status, PENDRES_NOT_FOUND);
+    }
+    check_ok(pendres_part_born(ctx, &at, limit, &part));
+    assert_int_equal(part.end, PENDRES_PART_BIFURCATION);
+    check_near(part.end_value, c.value[2], part.end_error + c.value_error[2]);
+    pendres_part_free(&part);
+    check_ok(pendres_strobe_advance(ctx, 1, &p, &x, &v, 1, NULL));
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(doublings)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(doublings),
+                                     cmocka_unit_test(from_any_point)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 
 #include <pendres/basin.h>
 #include <pendres/dimension.h>
+#include <pendres/hysteresis.h>
 #include <pendres/parts.h>
 #include <pendres/strobe.h>
 
@@ -173,6 +174,37 @@ static void random_states_on_threads(void **state)
   }
 }
 
+/* A junction over the end of a Shapiro step and back: trials of jumps, rotations ahead. */
+static void sweep_on_threads(void **state)
+{
+  enum { VALUES = 40 };
+  static const pendres_pendulum junction = {
+    .damping = 0.3, .drive_amplitude = 9.0, .drive_frequency = 3.0};
+  double value[2 * VALUES];
+  pendres_hysteresis *h[2] = {NULL};
+  pendres_cost cost[2];
+  (void)state;
+  for (int i = 0; i < VALUES; i++) value[i] = value[2 * VALUES - 1 - i] = 1.88 + 0.002 * i;
+  for (int k = 0; k < 2; k++) {
+    pendres_context *ctx = NULL;
+    check_ok(pendres_context_create(&(pendres_options){.threads = 1 + 2 * k}, &ctx));
+    check_ok(pendres_hysteresis_find(
+      ctx, &junction, &(pendres_state){1.6, 0.0},
+      &(pendres_hysteresis_path){PENDRES_TORQUE, 2 * VALUES, value}, &h[k]));
+    pendres_context_cost(ctx, &cost[k]);
+    pendres_context_free(ctx);
+  }
+  assert_memory_equal(&cost[0], &cost[1], sizeof cost[0]);
+  for (size_t i = 0; i < pendres_hysteresis_count(h[0]); i++)
+    assert_memory_equal(pendres_hysteresis_get(h[0], i), pendres_hysteresis_get(h[1], i),
+                        sizeof(pendres_hysteresis_point));
+  assert_true(pendres_hysteresis_jump_count(h[0]) >= 2);
+  for (size_t i = 0; i < pendres_hysteresis_jump_count(h[0]); i++)
+    assert_memory_equal(pendres_hysteresis_jump_get(h[0], i),
+                        pendres_hysteresis_jump_get(h[1], i), sizeof(pendres_jump));
+  for (int k = 0; k < 2; k++) pendres_hysteresis_free(h[k]);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -181,6 +213,7 @@ int main(void)
     cmocka_unit_test(nothing_to_do),
     cmocka_unit_test(dimension_on_threads),
     cmocka_unit_test(random_states_on_threads),
+    cmocka_unit_test(sweep_on_threads),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
