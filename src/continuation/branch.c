@@ -117,14 +117,12 @@ static int is_crossed(const pendres_curve *t, size_t i)
   return 0;
 }
 
-/* Whether a place on the way is where the branch was born, as is known: other tests have zeros
-   there as well, by as much as the points around it are apart. Its own flips come last. */
-static int is_born(const pendres_curve *t, const pendres_u u, double reach)
+/* Whether the branch was born behind node i: other tests have zeros there as well. Its own flips are
+   looked for last. */
+static int is_born(const pendres_curve *t, size_t i)
 {
   for (size_t k = 0; k < t->specials; k++)
-    if (t->special[k].condition == PENDRES_CONDITION_FLIP &&
-        pendres_arc_distance(t->special[k].located.pair.fine, u) < reach)
-      return 1;
+    if (t->special[k].condition == PENDRES_CONDITION_FLIP && t->special[k].at.i == i) return 1;
   return 0;
 }
 
@@ -138,7 +136,7 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_curve *t, 
 {
   int which = -1;
   m->condition = PENDRES_CONDITION_FOLD;
-  if (is_crossed(t, m->at.i) || is_born(t, u, reach)) return PENDRES_NOT_CONVERGED;
+  if (is_crossed(t, m->at.i) || is_born(t, m->at.i)) return PENDRES_NOT_CONVERGED;
   /* Rest has no folds: there the other map has a flip. */
   if (is_of_rest(t) && !t->kind.apart) return locate_birth(ctx, t, u, reach, m);
   const pendres_status fold =
@@ -163,7 +161,7 @@ static pendres_status locate_crossing(pendres_context *ctx, const pendres_curve 
 {
   int which = -1;
   m->condition = PENDRES_CONDITION_CROSSING;
-  if (is_of_rest(t) || is_born(t, u, reach)) return PENDRES_NOT_CONVERGED;
+  if (is_of_rest(t) || is_born(t, m->at.i)) return PENDRES_NOT_CONVERGED;
   const pendres_status status =
     pendres_curve_locate(ctx, &t->kind, m->condition, u, reach, &m->located);
   if (!pendres_located_found(status) || t->kind.apart == 0) return status;
