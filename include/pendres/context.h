@@ -77,9 +77,10 @@ typedef struct pendres_options {
                              are as long as needed to distinguish lasting from transient chaos */
   uint64_t seed;        /**< of all random numbers of noisy trajectories (langevin.h): any value;
                              zero is a seed like any other */
-  int threads;          /**< that a call may use where its work can be divided: random states of
-                             basins (basin.h), pairs of points (dimension.h). Results are the same
-                             bytes. Default 1, at most 4096 */
+  int threads;          /**< that a call may use where its work can be divided: pendulums that
+                             settle, replicas of chaos, many or long orbits, averages of sweeps,
+                             random states of basins (basin.h), pairs of points (dimension.h).
+                             Results are the same bytes. Default 1, at most 4096 */
 } pendres_options;
 
 /**

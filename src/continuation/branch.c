@@ -117,8 +117,8 @@ static int is_crossed(const pendres_curve *t, size_t i)
   return 0;
 }
 
-/* Whether the branch was born behind node i: other tests have zeros there as well. Its own flips are
-   looked for last. */
+/* Whether the branch was born behind node i: other tests have zeros there as well. Its own flips
+   are looked for last. */
 static int is_born(const pendres_curve *t, size_t i)
 {
   for (size_t k = 0; k < t->specials; k++)
