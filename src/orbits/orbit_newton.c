@@ -315,6 +315,22 @@ void pendres_newton_order(size_t n, pendres_newton_candidate *c)
   qsort(c, n, sizeof *c, in_order);
 }
 
+/* Put the active ones of n candidates first, in the order in which they are; returns how many. */
+static size_t bring_forward(size_t n, pendres_newton_candidate *c)
+{
+  size_t active = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (c[i].state != PENDRES_NEWTON_ACTIVE) continue;
+    if (i > active) {
+      const pendres_newton_candidate swap = c[active];
+      c[active] = c[i];
+      c[i] = swap;
+    }
+    active++;
+  }
+  return active;
+}
+
 pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_newton_candidate *c)
 {
   size_t active = n;
@@ -323,17 +339,15 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_n
     c[i].iterations = 0;
     c[i].last_step = INFINITY;
   }
+  pendres_newton_order(n, c);
   while (active > 0) {
-    pendres_newton_order(n, c);
     for (size_t first = 0, count; first < active; first += count) {
       const pendres_status status =
         pendres_newton_pass(ctx, active - first, c + first, PENDRES_ORBIT_PLAIN, NULL, &count);
       if (status != PENDRES_OK) return status;
       for (size_t i = first; i < first + count; i++) improve(&c[i]);
     }
-    size_t still = 0;
-    for (size_t i = 0; i < active; i++) still += c[i].state == PENDRES_NEWTON_ACTIVE;
-    active = still;
+    active = bring_forward(active, c);
   }
   return PENDRES_OK;
 }

@@ -156,12 +156,12 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
                    const pendres_strobe_lane *lane)
 {
   pendres_outcome *o = &l->outcome[i];
-  const int attractor = pendres_attractor_set_locate(c, lane, &o->well);
-  if (attractor < 0) return 0;
-  o->attractor = attractor;
-  o->label = c->attractors[attractor].label;
+  const pendres_trapping_ellipse *in = pendres_attractor_set_ellipse(c, lane->y, lane->w);
+  if (in == NULL) return 0;
+  o->attractor = pendres_attractor_set_locate(c, in, lane, &o->well);
+  o->label = c->attractors[o->attractor].label;
   o->settling_periods = lane->period;
-  judge(l, i, error_ratio_in_ellipse(pendres_attractor_set_ellipse(c, lane->y, lane->w), lane));
+  judge(l, i, error_ratio_in_ellipse(in, lane));
   return 1;
 }
 
