@@ -18,7 +18,8 @@
 
 /*
  * Sines and cosines for the transforms, which cost about as much as a transform itself, and of the
- * drive: kept for the next orbit with the same number of samples. Starts as {0} and is freed by its owner.
+ * drive: kept for the next orbit with the same number of samples. Starts as {0} and is freed by its
+ * owner.
  */
 typedef struct pendres_orbit_tables {
   gsl_fft_real_wavetable *forward;
