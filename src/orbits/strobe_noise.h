@@ -12,7 +12,7 @@
 #include <pendres/context.h>
 
 #include "engine/block.h"
-#include "engine/method.h"
+#include "engine/strobe_run.h"
 
 /* The standard error of the angle by rounding in one step with a Butcher table. Roundings are taken
    to be random and independent: each step adds the square of this to the variance. */
