@@ -33,9 +33,10 @@ static void describe(const deck *d, FILE *out)
 
 /* ---- states ---- */
 
-/* Unresolved states that are remembered. */
+/* Unresolved states that are remembered, TASK_LOST at most of each group of rows. */
 typedef struct lost {
   size_t n, *index;
+  size_t group, most; /* the number of the latest group, and of states with those of it */
 } lost;
 
 /* States that are integrated together: of whole rows of the grid, or those that are asked for. */
@@ -149,12 +150,26 @@ static void take_unresolved(basins *b, size_t first, size_t n, const pendres_bas
   }
 }
 
+/* Rows whose unresolved states are remembered together. */
+static size_t rows_of_group(const basins *b)
+{
+  return 1 + TASK_STATES / b->grid.nv;
+}
+
 static pendres_status collect_rows(const scene_points *p, size_t first, size_t n, const void *rows)
 {
   states *s = p->arg;
-  const size_t nv = s->b->grid.nv;
+  lost *l = &s->lost;
+  const size_t nv = s->b->grid.nv, group = rows_of_group(s->b) * nv;
+  const pendres_basin_state *state = rows;
   basins_write_rows(s->b, first / nv, n / nv, rows);
-  take_unresolved(s->b, first, n, rows, &s->lost, s->lost.n + TASK_LOST);
+  for (size_t at = 0, count; at < n; at += count) {
+    const size_t number = (first + at) / group, end = (number + 1) * group - first;
+    count = (end < n ? end : n) - at;
+    if (l->most == 0 || number != l->group) l->most = l->n + TASK_LOST;
+    l->group = number;
+    take_unresolved(s->b, first + at, count, state + at, l, l->most);
+  }
   const pendres_status status = pendres_basin_sums_add(s->b->sums, n / nv, rows);
   return scene_going(s->b->run) ? status : s->b->run->status;
 }
@@ -181,14 +196,15 @@ static size_t extend(basins *b, const lost *l)
 
 static size_t sweep_once(basins *b, int last)
 {
-  const size_t nv = b->grid.nv, rows = 1 + TASK_STATES / nv;
+  const size_t nv = b->grid.nv, nx = b->grid.nx, group = rows_of_group(b);
+  const size_t some = (nx + BASINS_TASKS - 1) / BASINS_TASKS, rows = some < group ? some : group;
   states s = {.b = b,
-              .points = {.n = b->grid.nx * nv, .chunk = rows * nv,
+              .points = {.n = nx * nv, .chunk = rows * nv,
                          .size = sizeof(pendres_basin_state), .compute = find_rows,
                          .leave_out = leave_out, .check = check, .collect = collect_rows,
                          .name = name_point, .unmarked = 1, .arg = &s}};
   restart(b);
-  s.lost.index = scene_array(b->run, (b->grid.nx + rows - 1) / rows * TASK_LOST,
+  s.lost.index = scene_array(b->run, (nx + group - 1) / group * TASK_LOST,
                              sizeof *s.lost.index);
   SCENE_COMPUTE(b->run, &s.points, "groups of rows", .element = sizeof(pendres_basin_state));
   return last ? 0 : extend(b, &s.lost);
@@ -307,7 +323,7 @@ static size_t refine_once(basins *b, int last)
 {
   const size_t band = 1 + (BASINS_BAND - 1) / b->grid.nv, nx = b->grid.nx;
   size_t index[TASK_LOST];
-  lost some = {0, index};
+  lost some = {.index = index};
   restart(b);
   b->integrated = b->verified = b->missed = b->filled = b->clean = 0;
   for (size_t i = 0; i < nx; i += band)
