@@ -10,10 +10,13 @@
 #include "orbits/attractor_set.h"
 #include "orbits/growth.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
+#include "engine/team.h"
 #include "engine/block.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 
 pendres_replica pendres_replica_at(double y, double w)
 {
@@ -216,43 +219,57 @@ static void record(pendres_replica_trace *t, long filled, size_t replica, const 
   t->w[at] = a->w;
 }
 
+/* Replicas that are advanced by so many periods. */
+typedef struct advance {
+  const pendres_attractor_set *set;
+  pendres_replica *replica;
+  int steps;
+  long periods;
+  pendres_replica_trace *trace; /* NULL: none is kept */
+} advance;
+
+/* Some of them; no more than a block holds. */
+static pendres_status advance_some(pendres_context *ctx, size_t first, size_t n, void *arg)
+{
+  const advance *of = arg;
+  pendres_block *block;
+  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, of->steps, &block);
+  if (status != PENDRES_OK) return status;
+  pendres_room room = pendres_room_open(ctx, "replicas");
+  double *rows = pendres_room_take(&room, WATCHED * n, sizeof *rows);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  status = pendres_block_carry(block, PENDRES_FLOW_TANGENTS);
+  watched_block b = {.pendulum = &of->set->pendulum, .steps = of->steps, .a = of->replica + first,
+                     .n = n, .work = rows, .other = rows + n, .loss = rows + 2 * n,
+                     .low = rows + 3 * n, .high = rows + 4 * n,
+                     .last_y = rows + 5 * n, .last_w = rows + 6 * n};
+  if (status == PENDRES_OK) load(block, &b);
+  for (long k = 0; k < of->periods && status == PENDRES_OK; k++) {
+    status = advance_block(block, &b, of->set, of->trace != NULL, k == of->periods - 1);
+    for (size_t i = 0; i < n && of->trace != NULL && status == PENDRES_OK; i++)
+      record(of->trace, of->trace->filled + k, first + i, &b.a[i]);
+  }
+  (void)pendres_block_carry(block, PENDRES_FLOW_NOTHING);
+  return pendres_room_close(&room, status);
+}
+
 pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attractor_set *c,
                                         size_t n,
                                         pendres_replica *a, long periods,
                                         pendres_replica_trace *trace)
 {
-  pendres_block *block;
-  int steps = 0;
+  advance of = {.set = c, .replica = a, .periods = periods, .trace = trace};
   double fastest = 0.0;
   const double origin = pendres_model_origin(&c->pendulum), omega = c->pendulum.drive_frequency;
   for (size_t i = 0; i < n; i++)
     fastest = fmax(fastest, pendres_steps_speed(&c->pendulum, a[i].y + origin, a[i].w * omega));
   pendres_status status =
-    pendres_steps_choose(ctx, &c->pendulum, fastest, pendres_accuracy_in_chaos(ctx), &steps);
-  steps += steps % 2; /* for tangents with steps twice as long */
-  if (status == PENDRES_OK) status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
-  if (status != PENDRES_OK) return status;
-
-  const size_t capacity = pendres_block_capacity(block), most = n < capacity ? n : capacity;
-  double *rows = malloc((WATCHED * most + 1) * sizeof *rows);
-  if (rows == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu replicas", n);
-  status = pendres_block_carry(block, PENDRES_FLOW_TANGENTS);
-  for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
-    watched_block b = {.pendulum = &c->pendulum, .steps = steps, .a = a + first,
-                       .n = n - first < capacity ? n - first : capacity,
-                       .work = rows, .other = rows + most, .loss = rows + 2 * most,
-                       .low = rows + 3 * most, .high = rows + 4 * most,
-                       .last_y = rows + 5 * most, .last_w = rows + 6 * most};
-    load(block, &b);
-    for (long k = 0; k < periods && status == PENDRES_OK; k++) {
-      status = advance_block(block, &b, c, trace != NULL, k == periods - 1);
-      for (size_t i = 0; i < b.n && trace != NULL && status == PENDRES_OK; i++)
-        record(trace, trace->filled + k, first + i, &b.a[i]);
-    }
-  }
-  (void)pendres_block_carry(block, PENDRES_FLOW_NOTHING);
-  free(rows);
+    pendres_steps_choose(ctx, &c->pendulum, fastest, pendres_accuracy_in_chaos(ctx), &of.steps);
+  of.steps += of.steps % 2; /* for tangents with steps twice as long */
+  const size_t block = (size_t)ctx->options.block_lanes;
+  const size_t each = ctx->options.threads == 1 || block < REPLICAS_TOGETHER ? block
+                                                                             : REPLICAS_TOGETHER;
+  if (status == PENDRES_OK) status = pendres_team_run(ctx, n, each, advance_some, &of);
   if (trace != NULL) trace->filled += periods;
   return status;
 }

@@ -284,6 +284,7 @@ enum {
   SUSPECTS = 16,         /* lanes that are tested first ... */
   SUSPECT_PERIODS = 128, /* ... over this number of periods */
   REPLICAS = 64,         /* replicas that are followed, once they have separated */
+  REPLICAS_TOGETHER = 32, /* by a thread where there are several: blocks of fewer take as long */
   ATTEMPTS = 3,          /* to start them, while some leave the chaotic set immediately */
   BATCHES = 16,          /* into which periods of an average are divided: an even number */
   FEW_BATCHES = 4,       /* after which replicas on different attractors are distinguished */
