@@ -281,42 +281,52 @@ static void verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
   b->filled += pendres_basin_plan_filled(p);
 }
 
-/* States of some rows that have been refined. */
+/* Rows whose states have been refined. */
 typedef struct band {
   basins *b;
   size_t first, rows;
-  const pendres_basin_state *state;
+  const pendres_basin_plan *plan;
+  lost *to;
 } band;
 
-/* What is done with them: the first thing is to write them, the second to add them up. */
-static pendres_status use_band(pendres_context *ctx, size_t first, size_t count, void *arg)
+/* What is done with them, some at a time: the first thing is to write them, the second to add them
+   up. */
+static pendres_status use_band(pendres_context *ctx, size_t number, size_t count, void *arg)
 {
   const band *s = arg;
+  const size_t nv = s->b->grid.nv, most = s->rows < BASINS_ROWS ? s->rows : BASINS_ROWS;
+  pendres_status status = PENDRES_OK;
+  pendres_basin_state *state = malloc(most * nv * sizeof *state);
   (void)ctx;
   (void)count;
-  if (first > 0) return pendres_basin_sums_add(s->b->sums, s->rows, s->state);
-  basins_write_rows(s->b, s->first, s->rows, s->state);
-  return PENDRES_OK;
+  if (state == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0, n; i < s->rows && status == PENDRES_OK; i += n) {
+    n = s->rows - i < most ? s->rows - i : most;
+    status = pendres_basin_plan_rows(s->plan, i, n, state);
+    if (status == PENDRES_OK && number == 0) {
+      basins_write_rows(s->b, s->first + i, n, state);
+    } else if (status == PENDRES_OK) {
+      status = pendres_basin_sums_add(s->b->sums, n, state);
+      take_unresolved(s->b, (s->first + i) * nv, n * nv, state, s->to, TASK_LOST);
+    }
+  }
+  free(state);
+  return status;
 }
 
 /* Compute rows first .. first + rows - 1 by a plan. */
 static void refine_band(basins *b, size_t first, size_t rows, lost *to)
 {
   pendres_basin_plan *p = NULL;
-  const size_t n = rows * b->grid.nv;
   if (!scene_going(b->run) || !planned(b, pendres_basin_plan_create(&b->grid, first, rows, 0, &p)))
     return;
   follow_plan(b, p);
   verify_plan(b, p, rows);
   b->integrated += pendres_basin_plan_integrated(p);
-  pendres_basin_state *state = malloc(n * sizeof *state);
-  if (planned(b, state != NULL ? pendres_basin_plan_states(p, state) : PENDRES_OUT_OF_MEMORY)) {
-    const pendres_parts both = {.n = 2, .each = 1, .threads = farm_threads(b->run->farm)};
-    planned(b, pendres_parts_run(&both, use_band, &(band){b, first, rows, state}, NULL, 0));
-    take_unresolved(b, first * b->grid.nv, n, state, to, TASK_LOST);
-  }
+  const pendres_parts both = {.n = 2, .each = 1, .threads = farm_threads(b->run->farm)};
+  if (scene_going(b->run))
+    planned(b, pendres_parts_run(&both, use_band, &(band){b, first, rows, p, to}, NULL, 0));
   pendres_basin_plan_free(p);
-  free(state);
 }
 
 static size_t refine_once(basins *b, int last)

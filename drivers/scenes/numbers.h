@@ -19,7 +19,8 @@ enum {
                              more have work on small grids, too */
   TASK_REFINED = 4096,    /* states in a refinement: several blocks; fewer are not worth a stage */
   TASK_LOST = 64,         /* unresolved states of so many, TASK_STATES, that are remembered */
-  BASINS_BAND = 1 << 24   /* states that a plan holds at a time */
+  BASINS_BAND = 1 << 24,  /* states that a plan holds at a time */
+  BASINS_ROWS = 256       /* rows of it that are written or added up at a time */
 };
 
 /* States that a refinement has filled are verified: so many of them, or one of so many if these are
