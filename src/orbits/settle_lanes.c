@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/coordinates.h"
 #include "engine/room.h"
 #include "engine/steps.h"
 #include "model/model.h"
@@ -80,11 +81,10 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor
 pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
                                              double v)
 {
-  pendres_strobe_lane lane = pendres_strobe_lane_at(neighbour->pendulum, x, v);
-  lane.steps = neighbour->steps;
-  lane.added = neighbour->added;
-  lane.in_float = neighbour->in_float;
-  return lane;
+  const pendres_coordinates at = pendres_coordinates_in(neighbour->pendulum, x, v);
+  return (pendres_strobe_lane){.pendulum = neighbour->pendulum, .y = at.y, .w = at.w,
+                               .turns = at.turns, .steps = neighbour->steps,
+                               .added = neighbour->added, .in_float = neighbour->in_float};
 }
 
 static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
