@@ -14,6 +14,7 @@
 #include "scenes/outer.h"
 #include "run.h"
 #include "shard.h"
+#include "system/grow.h"
 #include "terminal/safe_text.h"
 #include "terminal/signals.h"
 
@@ -478,6 +479,7 @@ int main(int argc, char **argv)
 {
   char words[RANKS_WORDS];
   if (hold_streams() != DONE) return FAILED;
+  keep_freed_memory();
   if (!ranks_start(&argc, &argv, words)) {
     fprintf(stderr, "resonance: error: %s\n", words);
     ranks_end();

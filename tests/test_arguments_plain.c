@@ -265,6 +265,7 @@ static void plans(void **state)
   INVALID(pendres_basin_plan_sample(NULL, 1, 1, &n, &index));
   INVALID(pendres_basin_plan_verify(NULL, s, &n));
   INVALID(pendres_basin_plan_states(NULL, s));
+  INVALID(pendres_basin_plan_rows(NULL, 0, 1, s));
   assert_int_equal(pendres_basin_plan_integrated(NULL), 0);
   assert_int_equal(pendres_basin_plan_filled(NULL), 0);
   assert_true(pendres_basin_plan_suspected(5, 0) == 5.0);
@@ -278,6 +279,7 @@ static void plans(void **state)
   INVALID(pendres_basin_plan_verify(plan, NULL, &n));
   INVALID(pendres_basin_plan_verify(plan, s, NULL));
   INVALID(pendres_basin_plan_states(plan, NULL));
+  INVALID(pendres_basin_plan_rows(plan, 0, 1, NULL));
   pendres_basin_plan_free(plan);
   INVALID(pendres_basin_sums_create(NULL, 1, &sums));
   INVALID(pendres_basin_sums_create(&grid, 1, NULL));

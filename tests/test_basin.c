@@ -266,6 +266,11 @@ static void refined(void **state)
   }
   assert_int_equal(wrong, 0);
   assert_int_equal(integrated, pendres_basin_plan_integrated(plan));
+  /* Some rows at a time: the same, and none beyond the plan's. */
+  check_ok(pendres_basin_plan_rows(plan, N - 2, 2, sample));
+  assert_memory_equal(sample, filled + (N - 2) * N, 2 * N * sizeof *sample);
+  assert_int_equal(pendres_basin_plan_rows(plan, N - 2, 3, sample), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_basin_plan_rows(plan, N + 1, 0, sample), PENDRES_INVALID_ARGUMENT);
   /* About 2.3 states along each of 35 / 0.0125 steps of boundary, and the coarse lattice. */
   assert_true(integrated < N * N / 4);
 

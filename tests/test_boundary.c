@@ -10,6 +10,7 @@
 #include <pendres/boundary.h>
 #include <pendres/reference.h>
 
+#include "analysis/basins/boundary_grow.h"
 #include "check.h"
 
 static const double half_pi = 1.57079632679489661923;
@@ -272,13 +273,60 @@ static void mistakes_are_told(void **state)
   pendres_boundary_free(NULL);
 }
 
+/* How many nodes a curve gets that may have so many. */
+static size_t nodes_of(pendres_context *ctx, const pendres_orbit *saddle, size_t most)
+{
+  const pendres_boundary_options o = {.x_low = -1.5, .x_high = 4.5, .v_low = -2.5, .v_high = 2.5,
+                                      .spacing = 0.05, .deviation = 1e-5, .most_points = most};
+  pendres_boundary_seed seed;
+  pendres_boundary_curve curve = {.complete = 1};
+  check_ok(pendres_boundary_grow_seed(ctx, saddle, saddle->steps, &seed));
+  check_ok(pendres_boundary_grow(ctx, &seed, &o, &curve));
+  const size_t count = curve.count;
+  pendres_boundary_grow_free(&curve);
+  return count;
+}
+
+/* Both sides grow on two threads, and the curve is that of one thread, byte for byte, also where
+   the second side is short of what the first has left of the points allowed. */
+static void threads_agree(void **state)
+{
+  const fixture *f = *state;
+  pendres_context *one = NULL, *two = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.threads = 1}, &one));
+  check_ok(pendres_context_create(&(pendres_options){.threads = 2}, &two));
+  pendres_boundary *all = NULL;
+  check_ok(pendres_boundary_find(one, &f->saddle, NULL, &all));
+  int cut = 0;
+  for (size_t part = 1; part <= 12; part++) {
+    const pendres_boundary_options o = {.most_points = part * all->count / 3};
+    pendres_boundary *a = NULL, *b = NULL;
+    check_ok(pendres_boundary_find(one, &f->saddle, &o, &a));
+    check_ok(pendres_boundary_find(two, &f->saddle, &o, &b));
+    assert_true(nodes_of(two, &f->saddle, o.most_points) <= o.most_points);
+    assert_int_equal(a->count, b->count);
+    assert_int_equal(a->complete, b->complete);
+    assert_memory_equal(a->x, b->x, a->count * sizeof *a->x);
+    assert_memory_equal(a->v, b->v, a->count * sizeof *a->v);
+    assert_memory_equal(a->error, b->error, a->count * sizeof *a->error);
+    assert_memory_equal(a->piece, b->piece, a->count * sizeof *a->piece);
+    cut += a->count < all->count;
+    pendres_boundary_free(a);
+    pendres_boundary_free(b);
+  }
+  assert_true(cut > 0 && cut < 12);
+  pendres_boundary_free(all);
+  pendres_context_free(one);
+  pendres_context_free(two);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(saddle_matches_reference),      cmocka_unit_test(curve_is_a_curve),
     cmocka_unit_test(sides_go_to_different_attractors), cmocka_unit_test(coarse_and_fine_agree),
     cmocka_unit_test(mistakes_are_told), cmocka_unit_test(boundaries_of_other_models),
-    cmocka_unit_test(a_linear_saddle),
+    cmocka_unit_test(a_linear_saddle), cmocka_unit_test(threads_agree),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }

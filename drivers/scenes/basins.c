@@ -33,9 +33,10 @@ static void describe(const deck *d, FILE *out)
 
 /* ---- states ---- */
 
-/* Unresolved states that are remembered. */
+/* Unresolved states that are remembered, TASK_LOST at most of each group of rows. */
 typedef struct lost {
   size_t n, *index;
+  size_t group, most; /* the number of the latest group, and of states with those of it */
 } lost;
 
 /* States that are integrated together: of whole rows of the grid, or those that are asked for. */
@@ -149,12 +150,26 @@ static void take_unresolved(basins *b, size_t first, size_t n, const pendres_bas
   }
 }
 
+/* Rows whose unresolved states are remembered together. */
+static size_t rows_of_group(const basins *b)
+{
+  return 1 + TASK_STATES / b->grid.nv;
+}
+
 static pendres_status collect_rows(const scene_points *p, size_t first, size_t n, const void *rows)
 {
   states *s = p->arg;
-  const size_t nv = s->b->grid.nv;
+  lost *l = &s->lost;
+  const size_t nv = s->b->grid.nv, group = rows_of_group(s->b) * nv;
+  const pendres_basin_state *state = rows;
   basins_write_rows(s->b, first / nv, n / nv, rows);
-  take_unresolved(s->b, first, n, rows, &s->lost, s->lost.n + TASK_LOST);
+  for (size_t at = 0, count; at < n; at += count) {
+    const size_t number = (first + at) / group, end = (number + 1) * group - first;
+    count = (end < n ? end : n) - at;
+    if (l->most == 0 || number != l->group) l->most = l->n + TASK_LOST;
+    l->group = number;
+    take_unresolved(s->b, first + at, count, state + at, l, l->most);
+  }
   const pendres_status status = pendres_basin_sums_add(s->b->sums, n / nv, rows);
   return scene_going(s->b->run) ? status : s->b->run->status;
 }
@@ -181,14 +196,15 @@ static size_t extend(basins *b, const lost *l)
 
 static size_t sweep_once(basins *b, int last)
 {
-  const size_t nv = b->grid.nv, rows = 1 + TASK_STATES / nv;
+  const size_t nv = b->grid.nv, nx = b->grid.nx, group = rows_of_group(b);
+  const size_t some = (nx + BASINS_TASKS - 1) / BASINS_TASKS, rows = some < group ? some : group;
   states s = {.b = b,
-              .points = {.n = b->grid.nx * nv, .chunk = rows * nv,
+              .points = {.n = nx * nv, .chunk = rows * nv,
                          .size = sizeof(pendres_basin_state), .compute = find_rows,
                          .leave_out = leave_out, .check = check, .collect = collect_rows,
                          .name = name_point, .unmarked = 1, .arg = &s}};
   restart(b);
-  s.lost.index = scene_array(b->run, (b->grid.nx + rows - 1) / rows * TASK_LOST,
+  s.lost.index = scene_array(b->run, (nx + group - 1) / group * TASK_LOST,
                              sizeof *s.lost.index);
   SCENE_COMPUTE(b->run, &s.points, "groups of rows", .element = sizeof(pendres_basin_state));
   return last ? 0 : extend(b, &s.lost);
@@ -265,49 +281,59 @@ static void verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
   b->filled += pendres_basin_plan_filled(p);
 }
 
-/* States of some rows that have been refined. */
+/* Rows whose states have been refined. */
 typedef struct band {
   basins *b;
   size_t first, rows;
-  const pendres_basin_state *state;
+  const pendres_basin_plan *plan;
+  lost *to;
 } band;
 
-/* What is done with them: the first thing is to write them, the second to add them up. */
-static pendres_status use_band(pendres_context *ctx, size_t first, size_t count, void *arg)
+/* What is done with them, some at a time: the first thing is to write them, the second to add them
+   up. */
+static pendres_status use_band(pendres_context *ctx, size_t number, size_t count, void *arg)
 {
   const band *s = arg;
+  const size_t nv = s->b->grid.nv, most = s->rows < BASINS_ROWS ? s->rows : BASINS_ROWS;
+  pendres_status status = PENDRES_OK;
+  pendres_basin_state *state = malloc(most * nv * sizeof *state);
   (void)ctx;
   (void)count;
-  if (first > 0) return pendres_basin_sums_add(s->b->sums, s->rows, s->state);
-  basins_write_rows(s->b, s->first, s->rows, s->state);
-  return PENDRES_OK;
+  if (state == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0, n; i < s->rows && status == PENDRES_OK; i += n) {
+    n = s->rows - i < most ? s->rows - i : most;
+    status = pendres_basin_plan_rows(s->plan, i, n, state);
+    if (status == PENDRES_OK && number == 0) {
+      basins_write_rows(s->b, s->first + i, n, state);
+    } else if (status == PENDRES_OK) {
+      status = pendres_basin_sums_add(s->b->sums, n, state);
+      take_unresolved(s->b, (s->first + i) * nv, n * nv, state, s->to, TASK_LOST);
+    }
+  }
+  free(state);
+  return status;
 }
 
 /* Compute rows first .. first + rows - 1 by a plan. */
 static void refine_band(basins *b, size_t first, size_t rows, lost *to)
 {
   pendres_basin_plan *p = NULL;
-  const size_t n = rows * b->grid.nv;
   if (!scene_going(b->run) || !planned(b, pendres_basin_plan_create(&b->grid, first, rows, 0, &p)))
     return;
   follow_plan(b, p);
   verify_plan(b, p, rows);
   b->integrated += pendres_basin_plan_integrated(p);
-  pendres_basin_state *state = malloc(n * sizeof *state);
-  if (planned(b, state != NULL ? pendres_basin_plan_states(p, state) : PENDRES_OUT_OF_MEMORY)) {
-    const pendres_parts both = {.n = 2, .each = 1, .threads = farm_threads(b->run->farm)};
-    planned(b, pendres_parts_run(&both, use_band, &(band){b, first, rows, state}, NULL, 0));
-    take_unresolved(b, first * b->grid.nv, n, state, to, TASK_LOST);
-  }
+  const pendres_parts both = {.n = 2, .each = 1, .threads = farm_threads(b->run->farm)};
+  if (scene_going(b->run))
+    planned(b, pendres_parts_run(&both, use_band, &(band){b, first, rows, p, to}, NULL, 0));
   pendres_basin_plan_free(p);
-  free(state);
 }
 
 static size_t refine_once(basins *b, int last)
 {
   const size_t band = 1 + (BASINS_BAND - 1) / b->grid.nv, nx = b->grid.nx;
   size_t index[TASK_LOST];
-  lost some = {0, index};
+  lost some = {.index = index};
   restart(b);
   b->integrated = b->verified = b->missed = b->filled = b->clean = 0;
   for (size_t i = 0; i < nx; i += band)

@@ -1,5 +1,6 @@
 /* basins_write.c -- the file and the table of scene `basins`; see basins.h. */
 #include "scenes/basins.h"
+#include "scenes/numbers.h"
 #include "scenes/columns.h"
 
 #include <math.h>
@@ -83,13 +84,12 @@ void basins_define(basins *b)
 
 void basins_write_rows(basins *b, size_t first, size_t rows, const pendres_basin_state *state)
 {
-  enum { ROWS = 256 /* copied at a time, to bound memory */ };
   const size_t nv = b->grid.nv;
   const scene_variables of = variables_of(b);
-  state_row *some = calloc((rows < ROWS ? rows : ROWS) * nv + 1, sizeof *some);
+  state_row *some = calloc((rows < BASINS_ROWS ? rows : BASINS_ROWS) * nv + 1, sizeof *some);
   if (some == NULL) scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu rows", rows);
-  for (size_t i = 0; i < rows && scene_going(b->run); i += ROWS) {
-    const size_t n = rows - i < ROWS ? rows - i : ROWS;
+  for (size_t i = 0; i < rows && scene_going(b->run); i += BASINS_ROWS) {
+    const size_t n = rows - i < BASINS_ROWS ? rows - i : BASINS_ROWS;
     const scene_table table = state_table("", "v", n * nv, some);
     state_rows(n * nv, state + i * nv, some);
     scene_columns_write_rows(b->run, &table, first + i, n, &of);

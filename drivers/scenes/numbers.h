@@ -15,10 +15,13 @@ enum {
   TASK_EXPONENTS = 8192,  /* pendulums, at least; four times as many at most, and so few that ... */
   TASKS_OF_EXPONENTS = 32, /* ... there are as many tasks as this */
   TASK_SAMPLES = 65536,   /* of a record, or one period */
-  TASK_STATES = 65536,    /* of a basin: whole rows of about this number */
+  TASK_STATES = 65536,    /* of a basin: whole rows of about this number, but so few that ... */
+  BASINS_TASKS = 16,      /* ... there are as many tasks as this: for 3 % of the time two threads or
+                             more have work on small grids, too */
   TASK_REFINED = 4096,    /* states in a refinement: several blocks; fewer are not worth a stage */
-  TASK_LOST = 64,         /* unresolved states that a task remembers */
-  BASINS_BAND = 1 << 24   /* states that a plan holds at a time */
+  TASK_LOST = 64,         /* unresolved states of so many, TASK_STATES, that are remembered */
+  BASINS_BAND = 1 << 24,  /* states that a plan holds at a time */
+  BASINS_ROWS = 256       /* rows of it that are written or added up at a time */
 };
 
 /* States that a refinement has filled are verified: so many of them, or one of so many if these are

@@ -147,6 +147,10 @@ pendres_status pendres_basin_plan_verify(pendres_basin_plan *plan,
 /** All states of the plan's rows, filled in or integrated; state[rows * nv] is written. */
 pendres_status pendres_basin_plan_states(const pendres_basin_plan *plan,
                                          pendres_basin_state *state);
+/** The same of some rows, counted from the first of the plan; state[rows * nv] is written. Several
+    threads may ask at a time. */
+pendres_status pendres_basin_plan_rows(const pendres_basin_plan *plan, size_t first, size_t rows,
+                                       pendres_basin_state *state);
 /** How many of them were integrated. */
 size_t pendres_basin_plan_integrated(const pendres_basin_plan *plan);
 /** How many are filled in. */

@@ -15,7 +15,8 @@ static const double golden_angle = 2.39996322972865332;
 /* A difference of angles, reduced by whole turns to at most half a turn either way. */
 static inline double pendres_less_turns(double difference, double turn)
 {
-  return difference - turn * rint(difference / turn);
+  /* Most need neither the division nor the rounding. */
+  return fabs(difference) <= 0.5 * turn ? difference : difference - turn * rint(difference / turn);
 }
 
 #endif

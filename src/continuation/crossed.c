@@ -8,6 +8,7 @@
 #include "continuation/curve.h"
 #include "continuation/numbers.h"
 #include "continuation/parameter.h"
+#include "continuation/sets.h"
 #include "continuation/units.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
@@ -38,22 +39,13 @@ pendres_orbit_guess pendres_branch_between(const pendres_orbit *p, const pendres
     .winding = p->winding};
 }
 
-static pendres_status branch_cross(pendres_context *ctx, const pendres_curve *b, double value,
-                                   size_t room, pendres_orbit *out, size_t *found)
+/* Guess the orbits of a branch at a value of its parameter; returns their number. guess: NULL, to
+   count them. */
+static size_t guesses_at(const pendres_curve *b, double value, pendres_orbit_guess *guess)
 {
-  if (b == NULL || found == NULL || (room > 0 && out == NULL))
-    return PENDRES_CONTEXT_NULL(ctx, "branch, out and found");
-  if (!isfinite(value))
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
-  *found = 0;
   const int closed = pendres_curve_closed(b);
   const size_t chords = chords_of(b);
-  pendres_room arrays = pendres_room_open(ctx, "orbits");
-  pendres_orbit_guess *guess = pendres_room_take(&arrays, chords, sizeof *guess);
-  pendres_orbit *orbit = pendres_room_take(&arrays, chords, sizeof *orbit);
-  pendres_status *outcome = pendres_room_take(&arrays, chords, sizeof *outcome);
   size_t n = 0;
-  if (arrays.status != PENDRES_OK) return pendres_room_close(&arrays, arrays.status);
   for (size_t i = 0; i < chords; i++) {
     const size_t k = (i + 1) % b->count;
     const double from = pendres_branch_value(b, i) - value, to = pendres_branch_value(b, k) - value;
@@ -61,17 +53,63 @@ static pendres_status branch_cross(pendres_context *ctx, const pendres_curve *b,
     /* A value that a point has exactly belongs to the chord that begins there. */
     if (from != 0.0 && !(from * to < 0.0) && !last) continue;
     const double part = from == 0.0 ? 0.0 : last ? 1.0 : from / (from - to);
-    guess[n++] = pendres_branch_between(&b->branch_point[i].orbit, &b->branch_point[k].orbit, part,
+    if (guess != NULL)
+      guess[n] = pendres_branch_between(&b->branch_point[i].orbit, &b->branch_point[k].orbit, part,
                                         pendres_curve_parameter(b, 0), value);
+    n++;
   }
-  const pendres_status status =
-    pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    if (outcome[i] == PENDRES_NOT_CONVERGED) continue;
-    if (*found < room) out[*found] = orbit[i];
-    ++*found;
-  }
-  return pendres_room_close(&arrays, status);
+  return n;
+}
+
+pendres_status pendres_branch_cross_each(pendres_context *ctx, const pendres_branch *branch,
+                                         size_t n, const double *value,
+                                         pendres_branch_crossed *take, void *arg)
+{
+  const pendres_curve *b = &branch->curve;
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  size_t *first = pendres_room_take(&room, n + 1, sizeof *first);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t k = 0; k < n; k++) first[k + 1] = first[k] + guesses_at(b, value[k], NULL);
+  pendres_orbit_guess *guess = pendres_room_take(&room, first[n], sizeof *guess);
+  pendres_orbit *orbit = pendres_room_take(&room, first[n], sizeof *orbit);
+  pendres_status *outcome = pendres_room_take(&room, first[n], sizeof *outcome);
+  pendres_status status = room.status;
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+    (void)guesses_at(b, value[k], guess + first[k]);
+  if (status == PENDRES_OK)
+    status = pendres_orbit_find(ctx, first[n], guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+    for (size_t i = first[k]; i < first[k + 1]; i++)
+      if (outcome[i] != PENDRES_NOT_CONVERGED) take(arg, k, &orbit[i]);
+  return pendres_room_close(&room, status);
+}
+
+/* The caller's room for orbits, and how many there are. */
+typedef struct crossed {
+  size_t room, found;
+  pendres_orbit *out;
+} crossed;
+
+static void take_one(void *arg, size_t k, const pendres_orbit *orbit)
+{
+  crossed *c = arg;
+  (void)k;
+  if (c->found < c->room) c->out[c->found] = *orbit;
+  c->found++;
+}
+
+static pendres_status branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
+                                   size_t room, pendres_orbit *out, size_t *found)
+{
+  if (b == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "branch, out and found");
+  *found = 0;
+  if (!isfinite(value))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
+  crossed c = {.room = room, .out = out};
+  const pendres_status status = pendres_branch_cross_each(ctx, b, 1, &value, take_one, &c);
+  *found = c.found;
+  return status;
 }
 
 pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
@@ -80,7 +118,8 @@ pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *
   pendres_door d;
   const pendres_curve *inside = pendres_curve_open(&d, ctx, b != NULL ? &b->curve : NULL);
   PENDRES_DOOR_OUT(&d, orbit, room, out);
-  return PENDRES_DOOR_END(&d, branch_cross(ctx, inside, value / d.scales.first, room, out, found));
+  return PENDRES_DOOR_END(&d, branch_cross(ctx, (const pendres_branch *)inside,
+                                           value / d.scales.first, room, out, found));
 }
 
 /*

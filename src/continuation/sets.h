@@ -55,4 +55,11 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        const pendres_branch_options *options,
                                        pendres_branches *branches);
 
+/* Call take(arg, k, orbit) for each orbit of a branch at each of n finite values of its parameter,
+   value[k], in their order; within a door, whose units all are in. */
+typedef void pendres_branch_crossed(void *arg, size_t k, const pendres_orbit *orbit);
+pendres_status pendres_branch_cross_each(pendres_context *ctx, const pendres_branch *branch,
+                                         size_t n, const double *value,
+                                         pendres_branch_crossed *take, void *arg);
+
 #endif

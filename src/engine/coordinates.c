@@ -46,9 +46,14 @@ pendres_coordinates pendres_coordinates_in(const pendres_pendulum *p, double x, 
 {
   pendres_coordinates s = {.y = NAN, .w = v / p->drive_frequency};
   if (!(fabs(x) <= pendres_farthest)) return s;
-  const double origin = pendres_model_origin(p);
+  const double origin = pendres_model_origin(p), turn = pendres_model_turn(p), from = x - origin;
+  if (fabs(from) <= 0.5 * turn) {
+    s.y = from;
+    pendres_coordinates_wrap(p, &s.y, &s.turns);
+    return s;
+  }
   /* Whole turns first: the difference would lose digits of a large x. */
-  const double k = rint((x - origin) / pendres_model_turn(p));
+  const double k = rint(from / turn);
   s.turns = (long)k;
   s.y = fma(-k, two_pi_low, fma(-k, two_pi, x)) - origin;
   pendres_coordinates_wrap(p, &s.y, &s.turns);

@@ -10,14 +10,21 @@ typedef struct filling {
   const pendres_strobe_job *job;
   size_t *slot; /* the lane that is in a slot of the block */
   size_t filled;
-  int carry; /* errors */
+  const pendres_rank *next, *end; /* the lanes that wait, */
+  size_t taken;                   /* and how many of the first rank do not any more */
+  int fixed; /* steps */
+  int carry; /* errors, in this class */
 } filling;
 
-/* Put what runs as number i into a slot. */
-static void put(filling *f, size_t slot, size_t i)
+/* Put the next lane that waits into a slot. */
+static void put(filling *f, size_t slot)
 {
-  const size_t index = pendres_strobe_which(f->job, i);
+  const size_t index = pendres_strobe_which(f->job, f->next->index + f->taken);
   pendres_strobe_lane *l = &f->job->lanes[index];
+  if (++f->taken == f->next->count) {
+    f->next++;
+    f->taken = 0;
+  }
   f->slot[slot] = index;
   if (l->way == PENDRES_FLOW_SPLIT)
     pendres_block_split_state(l->pendulum, l->steps, 0, &l->y, &l->w);
@@ -48,30 +55,34 @@ static int look(filling *f, size_t slot)
   return done;
 }
 
-/* Run all lanes of one class of steps, queue[0..n). */
-static pendres_status run_class(filling *f, const pendres_rank *queue, size_t n)
+/* Run all lanes of one class of steps, first..end. */
+static pendres_status run_class(filling *f, const pendres_rank *first, const pendres_rank *end)
 {
-  size_t next = 0;
+  size_t n = 0;
   const size_t capacity = pendres_block_capacity(f->block);
-  pendres_status status = PENDRES_OK;
+  for (const pendres_rank *r = first; r < end; r++) n += r->count;
+  f->next = first;
+  f->end = end;
+  f->taken = 0;
+  f->filled = n < capacity ? n : capacity;
+  f->carry = f->fixed && f->job->lanes[pendres_strobe_which(f->job, first->index)].added > 0.0;
   pendres_block_clear(f->block);
-  if (queue[0].steps > 0) status = pendres_block_set_steps(f->block, queue[0].steps);
+  pendres_status status =
+    pendres_block_carry(f->block, f->carry ? PENDRES_FLOW_ERRORS : PENDRES_FLOW_NOTHING);
+  if (status == PENDRES_OK && first->steps > 0)
+    status = pendres_block_set_steps(f->block, first->steps);
   if (status != PENDRES_OK) return status;
 
-  f->filled = n < capacity ? n : capacity;
   pendres_block_resize(f->block, f->filled);
-  while (next < f->filled) {
-    put(f, next, queue[next].index);
-    next++;
-  }
+  for (size_t slot = 0; slot < f->filled; slot++) put(f, slot);
   while (f->filled > 0) {
-    status = pendres_block_period_by(f->block, queue[0].way);
+    status = pendres_block_period_by(f->block, first->way);
     if (status != PENDRES_OK) return status;
     for (size_t slot = 0; slot < f->filled;) {
       if (!look(f, slot)) {
         slot++;
-      } else if (next < n) {
-        put(f, slot++, queue[next++].index);
+      } else if (f->next < f->end) {
+        put(f, slot++);
       } else {
         /* No lane waits for this slot: the last lane, which is still to be visited, takes it. */
         f->filled--;
@@ -86,39 +97,56 @@ static pendres_status run_class(filling *f, const pendres_rank *queue, size_t n)
   return PENDRES_OK;
 }
 
+/* Gather the lanes of a job that may share a block and lie one after another; returns how many
+   such ranks there are. ranks: NULL, to count them. */
+static size_t gather(const pendres_strobe_job *job, int fixed, pendres_rank *ranks)
+{
+  size_t count = 0;
+  const pendres_strobe_lane *before = NULL;
+  pendres_rank last = {.count = 0};
+  for (size_t i = 0; i < job->n; i++) {
+    const pendres_strobe_lane *l = &job->lanes[pendres_strobe_which(job, i)];
+    const int steps = fixed ? l->steps : 0;
+    const pendres_flow_way way = fixed ? l->way : PENDRES_FLOW_TABLE;
+    if (before != NULL && l->pendulum == before->pendulum && steps == last.steps &&
+        way == last.way) {
+      last.count++;
+    } else {
+      last = (pendres_rank){.steps = steps, .model = pendres_model_kind(l->pendulum),
+                            .way = way, .index = i, .count = 1};
+      count++;
+    }
+    before = l;
+    if (ranks != NULL) ranks[count - 1] = last;
+  }
+  return count;
+}
+
 /*
  * Run lanes as pendres_method_functions says, in a block of states: with each lane's own steps if
  * they are fixed. Lanes with the same number of steps share blocks; a lane that is done is replaced
- * immediately. Errors are propagated if steps are fixed and the first lane has `added` > 0.
+ * immediately. With fixed steps errors are propagated where the first lane of a block has `added` >
+ * 0.
  */
 static pendres_status run_block(pendres_context *ctx, pendres_block *block, int fixed,
                                 const pendres_strobe_job *job)
 {
-  const size_t n = job->n;
-  const pendres_strobe_lane *lanes = job->lanes;
   pendres_room room = pendres_room_open(ctx, "lanes");
-  filling f = {.block = block, .job = job,
-               .carry = fixed && lanes[pendres_strobe_which(job, 0)].added > 0.0};
-  pendres_rank *queue = pendres_room_take(&room, n, sizeof *queue);
+  filling f = {.block = block, .job = job, .fixed = fixed};
+  const size_t n = gather(job, fixed, NULL);
+  pendres_rank *ranks = pendres_room_take(&room, n, sizeof *ranks);
   f.slot = pendres_room_take(&room, pendres_block_capacity(block), sizeof *f.slot);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  for (size_t i = 0; i < n; i++) {
-    const size_t index = pendres_strobe_which(job, i);
-    queue[i] = (pendres_rank){.steps = fixed ? lanes[index].steps : 0,
-                              .model = pendres_model_kind(lanes[index].pendulum),
-                              .way = fixed ? lanes[index].way : PENDRES_FLOW_TABLE,
-                              .index = i};
-  }
-  pendres_rank_order(n, queue);
+  (void)gather(job, fixed, ranks);
+  pendres_rank_order(n, ranks);
   pendres_status status = PENDRES_OK;
-  if (f.carry) status = pendres_block_carry(f.block, PENDRES_FLOW_ERRORS);
   for (size_t first = 0; first < n && status == PENDRES_OK;) {
     size_t last = first;
-    while (last < n && pendres_rank_equal(&queue[last], &queue[first])) last++;
-    status = run_class(&f, queue + first, last - first);
+    while (last < n && pendres_rank_equal(&ranks[last], &ranks[first])) last++;
+    status = run_class(&f, ranks + first, ranks + last);
     first = last;
   }
-  if (f.carry) (void)pendres_block_carry(f.block, PENDRES_FLOW_NOTHING);
+  (void)pendres_block_carry(f.block, PENDRES_FLOW_NOTHING);
   return pendres_room_close(&room, status);
 }
 

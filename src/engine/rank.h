@@ -8,15 +8,15 @@
 
 #include "engine/kernels.h"
 
-/* A lane's place in a list, its steps and the kernels that it needs. */
+/* Lanes that lie one after another in a list, their steps and the kernels that they need. */
 typedef struct pendres_rank {
   int steps;
   pendres_model_terms model;
   pendres_flow_way way;
-  size_t index;
+  size_t index, count; /* the first, and how many there are */
 } pendres_rank;
 
-/* Sort lanes by model, steps and way; those that may share a block keep their order. */
+/* Sort by model, steps and way; those that may share a block keep their order. */
 void pendres_rank_order(size_t n, pendres_rank *rank);
 
 static inline int pendres_rank_equal(const pendres_rank *a, const pendres_rank *b)

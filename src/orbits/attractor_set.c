@@ -36,11 +36,9 @@ const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attr
   return NULL;
 }
 
-int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
-                                 long *well)
+int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_trapping_ellipse *t,
+                                 const pendres_strobe_lane *lane, long *well)
 {
-  const pendres_trapping_ellipse *t = pendres_attractor_set_ellipse(c, lane->y, lane->w);
-  if (t == NULL) return -1;
   *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / t->turn);
   return c->owner[t - c->ellipse];
 }

@@ -139,12 +139,12 @@ int pendres_attractor_set_are_images(const pendres_orbit *a, const pendres_orbit
  */
 void pendres_attractor_set_compare_images(pendres_attractor_set *c);
 
-/* The ellipse that a lane is in: its attractor and well; -1 if in none. */
-int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_strobe_lane *lane,
-                                 long *well);
-
 /* The ellipse that a state is in; NULL if in none. */
 const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
                                                               double y, double w);
+
+/* The number of the attractor, and the well, that a lane in one of the set's ellipses is on. */
+int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_trapping_ellipse *t,
+                                 const pendres_strobe_lane *lane, long *well);
 
 #endif

@@ -29,7 +29,7 @@ static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   const double angle = lane->y + two_pi * (double)lane->turns;
   const double turn = pendres_model_turn(lane->pendulum);
   const double advance = angle - s->angle[index], turns = rint(advance / turn);
-  const double moved = hypot(advance - turn * turns, lane->w - me->w);
+  const double dy = advance - turn * turns, dw = lane->w - me->w;
   s->angle[index] = angle;
   me->y = lane->y;
   me->w = lane->w;
@@ -39,7 +39,7 @@ static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
     me->y = NAN;
   if (!(isfinite(advance) && isfinite(me->y))) return 1;
   me->winding = (int)turns;
-  return moved < guess_at_rest || lane->period >= s->periods[me->set];
+  return dy * dy + dw * dw < guess_at_rest * guess_at_rest || lane->period >= s->periods[me->set];
 }
 
 /* Periods after which a transient has faded to a hundredth. */

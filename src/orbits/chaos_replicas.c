@@ -11,11 +11,13 @@
 #include "orbits/growth.h"
 #include "orbits/orbit_span.h"
 #include "engine/context_internal.h"
+#include "engine/room.h"
 #include "engine/block.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "engine/team.h"
 #include "model/model.h"
+#include "orbits/numbers.h"
 
 pendres_replica pendres_replica_at(double y, double w)
 {
@@ -202,43 +204,38 @@ static void record(pendres_replica_trace *t, long filled, size_t replica, const 
   t->w[at] = a->w;
 }
 
-/* Replicas that are advanced, some on each thread. */
+/* Replicas that are advanced by so many periods. */
 typedef struct advance {
-  const pendres_attractor_set *c;
-  pendres_replica *a;
-  long periods;
-  pendres_replica_trace *trace;
+  const pendres_attractor_set *set;
+  pendres_replica *replica;
   int steps;
+  long periods;
+  pendres_replica_trace *trace; /* NULL: none is kept */
 } advance;
 
-static pendres_status advance_some(pendres_context *ctx, size_t begin, size_t n, void *arg)
+/* Some of them; no more than a block holds. */
+static pendres_status advance_some(pendres_context *ctx, size_t first, size_t n, void *arg)
 {
   const advance *of = arg;
   pendres_block *block;
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, of->steps, &block);
   if (status != PENDRES_OK) return status;
-  const size_t capacity = pendres_block_capacity(block), most = n < capacity ? n : capacity;
-  double *rows = malloc((WATCHED * most + 1) * sizeof *rows);
-  if (rows == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu replicas", n);
+  pendres_room room = pendres_room_open(ctx, "replicas");
+  double *rows = pendres_room_take(&room, WATCHED * n, sizeof *rows);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   status = pendres_block_carry(block, PENDRES_FLOW_TANGENTS);
-  for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
-    watched_block b = {.pendulum = &of->c->pendulum, .steps = of->steps,
-                       .a = of->a + begin + first,
-                       .n = n - first < capacity ? n - first : capacity,
-                       .work = rows, .other = rows + most, .loss = rows + 2 * most,
-                       .low = rows + 3 * most, .high = rows + 4 * most,
-                       .last_y = rows + 5 * most, .last_w = rows + 6 * most};
-    load(block, &b);
-    for (long k = 0; k < of->periods && status == PENDRES_OK; k++) {
-      status = advance_block(block, &b, of->c, of->trace != NULL, k == of->periods - 1);
-      for (size_t i = 0; i < b.n && of->trace != NULL && status == PENDRES_OK; i++)
-        record(of->trace, of->trace->filled + k, begin + first + i, &b.a[i]);
-    }
+  watched_block b = {.pendulum = &of->set->pendulum, .steps = of->steps, .a = of->replica + first,
+                     .n = n, .work = rows, .other = rows + n, .loss = rows + 2 * n,
+                     .low = rows + 3 * n, .high = rows + 4 * n,
+                     .last_y = rows + 5 * n, .last_w = rows + 6 * n};
+  if (status == PENDRES_OK) load(block, &b);
+  for (long k = 0; k < of->periods && status == PENDRES_OK; k++) {
+    status = advance_block(block, &b, of->set, of->trace != NULL, k == of->periods - 1);
+    for (size_t i = 0; i < n && of->trace != NULL && status == PENDRES_OK; i++)
+      record(of->trace, of->trace->filled + k, first + i, &b.a[i]);
   }
   (void)pendres_block_carry(block, PENDRES_FLOW_NOTHING);
-  free(rows);
-  return status;
+  return pendres_room_close(&room, status);
 }
 
 pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attractor_set *c,
@@ -246,7 +243,7 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
                                         pendres_replica *a, long periods,
                                         pendres_replica_trace *trace)
 {
-  advance of = {.c = c, .a = a, .periods = periods, .trace = trace};
+  advance of = {.set = c, .replica = a, .periods = periods, .trace = trace};
   double fastest = 0.0;
   const double origin = pendres_model_origin(&c->pendulum), omega = c->pendulum.drive_frequency;
   for (size_t i = 0; i < n; i++)
@@ -254,8 +251,9 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
   pendres_status status =
     pendres_steps_choose(ctx, &c->pendulum, fastest, pendres_accuracy_in_chaos(ctx), &of.steps);
   of.steps += of.steps % 2; /* for tangents with steps twice as long */
+  const size_t share = pendres_team_share(ctx, n), block = (size_t)ctx->options.block_lanes;
   if (status == PENDRES_OK)
-    status = pendres_team_run(ctx, n, pendres_team_share(ctx, n), advance_some, &of);
+    status = pendres_team_run(ctx, n, share < block ? share : block, advance_some, &of);
   if (trace != NULL) trace->filled += periods;
   return status;
 }

@@ -24,11 +24,12 @@ pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
   const double square = p->drive_frequency * p->drive_frequency;
   const int plain = pendres_model_kind(p) == PENDRES_MODEL_PLAIN;
   double *const sample[3] = {work, work + n, work + 2 * n};
-
+  const double *cosine = pendres_orbit_tables_cosine(s->tables, n, s->period);
+  if (cosine == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t k = 0; k < n; k++) {
     const double theta = spacing * (double)k;
-    const double force = plain ? p->drive_amplitude * cos(theta) - sin(s->y[k])
-                               : force_on(p, s->y[k], cos(theta));
+    const double force = plain ? p->drive_amplitude * cosine[k] - sin(s->y[k])
+                               : force_on(p, s->y[k], cosine[k]);
     sample[0][k] = s->y[k] - s->winding * theta / q;
     sample[1][k] = q * s->w[k] - s->winding;
     sample[2][k] = q * q * (force / square - p->damping / p->drive_frequency * s->w[k]);
@@ -49,7 +50,7 @@ static double symmetry_defect(const pendres_orbit_series *s, int q)
   size_t closures = 1;
   while ((size_t)q % (2 * closures) == 0) closures *= 2;
   for (size_t m = 1; m < s->modes; m++) {
-    const int odd = m % closures == 0 && (m / closures) % 2 == 1;
+    const int odd = m % (2 * closures) == closures;
     const double square = s->re[m] * s->re[m] + s->im[m] * s->im[m];
     if (!odd && square > largest) largest = square;
   }
@@ -60,13 +61,11 @@ static double symmetry_defect(const pendres_orbit_series *s, int q)
 static void keep_harmonics(const pendres_orbit_series *s, int q, pendres_orbit_measures *out)
 {
   double rest = 0.0;
-  for (size_t m = 1; m < s->modes; m++) {
-    if (m < PENDRES_ORBIT_SPECTRUM) {
-      out->spectrum[2 * m] = s->re[m];
-      out->spectrum[2 * m + 1] = s->im[m];
-    }
-    if (m % (size_t)q != 0) continue;
-    const size_t harmonic = m / (size_t)q;
+  for (size_t m = 1; m < s->modes && m < PENDRES_ORBIT_SPECTRUM; m++) {
+    out->spectrum[2 * m] = s->re[m];
+    out->spectrum[2 * m + 1] = s->im[m];
+  }
+  for (size_t m = (size_t)q, harmonic = 1; m < s->modes; m += (size_t)q, harmonic++) {
     if (harmonic > PENDRES_ORBIT_HARMONICS) {
       rest += 2.0 * hypot(s->re[m], s->im[m]);
       continue;

@@ -336,6 +336,22 @@ static pendres_status improve_some(pendres_context *ctx, size_t begin, size_t n,
   return PENDRES_OK;
 }
 
+/* Put the active ones of n candidates first, in the order in which they are; returns how many. */
+static size_t bring_forward(size_t n, pendres_newton_candidate *c)
+{
+  size_t active = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (c[i].state != PENDRES_NEWTON_ACTIVE) continue;
+    if (i > active) {
+      const pendres_newton_candidate swap = c[active];
+      c[active] = c[i];
+      c[i] = swap;
+    }
+    active++;
+  }
+  return active;
+}
+
 pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_newton_candidate *c)
 {
   size_t active = n;
@@ -344,14 +360,12 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_n
     c[i].iterations = 0;
     c[i].last_step = INFINITY;
   }
+  pendres_newton_order(n, c);
   while (active > 0) {
-    pendres_newton_order(n, c);
     const pendres_status status =
       pendres_team_run(ctx, active, pendres_newton_each(ctx, active, c), improve_some, c);
     if (status != PENDRES_OK) return status;
-    size_t still = 0;
-    for (size_t i = 0; i < active; i++) still += c[i].state == PENDRES_NEWTON_ACTIVE;
-    active = still;
+    active = bring_forward(active, c);
   }
   return PENDRES_OK;
 }

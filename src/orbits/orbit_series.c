@@ -2,11 +2,13 @@
 #include "orbits/orbit_series.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
 
 #include "base/angles.h"
+#include "base/grow.h"
 
 void pendres_orbit_tables_free(pendres_orbit_tables *t)
 {
@@ -14,7 +16,20 @@ void pendres_orbit_tables_free(pendres_orbit_tables *t)
   if (t->backward != NULL) gsl_fft_halfcomplex_wavetable_free(t->backward);
   if (t->work != NULL) gsl_fft_real_workspace_free(t->work);
   if (t->dense_work != NULL) gsl_fft_real_workspace_free(t->dense_work);
+  free(t->cosine);
   *t = (pendres_orbit_tables){0};
+}
+
+const double *pendres_orbit_tables_cosine(pendres_orbit_tables *t, size_t n, int turns)
+{
+  if (t->cosines == n && t->turns == turns) return t->cosine;
+  t->cosines = 0;
+  if (!pendres_regrow(&t->cosine, n, sizeof *t->cosine)) return NULL;
+  const double spacing = two_pi * turns / (double)n;
+  for (size_t k = 0; k < n; k++) t->cosine[k] = cos(spacing * (double)k);
+  t->cosines = n;
+  t->turns = turns;
+  return t->cosine;
 }
 
 /* Make the tables that n samples are transformed with, unless they are there already. */
@@ -145,7 +160,8 @@ pendres_status pendres_orbit_series_spread(pendres_orbit_tables *t, const pendre
     const double re = derivative ? -(double)m * s->im[m] : s->re[m];
     const double im = derivative ? (double)m * s->re[m] : s->im[m];
     /* Harmonics that points cannot tell apart have the same values there. */
-    const size_t rest = m % points, k = 2 * rest > points ? points - rest : rest;
+    const size_t rest = m < points ? m : m % points;
+    const size_t k = 2 * rest > points ? points - rest : rest;
     if (k == 0 || 2 * k == points) {
       out[k > 0 ? points - 1 : 0] += 2.0 * re;
       continue;
@@ -158,43 +174,68 @@ pendres_status pendres_orbit_series_spread(pendres_orbit_tables *t, const pendre
            : PENDRES_INTERNAL;
 }
 
-/* The extreme next to point number k of n, by Newton's method on the slope. */
-static double extreme_near(const pendres_orbit_series *s, size_t n, size_t k)
+/* Two numbers side by side: each operation waits for the one before, and takes as long for both. */
+typedef double pair __attribute__((vector_size(2 * sizeof(double))));
+
+/* Values and first two derivatives at two phases, as pendres_orbit_series_at(). */
+static void at_both(const pendres_orbit_series *s, const double phase[2], double out[2][3])
 {
-  const double spacing = two_pi / (double)n, start = spacing * (double)k;
-  double phase = start, f[3];
-  pendres_orbit_series_at(s, phase, f);
-  for (int i = 0; i < 8; i++) {
-    if (f[2] == 0.0) break;
-    const double next = phase - f[1] / f[2];
-    /* Newton's method leaves a top that is flat or inflected: the point itself is taken. */
-    if (!(fabs(next - start) <= 1.5 * spacing)) {
-      pendres_orbit_series_at(s, start, f);
-      break;
-    }
-    const double step = fabs(next - phase);
-    phase = next;
-    pendres_orbit_series_at(s, phase, f);
-    if (step < 1e-9) break; /* the value is flat there, and off by 1e-18 at most */
+  const pair turn_re = {cos(phase[0]), cos(phase[1])}, turn_im = {sin(phase[0]), sin(phase[1])};
+  pair re = {1.0, 1.0}, im = {0.0, 0.0}, f[3] = {{s->re[0], s->re[0]}, {0.0, 0.0}, {0.0, 0.0}};
+  for (size_t m = 1; m < s->modes; m++) {
+    const pair next = re * turn_re - im * turn_im;
+    const double k = (double)m, a = 2.0 * s->re[m], b = 2.0 * s->im[m];
+    im = re * turn_im + im * turn_re;
+    re = next;
+    f[0] += a * re - b * im;
+    f[1] += k * (-a * im - b * re);
+    f[2] += k * k * (-a * re + b * im);
   }
-  return f[0];
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 3; k++) out[i][k] = f[k][i];
 }
 
-/* The largest of sign times the series, from its values at n points. */
-static double largest(const pendres_orbit_series *s, size_t n, const double *y, double sign)
+/* The values of the extremes next to two of n points, by Newton's method on the slope. */
+static void extremes_near(const pendres_orbit_series *s, size_t n, const size_t point[2],
+                          double value[2])
 {
-  size_t top = 0;
-  for (size_t k = 1; k < n; k++)
-    if (sign * y[k] > sign * y[top]) top = k;
-  double best = sign * extreme_near(s, n, top);
-  /* Between other points a higher top may lie. It rises above its highest point by no more than
-     that point is above its neighbours. */
+  const double spacing = two_pi / (double)n;
+  const double start[2] = {spacing * (double)point[0], spacing * (double)point[1]};
+  double phase[2] = {start[0], start[1]}, f[2][3];
+  int going[2] = {1, 1};
+  at_both(s, phase, f);
+  for (int i = 0; i < 8 && (going[0] || going[1]); i++) {
+    for (int k = 0; k < 2; k++) {
+      if (!going[k]) continue;
+      const double next = f[k][2] != 0.0 ? phase[k] - f[k][1] / f[k][2] : phase[k];
+      /* Newton's method leaves a top that is flat or inflected: the point itself is taken. */
+      const int leaves = !(fabs(next - start[k]) <= 1.5 * spacing);
+      /* Where a step is as short as that, the value is flat, and off by 1e-18 at most. */
+      going[k] = !leaves && fabs(next - phase[k]) >= 1e-9;
+      phase[k] = leaves ? start[k] : next;
+    }
+    at_both(s, phase, f);
+  }
+  for (int k = 0; k < 2; k++) value[k] = f[k][0];
+}
+
+/*
+ * The largest of sign times the series, from its values at n points, the largest of them and that
+ * next to it. Between other points a higher top may lie. It rises above its highest point by no
+ * more than that point is above its neighbours.
+ */
+static double largest(const pendres_orbit_series *s, size_t n, const double *y, double sign,
+                      size_t top, double best)
+{
   double before = sign * y[n - 1], here = sign * y[0];
   for (size_t k = 0; k < n; k++) {
     const double after = sign * (k + 1 < n ? y[k + 1] : y[0]);
     if (k != top && before <= here && after <= here &&
-        here + fmax(here - before, here - after) > best)
-      best = fmax(best, sign * extreme_near(s, n, k));
+        here + fmax(here - before, here - after) > best) {
+      double value[2];
+      extremes_near(s, n, (const size_t[]){k, k}, value);
+      best = fmax(best, sign * value[0]);
+    }
     before = here;
     here = after;
   }
@@ -206,11 +247,17 @@ pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
                                              double *lowest)
 {
   const size_t points = 3 * s->samples;
-  double *dense = s->im + s->modes;
+  double *dense = s->im + s->modes, value[2];
+  size_t end[2] = {0, 0};
   const pendres_status status = pendres_orbit_series_spread(tables, s, 0, points, dense);
   if (status != PENDRES_OK) return status;
-  *highest = largest(s, points, dense, 1.0);
-  *lowest = -largest(s, points, dense, -1.0);
+  for (size_t k = 1; k < points; k++) {
+    if (dense[k] > dense[end[0]]) end[0] = k;
+    if (dense[k] < dense[end[1]]) end[1] = k;
+  }
+  extremes_near(s, points, end, value);
+  *highest = largest(s, points, dense, 1.0, end[0], value[0]);
+  *lowest = -largest(s, points, dense, -1.0, end[1], -value[1]);
   return PENDRES_OK;
 }
 

@@ -17,16 +17,23 @@
 #include <pendres/status.h>
 
 /*
- * Sines and cosines for the transforms, which cost about as much as a transform itself: kept for
- * the next orbit with the same number of samples. Starts as {0} and is freed by its owner.
+ * Sines and cosines for the transforms, which cost about as much as a transform itself, and of the
+ * drive: kept for the next orbit with the same number of samples. Starts as {0} and is freed by its
+ * owner.
  */
 typedef struct pendres_orbit_tables {
   gsl_fft_real_wavetable *forward;
   gsl_fft_halfcomplex_wavetable *backward;
   gsl_fft_real_workspace *work, *dense_work;
+  double *cosine; /* of n equal steps of so many turns */
+  size_t cosines;
+  int turns;
 } pendres_orbit_tables;
 
 void pendres_orbit_tables_free(pendres_orbit_tables *t);
+
+/* cos(2 pi turns k / n), k < n; NULL without memory. */
+const double *pendres_orbit_tables_cosine(pendres_orbit_tables *t, size_t n, int turns);
 
 /* y(phase) = re[0] + sum over m >= 1 of 2 (re[m] cos m phase - im[m] sin m phase), m < modes. */
 typedef struct pendres_orbit_series {

@@ -75,30 +75,6 @@ static int is_plain(const pendres_pendulum *p)
 }
 
 /*
- * The first run of plain pendulums may be in single precision up to this speed at the start; -1:
- * none may. The error that they carry includes its rounding, so that a label is certain or the
- * pendulum is run again. Near a small ellipse rounding may keep a pendulum from settling: the run
- * that waits for the last of them is in double precision.
- */
-static double fastest_in_float(const pendres_context *ctx, const pendres_pendulum *p)
-{
-  const double fastest = settle_farthest_in_float * p->drive_frequency / two_pi;
-  const int may = ctx->options.method == PENDRES_BLOCK_FIXED && pendres_settle_carries(ctx) &&
-                  is_plain(p) && pendres_steps_turning_speed(p) <= fastest;
-  return may ? fastest : -1.0;
-}
-
-/* Let a lane that starts with this speed, and whose steps are known, run in single precision if
-   these are no more exact than the rounding of a step in it. */
-static void choose_precision(double speed, double fastest, double accuracy, double rounding,
-                             pendres_strobe_lane *lane)
-{
-  if (speed > fastest || accuracy * accuracy < lane->steps * rounding * rounding) return;
-  lane->way = PENDRES_FLOW_FLOAT;
-  lane->added += rounding * rounding;
-}
-
-/*
  * Put those pendulums at their starts that have not settled with a certain label. soon: for a run
  * of plain ones that need not be exact, over so few periods that nothing goes wrong in it which the
  * error that they carry does not tell. In longer ones a pendulum next to a fold may miss the orbit
@@ -127,7 +103,8 @@ static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_s
       status =
         pendres_settle_load(ctx, c, from->x[i], from->v[i], roughly ? rough : exact, &lanes[i]);
       if (roughly)
-        choose_precision(speed, fastest_in_float(ctx, p), rough, rounding, &lanes[i]);
+        pendres_strobe_noise_choose(speed, pendres_strobe_noise_fastest(ctx, p), rough, rounding,
+                                    &lanes[i]);
     }
     before = i;
   }
@@ -272,7 +249,8 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
 {
   const pendres_pendulum *p = &c->pendulum;
   pendres_status status = PENDRES_OK;
-  const double fastest = budget == PENDRES_SETTLE_SHORT ? fastest_in_float(ctx, p) : -1.0;
+  const double fastest =
+    budget == PENDRES_SETTLE_SHORT ? pendres_strobe_noise_fastest(ctx, p) : -1.0;
   const double driven = pendres_settle_driven(c);
   const double rounding = pendres_strobe_noise_of_step_in_float();
   double added = 0.0;
@@ -288,7 +266,7 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
     if (i == 0 || lane[-1].steps != lane->steps)
       added = pendres_settle_added(ctx, accuracy, lane->steps);
     lane->added = added;
-    choose_precision(speed, fastest, accuracy, rounding, lane);
+    pendres_strobe_noise_choose(speed, fastest, accuracy, rounding, lane);
   }
   free(table);
   return status;

@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/coordinates.h"
 #include "engine/room.h"
 #include "engine/steps.h"
 #include "engine/team.h"
@@ -81,11 +82,10 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor
 pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
                                              double v)
 {
-  pendres_strobe_lane lane = pendres_strobe_lane_at(neighbour->pendulum, x, v);
-  lane.steps = neighbour->steps;
-  lane.added = neighbour->added;
-  lane.way = neighbour->way;
-  return lane;
+  const pendres_coordinates at = pendres_coordinates_in(neighbour->pendulum, x, v);
+  return (pendres_strobe_lane){.pendulum = neighbour->pendulum, .y = at.y, .w = at.w,
+                               .turns = at.turns, .steps = neighbour->steps,
+                               .added = neighbour->added, .way = neighbour->way};
 }
 
 static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
@@ -157,12 +157,12 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
                    const pendres_strobe_lane *lane)
 {
   pendres_outcome *o = &l->outcome[i];
-  const int attractor = pendres_attractor_set_locate(c, lane, &o->well);
-  if (attractor < 0) return 0;
-  o->attractor = attractor;
-  o->label = c->attractors[attractor].label;
+  const pendres_trapping_ellipse *in = pendres_attractor_set_ellipse(c, lane->y, lane->w);
+  if (in == NULL) return 0;
+  o->attractor = pendres_attractor_set_locate(c, in, lane, &o->well);
+  o->label = c->attractors[o->attractor].label;
   o->settling_periods = lane->period;
-  judge(l, i, error_ratio_in_ellipse(pendres_attractor_set_ellipse(c, lane->y, lane->w), lane));
+  judge(l, i, error_ratio_in_ellipse(in, lane));
   return 1;
 }
 

@@ -93,10 +93,9 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
  */
 static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres_strobe_lane *lane)
 {
-  long well;
   for (size_t k = watched; k < c->covers; k++)
     if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return 0;
-  return pendres_attractor_set_locate(c, lane, &well) < 0;
+  return pendres_attractor_set_ellipse(c, lane->y, lane->w) == NULL;
 }
 
 /*

@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "base/angles.h"
+#include "engine/context_internal.h"
+#include "engine/steps.h"
 #include "engine/tables.h"
 #include "orbits/numbers.h"
 
@@ -22,6 +25,24 @@ double pendres_strobe_noise_of_step(pendres_table table)
 double pendres_strobe_noise_of_step_in_float(void)
 {
   return 0x1p29 * pendres_strobe_noise_of_step(pendres_tables_float);
+}
+
+double pendres_strobe_noise_fastest(const pendres_context *ctx, const pendres_pendulum *p)
+{
+  const double fastest = settle_farthest_in_float * p->drive_frequency / two_pi;
+  const int may = ctx->options.method == PENDRES_BLOCK_FIXED &&
+                  ctx->options.steps_per_period == 0 &&
+                  pendres_model_kind(p) == PENDRES_MODEL_PLAIN &&
+                  pendres_steps_turning_speed(p) <= fastest;
+  return may ? fastest : -1.0;
+}
+
+void pendres_strobe_noise_choose(double speed, double fastest, double accuracy, double rounding,
+                                 pendres_strobe_lane *lane)
+{
+  const int may = speed <= fastest && accuracy * accuracy >= lane->steps * rounding * rounding;
+  lane->way = may ? PENDRES_FLOW_FLOAT : PENDRES_FLOW_TABLE;
+  if (may) lane->added += rounding * rounding;
 }
 
 double pendres_strobe_noise_of(double drive_frequency, const pendres_flow_error *carried)

@@ -10,6 +10,7 @@
 #include "engine/steps.h"
 #include "model/model.h"
 #include "orbits/numbers.h"
+#include "orbits/strobe_noise.h"
 #include "orbits/trapping_ring.h"
 
 /* ---- the linear map ---- */
@@ -214,7 +215,8 @@ static int patience(const pendres_orbit *o, pendres_trapping_effort effort)
 static void choose_ring(search *s, const pendres_trapping_ellipse *t, double radius, double home,
                         int points, int looks)
 {
-  s->ring[s->rings++] = (pendres_trapping_ring){
+  pendres_trapping_ring *r = &s->ring[s->rings++];
+  *r = (pendres_trapping_ring){
     .ellipse = t,
     .radius = radius,
     .home = home,
@@ -222,6 +224,7 @@ static void choose_ring(search *s, const pendres_trapping_ellipse *t, double rad
     .margin = home == 0.0 ? radius * (1.0 - s->base_share) : radius,
     .points = points,
     .looks = looks};
+  pendres_trapping_factor(t, r->factor);
 }
 
 static void choose_rings(search *s, const pendres_trapping_ellipse *t)
@@ -271,7 +274,7 @@ static void judge(search *s, const pendres_orbit *o, pendres_trapping_effort eff
     return;
   }
   for (int k = 0; k < s->rings; k++) {
-    if (!pendres_trapping_ring_holds(&s->ring[k])) {
+    if (s->ring[k].failed) {
       s->failed = s->ring[k].radius;
       break;
     }
@@ -313,6 +316,27 @@ static int most_between(int many)
   return many ? 2 * TRAPPING_MANY_POINTS : TRAPPING_FEW_POINTS;
 }
 
+/*
+ * Choose the steps of a ring. Those of ensembles are in single precision where the difference of
+ * two points from which a tangent is taken is known as well as their places have to be.
+ */
+static pendres_status choose_steps(pendres_context *ctx, const pendres_pendulum *p, int many,
+                                   pendres_trapping_ring *r)
+{
+  const pendres_trapping_ellipse *t = r->ellipse;
+  const double accuracy = pendres_trapping_tolerance(r->margin);
+  const double speed = pendres_steps_speed(p, t->y, t->w * p->drive_frequency);
+  const int turns = pendres_model_of(p->force)->period > 0.0;
+  r->lane = (pendres_strobe_lane){.pendulum = p};
+  const pendres_status status =
+    pendres_steps_choose(ctx, p, turns ? 0.0 : speed, accuracy, &r->lane.steps);
+  if (!many)
+    pendres_strobe_noise_choose(speed, pendres_strobe_noise_fastest(ctx, p),
+                                trapping_beside * accuracy,
+                                pendres_strobe_noise_of_step_in_float(), &r->lane);
+  return status;
+}
+
 /* Integrate the rings of all searches at once, and close the arcs of those that come home. */
 static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
                                 const pendres_orbit *orbits, const pass *of)
@@ -322,14 +346,7 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
   for (size_t i = 0; i < n; i++)
     for (int k = 0; k < s[i].rings && status == PENDRES_OK; k++) {
       pendres_trapping_ring *r = of->rings[count++] = &s[i].ring[k];
-      r->pendulum = &orbits[s[i].orbit].pendulum;
-      const pendres_trapping_ellipse *t = r->ellipse;
-      const double speed = pendres_model_of(r->pendulum->force)->period > 0.0
-                             ? 0.0
-                             : pendres_steps_speed(r->pendulum, t->y,
-                                                   t->w * r->pendulum->drive_frequency);
-      status = pendres_steps_choose(ctx, r->pendulum, speed,
-                                    pendres_trapping_tolerance(r->margin), &r->steps);
+      status = choose_steps(ctx, &orbits[s[i].orbit].pendulum, of->many, r);
     }
   if (status == PENDRES_OK)
     status = pendres_trapping_rings_run(ctx, count, of->rings, of->points, of->lanes);

@@ -30,14 +30,14 @@ typedef struct pendres_trapping_ellipse {
   double y, w;      /* centre: a Poincaré point of the orbit; y as in orbit.h, mean in well 0 */
   double metric[3]; /* P_yy, P_yw, P_ww */
   double radius;    /* 0: no ellipse was found */
-  double room;      /* for the error of what is inside, in the metric */
   double reach;     /* distance in the metric within which the larger region lies; 0: none */
+  double turn;      /* of the coordinate: model.h */
+  double room;      /* for the error of what is inside, in the metric */
   double unit;      /* of length, of the polynomial in the metric */
   double level;     /* its value on the region's edge */
   double term[PENDRES_TRAPPING_TERMS];
   int period;       /* of the orbit */
   int winding;
-  double turn;      /* of the coordinate: model.h */
 } pendres_trapping_ellipse;
 
 /* (z - centre)' P (z - centre), the angle taken modulo whole turns. */
@@ -66,12 +66,10 @@ static inline void pendres_trapping_coordinates(const pendres_trapping_ellipse *
   out[1] = l[2] * dw;
 }
 
-/* The state that has such coordinates. */
-static inline void pendres_trapping_state(const pendres_trapping_ellipse *t, double p, double q,
-                                          double *y, double *w)
+/* The state that has such coordinates; l: the factor. */
+static inline void pendres_trapping_state(const pendres_trapping_ellipse *t, const double l[3],
+                                          double p, double q, double *y, double *w)
 {
-  double l[3];
-  pendres_trapping_factor(t, l);
   const double dw = q / l[2];
   *y = t->y + (p - l[1] * dw) / l[0];
   *w = t->w + dw;

@@ -105,14 +105,16 @@ static void even_metric(const pendres_orbit *o, double p[3])
 /* Lay the points of a disk. */
 static void lay(disk *d, pendres_strobe_lane *lanes, const pendres_pendulum *p)
 {
+  double factor[3];
+  pendres_trapping_factor(&d->ellipse, factor);
   for (int i = 0; i < POINTS; i++) {
     const double r = (i / LEVEL_RAYS + 1.0) / LEVEL_CIRCLES;
     const double angle = two_pi * (i % LEVEL_RAYS) / LEVEL_RAYS;
     d->from[i][0] = r * cos(angle);
     d->from[i][1] = r * sin(angle);
     lanes[i] = (pendres_strobe_lane){.pendulum = p, .steps = d->steps};
-    pendres_trapping_state(&d->ellipse, d->radius * d->from[i][0], d->radius * d->from[i][1],
-                           &lanes[i].y, &lanes[i].w);
+    pendres_trapping_state(&d->ellipse, factor, d->radius * d->from[i][0],
+                           d->radius * d->from[i][1], &lanes[i].y, &lanes[i].w);
   }
 }
 

@@ -17,16 +17,36 @@ double pendres_trapping_tolerance(double margin)
   return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
 }
 
+/* The directions of a ring's points, all turned by the same angle. */
+typedef struct circle {
+  int points;
+  double angle[TRAPPING_MANY_POINTS];
+  double way[TRAPPING_MANY_POINTS][2]; /* cosine and sine */
+} circle;
+
+/* Set it for rings of so many points, unless it is that already; ahead: a share of an arc. */
+static void go_round(circle *c, int points, double ahead)
+{
+  if (c->points == points) return;
+  c->points = points;
+  for (int j = 0; j < points; j++) {
+    c->angle[j] = two_pi * j / points + ahead * two_pi / points;
+    c->way[j][0] = cos(c->angle[j]);
+    c->way[j][1] = sin(c->angle[j]);
+  }
+}
+
 static void start(pendres_trapping_point *q, pendres_trapping_ring *r, double angle,
-                  pendres_strobe_lane *lane)
+                  const double way[2], pendres_strobe_lane *lane)
 {
   q->of = r;
   q->angle = angle;
   q->looks = q->home = 0;
-  pendres_trapping_state(r->ellipse, r->radius * cos(angle), r->radius * sin(angle), &q->y[0],
+  pendres_trapping_state(r->ellipse, r->factor, r->radius * way[0], r->radius * way[1], &q->y[0],
                          &q->w[0]);
-  *lane = (pendres_strobe_lane){
-    .pendulum = r->pendulum, .y = q->y[0], .w = q->w[0], .steps = r->steps};
+  *lane = r->lane;
+  lane->y = q->y[0];
+  lane->w = q->w[0];
 }
 
 static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
@@ -59,9 +79,10 @@ static void chord_of(const pendres_trapping_point *a, const pendres_trapping_poi
   chord[1] = b->w[k] - a->w[k];
 }
 
-static double length_of(const pendres_trapping_ellipse *t, double y, double w)
+/* The square of a vector's length. */
+static double length2_of(const pendres_trapping_ellipse *t, double y, double w)
 {
-  return sqrt(t->metric[0] * y * y + 2.0 * t->metric[1] * y * w + t->metric[2] * w * w);
+  return t->metric[0] * y * y + 2.0 * t->metric[1] * y * w + t->metric[2] * w * w;
 }
 
 /* The angle from a to b, round the ring. */
@@ -71,15 +92,15 @@ static double width_of(const pendres_trapping_point *a, const pendres_trapping_p
   return width > 0.0 ? width : width + two_pi;
 }
 
-/* Take derivatives by the angle from a point further on; NaN where that one was not followed. */
-static void take_tangents(pendres_trapping_point *p, const pendres_trapping_point *further)
+/* The derivative by the angle at look k, times a width, from the point further on; NaN where that
+   one was not followed. */
+static void tangent_of(const pendres_trapping_point *p, int k, double width, double d[2])
 {
-  for (int k = 1; k <= p->looks; k++) {
-    double d[2] = {NAN, NAN};
-    if (k <= further->looks) chord_of(p, further, k, d);
-    p->ty[k] = d[0] / width_of(p, further);
-    p->tw[k] = d[1] / width_of(p, further);
-  }
+  d[0] = d[1] = NAN;
+  if (k > p->further->looks) return;
+  chord_of(p, p->further, k, d);
+  const double apart = width_of(p, p->further);
+  for (int i = 0; i < 2; i++) d[i] = width * (d[i] / apart);
 }
 
 pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
@@ -88,13 +109,18 @@ pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
                                           pendres_strobe_lane *lanes)
 {
   size_t count = 0;
+  circle c = {.points = 0};
   for (size_t i = 0; i < n; i++) {
     pendres_trapping_ring *r = rings[i];
     r->point = points + count;
+    go_round(&c, r->points, 0.0);
     for (int j = 0; j < r->points; j++, count++)
-      start(&points[count], r, two_pi * j / r->points, &lanes[count]);
+      start(&points[count], r, c.angle[j], c.way[j], &lanes[count]);
   }
-  return pendres_strobe_run(ctx, count, lanes, look, points);
+  const pendres_status status = pendres_strobe_run(ctx, count, lanes, look, points);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    if (rings[i]->home > 0.0 && !pendres_trapping_ring_holds(rings[i])) rings[i]->failed = 1;
+  return status;
 }
 
 /* ---- points ---- */
@@ -102,6 +128,7 @@ pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
 int pendres_trapping_ring_holds(const pendres_trapping_ring *r)
 {
   const pendres_trapping_point *points = r->point;
+  const double widest = trapping_widest_gap * r->radius;
   if (r->failed) return 0;
   for (int i = 0; i < r->points; i++) {
     const pendres_trapping_point *a = &points[i], *b = &points[(i + 1) % r->points];
@@ -110,7 +137,7 @@ int pendres_trapping_ring_holds(const pendres_trapping_ring *r)
     for (int k = 1; k <= both; k++) {
       double d[2];
       chord_of(a, b, k, d);
-      if (!(length_of(r->ellipse, d[0], d[1]) < trapping_widest_gap * r->radius)) return 0;
+      if (!(length2_of(r->ellipse, d[0], d[1]) < widest * widest)) return 0;
     }
   }
   return 1;
@@ -121,8 +148,8 @@ int pendres_trapping_ring_holds(const pendres_trapping_ring *r)
 double pendres_trapping_departure(const pendres_trapping_ellipse *t, const double chord[2],
                                   const double first[2], const double last[2])
 {
-  return 0.25 * (length_of(t, first[0] - chord[0], first[1] - chord[1]) +
-                 length_of(t, last[0] - chord[0], last[1] - chord[1]));
+  return 0.25 * (sqrt(length2_of(t, first[0] - chord[0], first[1] - chord[1])) +
+                 sqrt(length2_of(t, last[0] - chord[0], last[1] - chord[1])));
 }
 
 /* Whether the image of an arc, at some look, is inside the ellipse that is known already. */
@@ -132,13 +159,13 @@ static int arc_home(const pendres_trapping_ring *r, const pendres_trapping_point
   const double width = width_of(a, b);
   const int both = a->looks < b->looks ? a->looks : b->looks;
   for (int k = a->home < b->home ? a->home : b->home; k >= 1 && k <= both; k++) {
-    double d[2];
+    double d[2], first[2], last[2];
     chord_of(a, b, k, d);
+    tangent_of(a, k, width, first);
+    tangent_of(b, k, width, last);
     const double at[2] = {sqrt(pendres_trapping_norm2(r->ellipse, a->y[k], a->w[k])),
                           sqrt(pendres_trapping_norm2(r->ellipse, b->y[k], b->w[k]))};
-    const double departure = pendres_trapping_departure(
-      r->ellipse, d, (double[2]){width * a->ty[k], width * a->tw[k]},
-      (double[2]){width * b->ty[k], width * b->tw[k]});
+    const double departure = pendres_trapping_departure(r->ellipse, d, first, last);
     if (at[0] + departure <= r->room && at[1] + departure <= r->room) return 1;
   }
   return 0;
@@ -152,6 +179,12 @@ size_t pendres_trapping_ring_open(const pendres_trapping_ring *r, pendres_trappi
     if (!arc_home(r, arc.a, arc.b)) arcs[open++] = arc;
   }
   return open;
+}
+
+/* Whether a ring's points have come home, side by side; base rings have no home. */
+static int may_hold(const pendres_trapping_ring *r)
+{
+  return r->home > 0.0 && !r->failed;
 }
 
 /* Arcs that are not home: those of now, those of the next pass, and the points put into them. */
@@ -175,9 +208,11 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
   for (size_t i = 0; i < c->open; i++) {
     const pendres_trapping_arc arc = c->arcs[i];
     if (arc.a->of->failed) continue;
-    const double half = 0.5 * width_of(arc.a, arc.b), angle = arc.a->angle + half;
-    start(&middle[2 * n], arc.a->of, angle, &c->lanes[2 * n]);
-    start(&middle[2 * n + 1], arc.a->of, angle + trapping_beside * half, &c->lanes[2 * n + 1]);
+    const double half = 0.5 * width_of(arc.a, arc.b);
+    for (size_t k = 2 * n; k < 2 * n + 2; k++) {
+      const double angle = arc.a->angle + half + (k == 2 * n ? 0.0 : trapping_beside * half);
+      start(&middle[k], arc.a->of, angle, (const double[2]){cos(angle), sin(angle)}, &c->lanes[k]);
+    }
     c->arcs[n++] = arc;
   }
   const pendres_status status = pendres_strobe_run(ctx, 2 * n, c->lanes, look, middle);
@@ -186,7 +221,7 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
     const pendres_trapping_ring *r = arc.a->of;
     pendres_trapping_point *m = &middle[2 * i];
     if (r->failed) continue;
-    take_tangents(m, m + 1);
+    m->further = m + 1;
     if (!arc_home(r, arc.a, m)) c->next[again++] = (pendres_trapping_arc){arc.a, m};
     if (!arc_home(r, m, arc.b)) c->next[again++] = (pendres_trapping_arc){m, arc.b};
   }
@@ -198,23 +233,24 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
   return status;
 }
 
-/* Take the tangents at all points of the rings that hold, and list their open arcs. */
+/* Give the points of the rings that hold others further on, and list the open arcs. */
 static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trapping_ring **rings,
                                  closing *c)
 {
   size_t count = 0;
+  circle ahead = {.points = 0};
   for (size_t i = 0; i < n; i++) {
     pendres_trapping_ring *r = rings[i];
-    if (!pendres_trapping_ring_holds(r)) continue;
-    const double step = trapping_beside * two_pi / r->points;
+    if (!may_hold(r)) continue;
+    go_round(&ahead, r->points, trapping_beside);
     for (int j = 0; j < r->points; j++, count++)
-      start(&c->points[count], r, r->point[j].angle + step, &c->lanes[count]);
+      start(&c->points[count], r, ahead.angle[j], ahead.way[j], &c->lanes[count]);
   }
   const pendres_status status = pendres_strobe_run(ctx, count, c->lanes, look, c->points);
   for (size_t k = 0; k < count && status == PENDRES_OK;) {
     const pendres_trapping_ring *r = c->points[k].of;
     for (int j = 0; j < r->points; j++, k++)
-      if (!r->failed) take_tangents(&r->point[j], &c->points[k]);
+      r->point[j].further = &c->points[k];
     if (!r->failed) c->open += pendres_trapping_ring_open(r, c->arcs + c->open);
   }
   return status;
@@ -227,7 +263,7 @@ pendres_status pendres_trapping_rings_close(pendres_context *ctx, size_t n,
 {
   size_t arcs = 0, hold = 0;
   for (size_t i = 0; i < n; i++) {
-    if (!pendres_trapping_ring_holds(rings[i])) continue;
+    if (!may_hold(rings[i])) continue;
     arcs += (size_t)rings[i]->points;
     hold++;
   }

@@ -27,33 +27,35 @@ enum {
 
 typedef struct pendres_trapping_ring {
   const pendres_trapping_ellipse *ellipse;
-  const pendres_pendulum *pendulum;
+  double factor[3]; /* of the ellipse's metric */
   double radius;
   double home;   /* points are home within this radius; 0: a base ring, run for `looks` iterates */
   double room;   /* radius of the ellipse that is known already, which arcs must be inside of */
   double margin; /* errors must be small against this: what a base ring contracts by, or the
                     radius */
-  int points, looks, steps;
+  pendres_strobe_lane lane; /* that its points start with, at their own places */
+  int points, looks;
   int more;      /* points put between the first ones so far */
-  int failed;    /* a point has left: the others need not go on */
+  int failed;    /* a point has left, and the others need not go on; or neighbours have parted, or
+                    an arc is not home */
   struct pendres_trapping_point *point; /* [points] */
 } pendres_trapping_ring;
 
-/* A point of a ring, where it has been at each look, and the derivatives of that by the angle. */
+/* A point of a ring, and where it has been at each look. */
 typedef struct pendres_trapping_point {
   pendres_trapping_ring *of;
   double angle;
   int looks, home; /* looks taken; the one at which it was home, 0: none yet */
+  const struct pendres_trapping_point *further; /* from which its tangents are taken */
   double y[PENDRES_TRAPPING_LOOKS + PENDRES_TRAPPING_AFTER + 1];
   double w[PENDRES_TRAPPING_LOOKS + PENDRES_TRAPPING_AFTER + 1];
-  double ty[PENDRES_TRAPPING_LOOKS + PENDRES_TRAPPING_AFTER + 1];
-  double tw[PENDRES_TRAPPING_LOOKS + PENDRES_TRAPPING_AFTER + 1];
 } pendres_trapping_point;
 
 /* The tolerance of a period: small against a margin, and one of few, so that blocks stay full. */
 double pendres_trapping_tolerance(double margin);
 
-/* Run rings (all points lie in `points`, ring after ring; room for as many lanes). */
+/* Run rings (all points lie in `points`, ring after ring; room for as many lanes), and mark those
+   that do not hold. */
 pendres_status pendres_trapping_rings_run(pendres_context *ctx, size_t n,
                                           pendres_trapping_ring **rings,
                                           pendres_trapping_point *points,

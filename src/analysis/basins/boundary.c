@@ -21,6 +21,7 @@
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
+#include "engine/team.h"
 
 /* A boundary that grows; the public part comes first. */
 typedef struct growing {
@@ -82,6 +83,7 @@ typedef struct measuring {
   const pendres_boundary_seed *seed;
   pendres_pendulum forward;
   const pendres_boundary_curve *curve;
+  pendres_boundary_node **order; /* its nodes by their generations */
 } measuring;
 
 /*
@@ -139,15 +141,16 @@ static pendres_status measure(pendres_block *b, const measuring *m, size_t count
   return status;
 }
 
-static pendres_status measure_all(pendres_context *ctx, const measuring *m,
-                                  pendres_boundary_node *const *order)
+/* n nodes of those in order. */
+static pendres_status measure_some(pendres_context *ctx, size_t begin, size_t n, void *arg)
 {
+  const measuring *m = arg;
+  pendres_boundary_node *const *order = m->order + begin;
   pendres_block *b;
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, m->seed->steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(b);
   status = pendres_block_carry(b, PENDRES_FLOW_TANGENTS);
-  const size_t n = m->curve->count;
   for (size_t first = 0, count; first < n && status == PENDRES_OK; first += count) {
     count = 1;
     while (count < capacity && first + count < n &&
@@ -174,9 +177,9 @@ static pendres_status find_distances(pendres_context *ctx, const pendres_boundar
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) order[i] = &curve->node[i];
   qsort(order, n, sizeof *order, by_generation);
-  measuring m = {.seed = seed, .forward = seed->backward, .curve = curve};
+  measuring m = {.seed = seed, .forward = seed->backward, .curve = curve, .order = order};
   m.forward.damping = -m.forward.damping;
-  return pendres_room_close(&room, measure_all(ctx, &m, order));
+  return pendres_room_close(&room, pendres_team_run(ctx, n, BOUNDARY_TOGETHER, measure_some, &m));
 }
 
 /* ---- into the window ---- */

@@ -12,6 +12,7 @@
 #include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/strobe_run.h"
+#include "engine/team.h"
 #include "model/model.h"
 
 static const double far_before = -1e4; /* a seed parameter on the saddle */
@@ -171,6 +172,7 @@ typedef struct front {
   double out_v, out_low, out_high;
   size_t count, capacity;
   pendres_boundary_node *node; /* of one side and generation, s ascending */
+  size_t most; /* nodes that the curve and the front have had together */
 } front;
 
 static int is_out(const front *f, const pendres_boundary_node *n)
@@ -363,6 +365,7 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
       status = refine_once(ctx, f, most, &added);
     }
     if (status == PENDRES_OK) status = deliver(ctx, f, curve);
+    if (curve->count + f->count > f->most) f->most = curve->count + f->count;
     prune(f);
     if (curve->count + f->count >= f->options->most_points || generation >= BOUNDARY_GENERATIONS) {
       curve->complete = 0;
@@ -394,14 +397,59 @@ static front front_of(const pendres_boundary_seed *seed, const pendres_boundary_
                  .out_low = -INFINITY, .out_high = INFINITY};
 }
 
+/* Both sides of a curve, each by itself. */
+typedef struct sides {
+  const pendres_boundary_seed *seed;
+  const pendres_boundary_options *options;
+  pendres_boundary_curve own[2];
+  size_t most[2];
+} sides;
+
+static pendres_status grow_some(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  sides *s = arg;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = first; i < first + count && status == PENDRES_OK; i++) {
+    front f = front_of(s->seed, s->options);
+    status = grow_side(ctx, &f, i == 0 ? 1 : -1, &s->own[i]);
+    s->most[i] = f.most;
+    free(f.node);
+  }
+  return status;
+}
+
+/* Append one curve to another. */
+static pendres_status join(pendres_context *ctx, const pendres_boundary_curve *from,
+                           pendres_boundary_curve *to)
+{
+  if (reserve(&to->node, &to->capacity, to->count + from->count) != 0)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  for (size_t i = 0; i < from->count; i++) {
+    to->node[to->count] = from->node[i];
+    to->node[to->count++].piece += to->pieces;
+  }
+  to->pieces += from->pieces;
+  to->complete = to->complete && from->complete;
+  return PENDRES_OK;
+}
+
+/* The second side may take as many nodes as the first leaves: only where it is not short of them
+   can the two grow at the same time. */
 pendres_status pendres_boundary_grow(pendres_context *ctx, const pendres_boundary_seed *seed,
                                      const pendres_boundary_options *o,
                                      pendres_boundary_curve *curve)
 {
-  front f = front_of(seed, o);
+  sides s = {.seed = seed, .options = o, .own = {{.complete = 1}, {.complete = 1}}};
   if (seed->backward.force != PENDRES_FORCE_PENDULUM) curve->complete = 0;
-  pendres_status status = grow_side(ctx, &f, 1, curve);
-  if (status == PENDRES_OK) status = grow_side(ctx, &f, -1, curve);
-  free(f.node);
+  pendres_status status = pendres_team_run(ctx, 2, 1, grow_some, &s);
+  if (status == PENDRES_OK) status = join(ctx, &s.own[0], curve);
+  if (status == PENDRES_OK && curve->count + s.most[1] < o->most_points) {
+    status = join(ctx, &s.own[1], curve);
+  } else if (status == PENDRES_OK) {
+    front f = front_of(seed, o);
+    status = grow_side(ctx, &f, -1, curve);
+    free(f.node);
+  }
+  for (int i = 0; i < 2; i++) pendres_boundary_grow_free(&s.own[i]);
   return status;
 }

@@ -60,4 +60,7 @@ static const double boundary_start = 2e-4;
 
 enum { BOUNDARY_FIRST_NODES = 5, BOUNDARY_GENERATIONS = 400 };
 
+/* Nodes whose errors a thread finds at a time: some blocks, so that few are narrow. */
+enum { BOUNDARY_TOGETHER = 2048 };
+
 #endif

@@ -395,14 +395,18 @@ pendres_status pendres_basin_plan_verify(pendres_basin_plan *p, const pendres_ba
   return accept(p, state, missed);
 }
 
-pendres_status pendres_basin_plan_states(const pendres_basin_plan *p, pendres_basin_state *state)
+pendres_status pendres_basin_plan_rows(const pendres_basin_plan *p, size_t first, size_t rows,
+                                       pendres_basin_state *state)
 {
-  if (p == NULL || state == NULL || p->queued > 0 || p->stage != STAGE_FOLLOW)
+  if (p == NULL || state == NULL || p->queued > 0 || p->stage != STAGE_FOLLOW ||
+      first > p->rows || rows > p->rows - first)
     return PENDRES_INVALID_ARGUMENT;
-  for (size_t k = 0; k < p->rows * p->nv; k++) {
+  const size_t at = first * p->nv, n = rows * p->nv;
+  for (size_t i = 0; i < n; i++) {
+    const size_t k = at + i;
     const fate *f = &p->fates[p->fate_of[k]];
     const int filled = p->knowledge[k] == FILLED;
-    state[k] = (pendres_basin_state){
+    state[i] = (pendres_basin_state){
       .well = f->well,
       .attractor = f->attractor,
       .label = f->label,
@@ -412,6 +416,11 @@ pendres_status pendres_basin_plan_states(const pendres_basin_plan *p, pendres_ba
                                            : PENDRES_BASIN_INTEGRATED};
   }
   return PENDRES_OK;
+}
+
+pendres_status pendres_basin_plan_states(const pendres_basin_plan *p, pendres_basin_state *state)
+{
+  return pendres_basin_plan_rows(p, 0, p != NULL ? p->rows : 0, state);
 }
 
 size_t pendres_basin_plan_filled(const pendres_basin_plan *p)

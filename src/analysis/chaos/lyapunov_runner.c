@@ -201,7 +201,7 @@ static pendres_status average(pendres_context *ctx, size_t n, runner *runners, l
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
   for (size_t i = 0; i < n; i++)
     if (runners[i].state == PENDRES_RUNNER_MOVING && runners[i].beside == beside)
-      rank[count++] = (pendres_rank){.steps = runners[i].lane.steps,
+      rank[count++] = (pendres_rank){.count = 1, .steps = runners[i].lane.steps,
                                      .model = pendres_model_kind(runners[i].lane.pendulum),
                                      .way = runners[i].lane.way,
                                      .index = i};

@@ -82,7 +82,10 @@ typedef struct line {
   const pendres_phase_options *options;
   const pendres_branches *branches;
   pendres_small_end end;
-  pendres_orbit there[MOST_CROSSINGS]; /* room */
+  size_t count; /* points, */
+  pendres_phase_point *points;
+  pendres_label_states *known; /* the states that are known at each, */
+  char *asked;                 /* and whether there may be others */
 } line;
 
 /* Amplitudes of SA and LA at a point, from the states that are known there. */
@@ -119,32 +122,47 @@ static int enough(const pendres_small_end *end, const pendres_label_states *s,
   return s->count > 1 || (s->count > 0 && pendres_small_end_from(end, &p->pendulum).beyond);
 }
 
-/* Find the states of a point that are not known yet on the branches from number `first` on. */
-static pendres_status look_up(line *l, size_t first, pendres_label_states *s,
-                              pendres_phase_point *p)
+/* The points of a line at which states are looked for, and the values of its parameter there. */
+typedef struct sought {
+  line *of;
+  size_t count, *point;
+  double *value;
+} sought;
+
+static void note(void *arg, size_t k, const pendres_orbit *orbit)
 {
-  pendres_status status = PENDRES_OK;
-  const int known = enough(&l->end, s, p);
-  const double value = pendres_parameter_get(l->options->parameter, &p->pendulum);
-  for (size_t i = first; i < pendres_branches_count(l->branches) && !known; i++) {
-    size_t found = 0;
-    status = pendres_branch_cross(l->ctx, pendres_branches_get(l->branches, i), value,
-                                  MOST_CROSSINGS, l->there, &found);
-    if (status != PENDRES_OK) return status;
-    for (size_t k = 0; k < found && k < MOST_CROSSINGS; k++) pendres_label_note(s, &l->there[k]);
-  }
-  judge_amplitudes(&l->end, s, p);
-  return status;
+  const sought *s = arg;
+  pendres_label_note(&s->of->known[s->point[k]], orbit);
 }
 
-/* Judge one point by all of its orbits: those that members reach, and those of the branches. */
-static pendres_status judge_branches(line *l, const pendres_response *r,
-                                     pendres_label_states *s, pendres_phase_point *p)
+/* Find the states that are not known yet on the branches from number `first` on, at all points
+   that ask for them, side by side. */
+static pendres_status look_up(line *l, size_t first)
 {
-  *s = (pendres_label_states){.count = 0};
-  for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
-    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) pendres_label_note(s, &r->state[i].orbit);
-  return look_up(l, 0, s, p);
+  pendres_room room = pendres_room_open(l->ctx, "points");
+  sought s = {.of = l, .point = pendres_room_take(&room, l->count, sizeof *s.point),
+              .value = pendres_room_take(&room, l->count, sizeof *s.value)};
+  pendres_status status = room.status;
+  for (size_t i = 0; i < l->count && status == PENDRES_OK; i++) {
+    const pendres_phase_point *p = &l->points[i];
+    if (!l->asked[i] || enough(&l->end, &l->known[i], p)) continue;
+    s.point[s.count] = i;
+    s.value[s.count++] = pendres_parameter_get(l->options->parameter, &p->pendulum);
+  }
+  for (size_t b = first; b < pendres_branches_count(l->branches) && status == PENDRES_OK; b++)
+    status = pendres_branch_cross_each(l->ctx, pendres_branches_get(l->branches, b), s.count,
+                                       s.value, note, &s);
+  for (size_t i = 0; i < l->count && status == PENDRES_OK; i++)
+    if (l->asked[i]) judge_amplitudes(&l->end, &l->known[i], &l->points[i]);
+  return pendres_room_close(&room, status);
+}
+
+static pendres_status take_states(line *l, pendres_room *room)
+{
+  *room = pendres_room_open(l->ctx, "points");
+  l->known = pendres_room_take(room, l->count, sizeof *l->known);
+  l->asked = pendres_room_take(room, l->count, sizeof *l->asked);
+  return room->status;
 }
 
 /* ---- lines ---- */
@@ -178,45 +196,6 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
   return NULL;
 }
 
-int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter)
-{
-  return pendres_model_kind(p) == PENDRES_MODEL_PLAIN && pendres_parameter_of(parameter)->plain;
-}
-
-/* Reach beyond a diagram by a tenth of its width, or of its value if there is only one. */
-static void reach_beyond(pendres_parameter parameter, double first, double last, double *low,
-                         double *high)
-{
-  const double margin = 0.1 * (last > first ? last - first : fmax(fabs(first), 1.0));
-  *low = pendres_parameter_beyond(parameter, first, -margin);
-  *high = last + margin;
-}
-
-void pendres_phase_reach(pendres_parameter parameter, int plain, double first, double last,
-                         double *low, double *high)
-{
-  if (!plain) {
-    reach_beyond(parameter, first, last, low, high);
-    return;
-  }
-  switch (parameter) {
-  case PENDRES_DRIVE_AMPLITUDE:
-    /* SA and LA part somewhere between the weakest drives and those that turn pendulums over. */
-    *low = fmin(0.5 * first, 0.01);
-    *high = fmax(1.5 * last, 0.5);
-    return;
-  case PENDRES_DAMPING:
-    /* Up as far as the cusp, wherever it is; down a little below the diagram's own. */
-    *low = fmin(0.06, 0.98 * first);
-    *high = fmax(2.0, last);
-    return;
-  default:
-    /* The fold at which SA ends lies below the frequency of small oscillations, 1. */
-    *low = fmin(0.8 * first, 0.7);
-    *high = fmax(1.1 * last, 1.1);
-  }
-}
-
 static pendres_branch_options options_of(const pendres_pendulum *first,
                                          const pendres_pendulum *last,
                                          const pendres_phase_options *o)
@@ -247,19 +226,23 @@ static pendres_status find_branches(pendres_context *ctx, size_t n, const pendre
   return status;
 }
 
-/* Judge all points of a line whose branches are known, from its responses. */
-static pendres_status judge_line(line *l, size_t n, const pendres_response *r,
-                                 pendres_phase_point *out)
+/* Judge all points of a line whose branches are known, from its responses: by all orbits, those
+   that members reach, and those of the branches. */
+static pendres_status judge_line(line *l, const pendres_response *r)
 {
-  pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    out[i] = (pendres_phase_point){.pendulum = r[i].pendulum};
-    pendres_label_states known;
-    status = judge_branches(l, &r[i], &known, &out[i]);
-    if (status == PENDRES_OK)
-      judge_ensemble(&l->end, &known, &l->options->ensemble, &r[i], &out[i]);
+  pendres_room room;
+  if (take_states(l, &room) != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0; i < l->count; i++) {
+    l->asked[i] = 1;
+    l->points[i] = (pendres_phase_point){.pendulum = r[i].pendulum};
+    for (size_t k = 0; k < r[i].states && k < PENDRES_RESPONSE_STATES; k++)
+      if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC)
+        pendres_label_note(&l->known[i], &r[i].state[k].orbit);
   }
-  return status;
+  const pendres_status status = look_up(l, 0);
+  for (size_t i = 0; i < l->count && status == PENDRES_OK; i++)
+    judge_ensemble(&l->end, &l->known[i], &l->options->ensemble, &r[i], &l->points[i]);
+  return pendres_room_close(&room, status);
 }
 
 /* Compute the members of a line and judge its points by them and by its branches; those
@@ -271,15 +254,14 @@ static pendres_status compute_line(pendres_context *ctx, size_t n,
 {
   pendres_room room = pendres_room_open(ctx, "points");
   pendres_response *r = pendres_room_take(&room, n, sizeof *r);
-  line *l = pendres_room_take(&room, 1, sizeof *l);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   pendres_status status = pendres_response_find(ctx, n, pendulums, &options->ensemble, r);
   if (status == PENDRES_OK && *branches == NULL)
     status = find_branches(ctx, n, r, options, branches);
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
-  *l = (line){.ctx = ctx, .options = options, .branches = *branches,
-              .end = pendres_phase_small_end(*branches)};
-  return pendres_room_close(&room, judge_line(l, n, r, out));
+  line l = {.ctx = ctx, .options = options, .branches = *branches,
+            .end = pendres_phase_small_end(*branches), .count = n, .points = out};
+  return pendres_room_close(&room, judge_line(&l, r));
 }
 
 static pendres_status phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
@@ -341,12 +323,6 @@ static int bounds_named(const pendres_curve *c)
          pendres_curve_count(c) > 0 && pendres_phase_on_sheets(&pendres_curve_get(c, 0)->orbit);
 }
 
-int pendres_phase_beyond(pendres_parameter across, double value, double cusp)
-{
-  if (!pendres_parameter_of(across)->plain) return 0;
-  return across == PENDRES_DRIVE_AMPLITUDE ? !(value > cusp) : !(value < cusp);
-}
-
 /* Beyond all cusps no small orbit ends, whatever folds there are. */
 static int beyond_cusps(const pendres_curves *curves, const pendres_pendulum *p)
 {
@@ -403,35 +379,34 @@ static pendres_label_states states_of(const pendres_phase_point *p)
 }
 
 /* Judge all points again, now that there are branches from number `first` on. */
-static pendres_status judge_again(line *l, size_t n, size_t first,
-                                  pendres_phase_point *points)
+static pendres_status judge_again(line *l, size_t first)
 {
-  pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    pendres_label_states known = states_of(&points[i]);
+  pendres_room room;
+  if (take_states(l, &room) != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0; i < l->count; i++) {
+    l->known[i] = states_of(&l->points[i]);
     /* Where there is one state without a name, nothing is missing. */
-    if (points[i].exact != PENDRES_REGIME_SINGLE) status = look_up(l, first, &known, &points[i]);
+    l->asked[i] = l->points[i].exact != PENDRES_REGIME_SINGLE;
   }
-  return status;
+  return pendres_room_close(&room, look_up(l, first));
 }
 
 /* Judge all points again, since the fold at which SA ends has become known. */
-static pendres_status compute_again(const line *l, size_t n, pendres_phase_point *points,
-                                    pendres_branches *branches)
+static pendres_status compute_again(const line *l, pendres_branches *branches)
 {
-  pendres_pendulum *p = malloc(n * sizeof *p);
-  if (p == NULL)
-    return pendres_context_fail(l->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
-  for (size_t i = 0; i < n; i++) p[i] = points[i].pendulum;
-  const pendres_status status = compute_line(l->ctx, n, p, l->options, points, &branches);
-  free(p);
-  return status;
+  pendres_room room = pendres_room_open(l->ctx, "points");
+  pendres_pendulum *p = pendres_room_take(&room, l->count, sizeof *p);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0; i < l->count; i++) p[i] = l->points[i].pendulum;
+  return pendres_room_close(
+    &room, compute_line(l->ctx, l->count, p, l->options, l->points, &branches));
 }
 
-static pendres_status judge_by_curves(line *l, size_t n, const pendres_curves *curves,
-                                      pendres_phase_point *points, pendres_branches *branches)
+static pendres_status judge_by_curves(line *l, const pendres_curves *curves,
+                                      pendres_branches *branches)
 {
-  pendres_status status = PENDRES_OK;
+  const size_t n = l->count;
+  const pendres_phase_point *points = l->points;
   const size_t first = pendres_branches_count(branches);
   /* What the points were judged by: without that fold, those with one state have no names. */
   pendres_small_end before = pendres_phase_small_end(branches);
@@ -439,6 +414,7 @@ static pendres_status judge_by_curves(line *l, size_t n, const pendres_curves *c
     if (isnan(points[i].sa_fraction)) before = (pendres_small_end){.known = 0};
   const pendres_branch_options options =
     options_of(&points[0].pendulum, &points[n - 1].pendulum, l->options);
+  pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < pendres_curves_count(curves) && status == PENDRES_OK; i++) {
     const pendres_curve *c = pendres_curves_get(curves, i);
     if (bounds_named(c)) status = add_crossed(l->ctx, c, &points[0].pendulum, &options, branches);
@@ -446,8 +422,8 @@ static pendres_status judge_by_curves(line *l, size_t n, const pendres_curves *c
   if (status != PENDRES_OK || pendres_branches_count(branches) == first) return status;
   l->end = beyond_cusps(curves, &points[0].pendulum) ? before : pendres_phase_small_end(branches);
   if (l->end.known != before.known || l->end.value != before.value)
-    return compute_again(l, n, points, branches);
-  return judge_again(l, n, first, points);
+    return compute_again(l, branches);
+  return judge_again(l, first);
 }
 
 static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
@@ -462,13 +438,8 @@ static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
     const char *why = refused(1, &points[i].pendulum, options);
     if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   }
-  line *l = malloc(sizeof *l);
-  if (l == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
-  *l = (line){.ctx = ctx, .options = options, .branches = branches};
-  const pendres_status status = judge_by_curves(l, n, curves, points, branches);
-  free(l);
-  return status;
+  line l = {.ctx = ctx, .options = options, .branches = branches, .count = n, .points = points};
+  return judge_by_curves(&l, curves, branches);
 }
 
 pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
