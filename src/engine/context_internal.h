@@ -22,7 +22,8 @@ typedef enum pendres_flow_kind {
   PENDRES_FLOW_KINDS
 } pendres_flow_kind;
 
-struct pendres_steps_memo; /* steps.h */
+struct pendres_steps_memo;  /* steps.h */
+struct pendres_charts_memo; /* charts.h */
 typedef struct pendres_block pendres_block; /* block.h */
 
 struct pendres_context {
@@ -33,6 +34,7 @@ struct pendres_context {
   void *sun;           /* a SUNContext, for the blocks */
   pendres_block *blocks[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;
+  struct pendres_charts_memo *charts; /* NULL: none so far */
   pendres_cost cost;
   double most_slopes;    /* pendres_context_slopes at which a computation ends; INFINITY: never */
   int (*stop)(void *arg);

@@ -19,6 +19,7 @@ typedef struct pendres_strobe_lane {
   double y, w;                      /* angle, dy/dtheta at the latest strobe */
   long turns;                       /* whole turns taken out of y */
   long period;                      /* strobes so far */
+  long charted;                     /* those that charts led to (charts.h) */
   int steps;                        /* a period; unused by adaptive methods */
   int in_float;                     /* block_fixed computes its periods in single precision, for
                                        which `added` allows (block.h) */
