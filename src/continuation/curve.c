@@ -149,8 +149,8 @@ static int passes(const pendres_system *s, const pendres_curve_node *start,
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
     const double t = start->tangent[k];
-    before += t * (a->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
-    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
+    before += t * (a->u[i] - here[i]) / pendres_arc_scale(i, here);
+    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(i, here);
     along += t * b->tangent[k];
   }
   const double chord = pendres_arc_distance(a->u, b->u);

@@ -27,7 +27,7 @@ pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_conditi
 /* The scale of unknown number k at a place. */
 static double scale_at(const pendres_system *s, int k, const pendres_u u)
 {
-  return pendres_arc_scale(s->unknown[k], u[s->unknown[k]]);
+  return pendres_arc_scale(s->unknown[k], u);
 }
 
 /* The equations at u, and the plane across a direction, linearised in the scaled unknowns. */
@@ -335,7 +335,7 @@ static double off_chord(const pendres_system *s, const pendres_curve_node *last,
   double off = 0.0;
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
-    const double scale = pendres_arc_scale(i, 0.5 * (c->u[i] + last->u[i]));
+    const double scale = pendres_arc_scale_between(i, c->u, last->u);
     const double chord = (c->u[i] - last->u[i]) / (scale * way);
     off = hypot(off, chord - 0.5 * (last->tangent[k] + node->tangent[k]));
   }
@@ -356,8 +356,8 @@ static int follows(const pendres_follower *w, const pendres_curve_node *last, in
   predict(w, rank, predicted);
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
-    way = hypot(way, (c->u[i] - last->u[i]) / pendres_arc_scale(i, 0.5 * (c->u[i] + last->u[i])));
-    miss = hypot(miss, (c->u[i] - predicted[i]) / pendres_arc_scale(i, c->u[i]));
+    way = hypot(way, (c->u[i] - last->u[i]) / pendres_arc_scale_between(i, c->u, last->u));
+    miss = hypot(miss, (c->u[i] - predicted[i]) / pendres_arc_scale(i, c->u));
     turn += last->tangent[k] * node->tangent[k];
   }
   if (turn < follow_sharpest_turn || way > 2.0 * gap * w->step ||

@@ -65,6 +65,11 @@ static const double null_vector_step = 8e-3;
 /* Values of a parameter above this times its least scale are taken by their ratios. */
 static const double scale_logarithmic = 20.0;
 
+/* The state counts by its ratio to the size of an orbit, but no further than to so many times the
+   damping: narrower than that no resonance is. From a damping of one over this on, where folds are
+   of order one, lengths are counted. */
+static const double scale_weak = 20.0;
+
 /* ---- curves ---- */
 
 /* The largest spacing of points along curves that callers see, unless they choose another: eight

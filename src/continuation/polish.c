@@ -26,7 +26,7 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
 {
   const int place = s->unknown[2];
   const double along = at->tangent[2];
-  const double scale = pendres_arc_scale(place, pair->fine[place]);
+  const double scale = pendres_arc_scale(place, pair->fine);
   const double off = (pair->fine[place] - pair->coarse[place]) / scale;
   if (!(fabs(off) < polish_before_fold * along * along)) {
     pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
@@ -34,7 +34,7 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
   }
   for (int k = 0; k < s->unknowns; k++)
     pair->coarse[s->unknown[k]] +=
-      pendres_arc_scale(s->unknown[k], pair->fine[s->unknown[k]]) * at->tangent[k] * off / along;
+      pendres_arc_scale(s->unknown[k], pair->fine) * at->tangent[k] * off / along;
   pair->coarse[place] = pair->fine[place];
   pair->rounding /= fmax(fabs(along), polish_flattest);
 }
@@ -132,7 +132,7 @@ static double errors_at(const pendres_curve *c, size_t i, double error[2])
     const int place = s->unknown[k];
     const double e = pendres_solution_error(
       p->coarse[place], p->fine[place],
-      pendres_arc_scale(place, p->fine[place]) * p->rounding + (k >= 2 ? chance * point : 0.0));
+      pendres_arc_scale(place, p->fine) * p->rounding + (k >= 2 ? chance * point : 0.0));
     if (k >= 2) error[k - 2] = e;
     worst = fmax(worst, k == 2 && s->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
   }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "continuation/parameter.h"
 #include "model/model.h"
 #include "orbits/orbit_pair.h"
 
@@ -105,7 +106,7 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
   const pendres_pendulum middle = pendres_map_pendulum(m->base.force, u);
   pendres_orbit_guess unused;
   linear_guess(&middle, &unused, &highest);
-  const double scale = pendres_arc_scale(pendres_fit_place(m), r->high);
+  const double scale = pendres_parameter_scale_at(m->axis, r->high);
   const double wide = m->axis == PENDRES_DRIVE_FREQUENCY ? middle.damping : 0.0;
   const double across = fmax(wide, (r->high - r->low) / fit_steps_across) / scale;
   const double spacing = fmin(0.1, fmax(fmin(fmin(highest, 2.0) / fit_nodes_high, across), 1e-5));
@@ -163,7 +164,7 @@ static int describe_moved(const pendres_followed *kind, const pendres_correction
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 3; k++) {
       const int place = kind->system.unknown[k];
-      r[i][k] = at->at.j[i][place] * pendres_arc_scale(place, at->u[place]);
+      r[i][k] = at->at.j[i][place] * pendres_arc_scale(place, at->u);
     }
   for (int k = 0; k < 3; k++) {
     const int a = (k + 1) % 3, b = (k + 2) % 3;
@@ -187,7 +188,7 @@ static int is_whole(const fit_model *m, const fit_curve *c, const range *r, cons
     const double way = pendres_arc_distance(a->u, b->u);
     for (int k = 0; k < 3; k++) {
       const int place = c->kind.system.unknown[k];
-      ahead += a->tangent[k] * (b->u[place] - a->u[place]) / pendres_arc_scale(place, b->u[place]);
+      ahead += a->tangent[k] * (b->u[place] - a->u[place]) / pendres_arc_scale(place, b->u);
       turn += a->tangent[k] * b->tangent[k];
     }
     if (way > fit_torn * before[i] + 1e-4 || ahead < 0.5 * way || turn < 0.8) return 0;
@@ -264,7 +265,7 @@ static void cubic(const fit_curve *c, const pendres_curve_node *a, const pendres
   memcpy(u, a->u, sizeof(pendres_u));
   for (int k = 0; k < 3; k++) {
     const int place = c->kind.system.unknown[k];
-    const double scale = pendres_arc_scale(place, 0.5 * (a->u[place] + b->u[place]));
+    const double scale = pendres_arc_scale_between(place, a->u, b->u);
     const double d = (b->u[place] - a->u[place]) / scale;
     const double p = way * a->tangent[k], q = way * b->tangent[k];
     const double e = 3.0 * d - 2.0 * p - q, f = p + q - 2.0 * d;

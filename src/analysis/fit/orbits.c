@@ -74,7 +74,7 @@ static int close_orbit(orbit *o, fit_lane *l)
 {
   const size_t end = o->s->steps;
   double inv[FIT_PLACES][FIT_PLACES];
-  o->scale = pendres_arc_scale(pendres_fit_place(o->m), l->u[pendres_fit_place(o->m)]);
+  o->scale = pendres_arc_scale(pendres_fit_place(o->m), l->u);
   if (!inverse(o, l, inv)) return 0;
   solve(inv, sample(o, end, PENDRES_ROW_Y) - l->u[PENDRES_U_Y],
         sample(o, end, PENDRES_ROW_W) - l->u[PENDRES_U_W], o->shift);
