@@ -155,7 +155,7 @@ double pendres_arc_least_scale(int i)
    ratios. */
 static double state_scale(const pendres_u u)
 {
-  const double least = scale_weak * fabs(u[PENDRES_U_GAMMA]);
+  const double least = fmax(scale_least, scale_weak * fabs(u[PENDRES_U_GAMMA]));
   if (!(least < 1.0)) return 1.0;
   const double orbit = fmax(hypot(u[PENDRES_U_Y], u[PENDRES_U_W]), fabs(u[PENDRES_U_DRIVE]));
   return fmin(1.0, fmax(least, orbit));

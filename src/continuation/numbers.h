@@ -66,9 +66,9 @@ static const double null_vector_step = 8e-3;
 static const double scale_logarithmic = 20.0;
 
 /* The state counts by its ratio to the size of an orbit, but no further than to so many times the
-   damping: narrower than that no resonance is. From a damping of one over this on, where folds are
-   of order one, lengths are counted. */
-static const double scale_weak = 20.0;
+   damping, or to the last number: narrower than that no resonance is. From a damping of one over
+   this on, where folds are of order one, lengths are counted. */
+static const double scale_weak = 20.0, scale_least = 1e-5;
 
 /* ---- curves ---- */
 
