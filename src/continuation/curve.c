@@ -321,7 +321,12 @@ static pendres_status add_special(pendres_context *ctx, const pendres_curve_test
   pendres_u u;
   pendres_curve_special s = {.at = *zero};
   const double chord = pendres_curve_between(c, zero, u);
-  const pendres_status status = test->locate(ctx, c, u, 2.0 * chord, &s);
+  pendres_status status = test->locate(ctx, c, u, 2.0 * chord, &s);
+  if (status == PENDRES_NOT_CONVERGED && test->function != NULL) {
+    /* At weak damping the chord may be too far off the curve for Newton's method. */
+    status = pendres_curve_close_in(ctx, c, test->function, zero, u);
+    if (status == PENDRES_OK) status = test->locate(ctx, c, u, 2.0 * chord, &s);
+  }
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
   if (!pendres_located_found(status)) return status;
   for (size_t k = 0; k < c->specials; k++)

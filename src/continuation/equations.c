@@ -54,7 +54,7 @@ static void append_row(pendres_equations *e, const pendres_system *s, double val
   e->r[row] = value;
   for (int k = 0; k < PENDRES_U_COUNT; k++) e->j[row][k] = 0.0;
   for (int k = 0; k < s->unknowns; k++)
-    e->j[row][s->unknown[k]] = (nudged[k] - value) / determinant_step;
+    e->j[row][s->unknown[k]] = (nudged[k] - value) / e->nudge;
 }
 
 /* Append the equation of a condition's determinant. */
@@ -127,6 +127,14 @@ pendres_condition_rules_of(pendres_condition condition)
   return &rules[condition];
 }
 
+/* At weak damping both multipliers are close to 1: the determinant, a product of what they lack, and
+   its derivatives are small in proportion to the damping. */
+static double nudge_at(const pendres_u u)
+{
+  const double weak = scale_weak * fabs(u[PENDRES_U_GAMMA]);
+  return weak < 1.0 ? determinant_step / fmax(weak, determinant_weakest) : determinant_step;
+}
+
 /* The images at all stencils of the points, each along its null vector. */
 static pendres_status look_around(pendres_context *ctx, const pendres_system *s, size_t n,
                                   size_t each, const workspace *w)
@@ -161,13 +169,14 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < each; k++) {
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
-      if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += determinant_step;
+      if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += nudge_at(u[i]);
     }
   pendres_status status = pendres_map_images(ctx, s, points, (const pendres_u *)w.u, w.image);
   if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_image *image = w.image + i * each;
     const pendres_image *along = rules->stencils ? w.around_image + i * each * STENCIL : NULL;
+    out[i].nudge = nudge_at(u[i]);
     if (rules->rows != NULL) rules->rows(s, image, along, &out[i]);
     else plain_rows(image, &out[i]);
   }

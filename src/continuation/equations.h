@@ -15,6 +15,7 @@ typedef struct pendres_equations {
   int equations;
   double r[PENDRES_EQUATIONS_MOST];
   double j[PENDRES_EQUATIONS_MOST][PENDRES_U_COUNT];
+  double nudge; /* step of the differences that a determinant's derivatives are */
   pendres_image image;
 } pendres_equations;
 

@@ -58,6 +58,9 @@ static const double pendres_central_step = 1e-4;
    rounding, 1e-15, does no harm. */
 static const double determinant_step = 2e-9;
 
+/* At weak damping the step is longer, but not beyond 2e-5, over which maps hardly bend. */
+static const double determinant_weakest = 1e-4;
+
 /* The derivative along the null vector enters the solution itself: central differences of order
    six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
 static const double null_vector_step = 8e-3;
@@ -134,6 +137,9 @@ static const double zero_suspicious = 0.3, zero_touching = 0.05;
 /* A search ends at this length of arc. A vertex this close to the least point, as a share of what
    is searched, tells nothing new. */
 static const double zero_narrowest = 1e-9, zero_known = 0.02;
+
+/* A zero that Newton's method does not find from the chord is closed in to this share of it. */
+static const double zero_closed_in = 1e-5;
 
 enum {
   ZERO_TRIALS = 24,
