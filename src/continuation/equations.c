@@ -215,6 +215,44 @@ pendres_system pendres_system_of(const pendres_map *map, pendres_condition condi
   return system;
 }
 
+/* Whether orbits at u are damped so weakly that a determinant says nothing but next to them. */
+static int is_weak(const pendres_system *s, const pendres_u u)
+{
+  return pendres_condition_rules_of(s->condition)->critical &&
+         scale_weak * fabs(u[PENDRES_U_GAMMA]) < 1.0;
+}
+
+/* Go to the nearest orbit, in the scale of arclength. */
+static pendres_status approach_orbit(pendres_context *ctx, const pendres_system *s, pendres_u u)
+{
+  pendres_system orbits = *s;
+  orbits.condition = PENDRES_CONDITION_NONE;
+  for (int i = 0; i < NEWTON_APPROACH; i++) {
+    pendres_equations e;
+    double a[2][PENDRES_UNKNOWNS], scale[PENDRES_UNKNOWNS], b[3] = {0.0}, length = 0.0;
+    const pendres_status status = pendres_equations_at(ctx, &orbits, 1, (const pendres_u *)u, &e);
+    if (status != PENDRES_OK) return status;
+    for (int k = 0; k < s->unknowns; k++) {
+      scale[k] = pendres_arc_scale(s->unknown[k], u);
+      for (int r = 0; r < 2; r++) a[r][k] = e.j[r][s->unknown[k]] * scale[k];
+      b[0] += a[0][k] * a[0][k];
+      b[1] += a[0][k] * a[1][k];
+      b[2] += a[1][k] * a[1][k];
+    }
+    const double det = b[0] * b[2] - b[1] * b[1];
+    if (!(det > 0.0)) return PENDRES_NOT_CONVERGED;
+    const double x = (b[2] * e.r[0] - b[1] * e.r[1]) / det;
+    const double y = (b[0] * e.r[1] - b[1] * e.r[0]) / det;
+    for (int k = 0; k < s->unknowns; k++) {
+      const double d = -(a[0][k] * x + a[1][k] * y);
+      u[s->unknown[k]] += scale[k] * d;
+      length = hypot(length, d);
+    }
+    if (length < follow_last_step) break;
+  }
+  return PENDRES_OK;
+}
+
 pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_system *s,
                                        double longest, pendres_u u, pendres_equations *at)
 {
@@ -223,7 +261,9 @@ pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_syste
 
   for (int i = 0; i < NEWTON_STEPS; i++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
-    const pendres_status status = pendres_equations_at(ctx, s, 1, (const pendres_u *)u, at);
+    pendres_status status = PENDRES_OK;
+    if (is_weak(s, u)) status = approach_orbit(ctx, s, u);
+    if (status == PENDRES_OK) status = pendres_equations_at(ctx, s, 1, (const pendres_u *)u, at);
     if (status != PENDRES_OK) return status;
     for (int r = 0; r < n; r++) {
       d[r] = -at->r[r];

@@ -113,6 +113,9 @@ static const double follow_sharpest_turn = 0.92, follow_farthest_miss = 0.25;
    points were stepped over. */
 static const double follow_farthest_off = 0.08;
 
+/* Steps to the nearest orbit before each of Newton's for a bifurcation at weak damping. */
+enum { NEWTON_APPROACH = 4 };
+
 /* With steps shorter than this many of the shortest no crossing is looked into: branches that come
    closer are told by the doubts of their points. */
 static const double follow_to_crossing = 32.0;
