@@ -405,7 +405,7 @@ static pendres_bifurcation first_fold(double tolerance, const pendres_orbit_gues
 {
   pendres_context *ctx = context_of(tolerance, PENDRES_TABLE_DEFAULT);
   const pendres_branch_options options = {
-    .parameter = PENDRES_DRIVE_FREQUENCY, .low = low, .high = high, .most_points = 60};
+    .parameter = PENDRES_DRIVE_FREQUENCY, .low = low, .high = high, .most_points = 400};
   pendres_orbit start;
   pendres_status outcome;
   pendres_branch *b = NULL;

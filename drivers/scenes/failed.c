@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/numbers.h"
+
 static const struct {
   const char *meaning, *words;
 } reasons[] = {
@@ -27,7 +29,9 @@ scene_failure scene_failure_of(pendres_status status)
   }
 }
 
-int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size)
+/* Whether settling takes too many steps. charted: a weakly damped pendulum that comes back to the
+   same places again and again is not integrated there each time (the library's charts). */
+static int too_long(const pendres_pendulum *p, double runs, int charted, char *words, size_t size)
 {
   /* E-folding times after which 1e-8 of a start is left; the least number of periods of a
      verdict. */
@@ -45,7 +49,8 @@ int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, 
   /* No less than the fewest steps that a period is integrated with. */
   const double steps_per_time =
     fmax(fmax(damping / 4.0, 1.0 / 1.5), 8.0 * frequency / (2.0 * PENDRES_PI));
-  const double settling = runs * steps_per_time * times / rate;
+  double settling = runs * steps_per_time * times / rate;
+  if (charted && weak) settling = fmin(settling, runs * charted_steps);
   const double steps =
     settling + runs * steps_per_time * periods * 2.0 * PENDRES_PI / frequency;
   if (settling <= most_settling && steps <= most) return 0;
@@ -55,12 +60,19 @@ int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, 
   return 1;
 }
 
+int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size)
+{
+  return too_long(p, runs, 0, words, size);
+}
+
 int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double runs, char *words,
                             size_t size)
 {
   char why[140];
+  const int charted =
+    strcmp(d->precision.method, "block_fixed") == 0 && d->precision.steps_per_period == 0;
   if (d->precision.period_budget > 0 || p->damping == 0.0) return 0;
-  if (!scene_failure_too_long(p, runs, why, sizeof why)) return 0;
+  if (!too_long(p, runs, charted, why, sizeof why)) return 0;
   snprintf(words, size, "%s; precision.period_budget bounds them", why);
   return 1;
 }

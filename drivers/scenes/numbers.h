@@ -34,6 +34,10 @@ enum { BASINS_EXTENSIONS = 4 };
 /* Following branches and curves through a point takes as long as settling its members again. */
 enum { LINES_RUNS_A_POINT = 5 };
 
+/* Steps a pendulum that settling takes where the library charts the strobe map, whatever the damping:
+   some hundred charts of some ten thousand steps each, which the pendulums of a point share. */
+static const double charted_steps = 1e5;
+
 /* The spacing of branches that are not written: it may be sparse. */
 static const double lines_sparse = 0.1;
 

@@ -55,8 +55,9 @@ static pendres_pendulum pendulum_at(const grid *g, size_t point)
 
 static int point_too_long(const scene_points *p, size_t point, char *words, size_t size)
 {
-  const pendres_pendulum at = pendulum_at(p->arg, point);
-  return scene_failure_too_long(&at, 1.0, words, size);
+  const grid *g = p->arg;
+  const pendres_pendulum at = pendulum_at(g, point);
+  return scene_settling_too_long(g->d, &at, 1.0, words, size);
 }
 
 /* Nothing is known of any member. */
@@ -113,7 +114,7 @@ static int peak_too_long(const scene_points *p, size_t line, char *words, size_t
   const grid *g = p->arg;
   pendres_pendulum at = pendulum_at(g, line * g->values);
   at.drive_frequency = g->d->search[0];
-  return scene_failure_too_long(&at, FREQUENCIES, words, size);
+  return scene_settling_too_long(g->d, &at, FREQUENCIES, words, size);
 }
 
 /* The resonance of a line, whose parameters are the axes but the last. */

@@ -130,7 +130,7 @@ static int between(const pendres_system *s, const pendres_curve_node *a,
   double slope[PENDRES_UNKNOWNS], bend[PENDRES_UNKNOWNS];
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
-    slope[k] = a->tangent[k] * pendres_arc_scale(i, a->u[i]);
+    slope[k] = a->tangent[k] * pendres_arc_scale(i, a->u);
     bend[k] = (b->u[i] - a->u[i] - slope[k] * h) / (h * h);
   }
   const double square = slope[last] * slope[last] + 4.0 * bend[last] * away;

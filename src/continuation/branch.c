@@ -198,7 +198,7 @@ static pendres_status set_crossing(pendres_context *ctx, const pendres_curve *t,
   const pendres_status status =
     pendres_crossing_direction(ctx, &system, p->fine, t->node[s->at.i].tangent, way);
   if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
-  for (int k = 0; k < 3; k++) way[k] *= pendres_arc_scale(unknown[k], p->fine[unknown[k]]);
+  for (int k = 0; k < 3; k++) way[k] *= pendres_arc_scale(unknown[k], p->fine);
   way[1] *= p->fine[PENDRES_U_OMEGA]; /* of w = v / omega */
   if (unknown[2] == PENDRES_U_OMEGA) way[1] += p->fine[PENDRES_U_W] * way[2];
   memcpy(b->crossing, way, sizeof way);

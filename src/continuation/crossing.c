@@ -76,7 +76,7 @@ static void scales_at(const pendres_u u, int parameter, double out[3])
 {
   for (int k = 0; k < 3; k++) {
     const int place = place_of(parameter, k);
-    out[k] = pendres_arc_scale(place, u[place]);
+    out[k] = pendres_arc_scale(place, u);
   }
 }
 

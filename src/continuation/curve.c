@@ -149,8 +149,8 @@ static int passes(const pendres_system *s, const pendres_curve_node *start,
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
     const double t = start->tangent[k];
-    before += t * (a->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
-    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
+    before += t * (a->u[i] - here[i]) / pendres_arc_scale(i, here);
+    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(i, here);
     along += t * b->tangent[k];
   }
   const double chord = pendres_arc_distance(a->u, b->u);
@@ -330,7 +330,12 @@ static pendres_status add_special(pendres_context *ctx, const pendres_curve_test
   pendres_u u;
   pendres_curve_special s = {.at = *zero};
   const double chord = pendres_curve_between(c, zero, u);
-  const pendres_status status = test->locate(ctx, c, u, 2.0 * chord, &s);
+  pendres_status status = test->locate(ctx, c, u, 2.0 * chord, &s);
+  if (status == PENDRES_NOT_CONVERGED && test->function != NULL) {
+    /* At weak damping the chord may be too far off the curve for Newton's method. */
+    status = pendres_curve_close_in(ctx, c, test->function, zero, u);
+    if (status == PENDRES_OK) status = test->locate(ctx, c, u, 2.0 * chord, &s);
+  }
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
   if (!pendres_located_found(status)) return status;
   for (size_t k = 0; k < c->specials; k++)

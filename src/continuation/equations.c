@@ -54,7 +54,7 @@ static void append_row(pendres_equations *e, const pendres_system *s, double val
   e->r[row] = value;
   for (int k = 0; k < PENDRES_U_COUNT; k++) e->j[row][k] = 0.0;
   for (int k = 0; k < s->unknowns; k++)
-    e->j[row][s->unknown[k]] = (nudged[k] - value) / determinant_step;
+    e->j[row][s->unknown[k]] = (nudged[k] - value) / e->nudge;
 }
 
 /* Append the equation of a condition's determinant. */
@@ -62,9 +62,15 @@ static void determinant_row(const pendres_system *s, const pendres_image *image,
                             pendres_equations *e)
 {
   const pendres_condition_rules *rules = pendres_condition_rules_of(s->condition);
+  const double value = rules->determinant(image);
   double nudged[PENDRES_U_COUNT];
-  for (int k = 0; k < s->unknowns; k++) nudged[k] = rules->determinant(&image[k + 1]);
-  append_row(e, s, rules->determinant(image), nudged);
+  for (int k = 0; k < s->unknowns; k++) {
+    nudged[k] = rules->determinant(&image[k + 1]);
+    /* What a central difference is to the value, if it were one to a side. */
+    if (e->central)
+      nudged[k] = value + 0.5 * (nudged[k] - rules->determinant(&image[s->unknowns + k + 1]));
+  }
+  append_row(e, s, value, nudged);
 }
 
 static void critical_rows(const pendres_system *s, const pendres_image *image,
@@ -127,6 +133,20 @@ pendres_condition_rules_of(pendres_condition condition)
   return &rules[condition];
 }
 
+/* Whether orbits at u are so weakly damped that both of their multipliers are close to 1. */
+static int is_weak(const pendres_u u)
+{
+  return scale_weak * fabs(u[PENDRES_U_GAMMA]) < 1.0;
+}
+
+/* There the determinant, a product of what multipliers lack, is small in proportion to the damping,
+   and its derivative along a branch is what is left where those by the unknowns cancel. */
+static double nudge_at(const pendres_u u)
+{
+  const double weak = scale_weak * fabs(u[PENDRES_U_GAMMA]);
+  return is_weak(u) ? determinant_step / fmax(weak, determinant_weakest) : determinant_step;
+}
+
 /* The images at all stencils of the points, each along its null vector. */
 static pendres_status look_around(pendres_context *ctx, const pendres_system *s, size_t n,
                                   size_t each, const workspace *w)
@@ -150,7 +170,10 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
                                     const pendres_u *u, pendres_equations *out)
 {
   const pendres_condition_rules *rules = pendres_condition_rules_of(s->condition);
-  const size_t each = rules->rows == NULL ? 1 : (size_t)s->unknowns + 1;
+  const size_t nudges = (size_t)s->unknowns;
+  int weak = 0;
+  for (size_t i = 0; i < n; i++) weak |= rules->critical && is_weak(u[i]);
+  const size_t each = rules->rows == NULL ? 1 : 1 + (weak ? 2 : 1) * nudges;
   const size_t points = n * each, around = rules->stencils ? points * STENCIL : 0;
   pendres_room room = pendres_room_open(ctx, "points");
   const workspace w = {.u = pendres_room_take(&room, points, sizeof *w.u),
@@ -161,13 +184,17 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < each; k++) {
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
-      if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += determinant_step;
+      if (k > 0)
+        w.u[i * each + k][s->unknown[(k - 1) % nudges]] += k <= nudges ? nudge_at(u[i])
+                                                                       : -nudge_at(u[i]);
     }
   pendres_status status = pendres_map_images(ctx, s, points, (const pendres_u *)w.u, w.image);
   if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_image *image = w.image + i * each;
     const pendres_image *along = rules->stencils ? w.around_image + i * each * STENCIL : NULL;
+    out[i].nudge = nudge_at(u[i]);
+    out[i].central = rules->critical && is_weak(u[i]);
     if (rules->rows != NULL) rules->rows(s, image, along, &out[i]);
     else plain_rows(image, &out[i]);
   }
@@ -206,15 +233,49 @@ pendres_system pendres_system_of(const pendres_map *map, pendres_condition condi
   return system;
 }
 
+/* Go to the nearest orbit, in the scale of arclength. */
+static pendres_status approach_orbit(pendres_context *ctx, const pendres_system *s, pendres_u u)
+{
+  pendres_system orbits = *s;
+  orbits.condition = PENDRES_CONDITION_NONE;
+  for (int i = 0; i < NEWTON_APPROACH; i++) {
+    pendres_equations e;
+    double a[2][PENDRES_UNKNOWNS], scale[PENDRES_UNKNOWNS], b[3] = {0.0}, length = 0.0;
+    const pendres_status status = pendres_equations_at(ctx, &orbits, 1, (const pendres_u *)u, &e);
+    if (status != PENDRES_OK) return status;
+    for (int k = 0; k < s->unknowns; k++) {
+      scale[k] = pendres_arc_scale(s->unknown[k], u);
+      for (int r = 0; r < 2; r++) a[r][k] = e.j[r][s->unknown[k]] * scale[k];
+      b[0] += a[0][k] * a[0][k];
+      b[1] += a[0][k] * a[1][k];
+      b[2] += a[1][k] * a[1][k];
+    }
+    const double det = b[0] * b[2] - b[1] * b[1];
+    if (!(det > 0.0)) return PENDRES_NOT_CONVERGED;
+    const double x = (b[2] * e.r[0] - b[1] * e.r[1]) / det;
+    const double y = (b[0] * e.r[1] - b[1] * e.r[0]) / det;
+    for (int k = 0; k < s->unknowns; k++) {
+      const double d = -(a[0][k] * x + a[1][k] * y);
+      u[s->unknown[k]] += scale[k] * d;
+      length = hypot(length, d);
+    }
+    if (length < follow_last_step) break;
+  }
+  return PENDRES_OK;
+}
+
 pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_system *s,
                                        double longest, pendres_u u, pendres_equations *at)
 {
-  const int n = s->unknowns;
+  const int n = s->unknowns, critical = pendres_condition_rules_of(s->condition)->critical;
   double last = INFINITY;
 
   for (int i = 0; i < NEWTON_STEPS; i++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
-    const pendres_status status = pendres_equations_at(ctx, s, 1, (const pendres_u *)u, at);
+    pendres_status status = PENDRES_OK;
+    /* At weak damping a determinant says something only where there is an orbit. */
+    if (critical && is_weak(u)) status = approach_orbit(ctx, s, u);
+    if (status == PENDRES_OK) status = pendres_equations_at(ctx, s, 1, (const pendres_u *)u, at);
     if (status != PENDRES_OK) return status;
     for (int r = 0; r < n; r++) {
       d[r] = -at->r[r];

@@ -15,6 +15,8 @@ typedef struct pendres_equations {
   int equations;
   double r[PENDRES_EQUATIONS_MOST];
   double j[PENDRES_EQUATIONS_MOST][PENDRES_U_COUNT];
+  double nudge; /* step of the differences that a determinant's derivatives are, */
+  int central;  /* to both sides */
   pendres_image image;
 } pendres_equations;
 

@@ -27,7 +27,15 @@ pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_conditi
 /* The scale of unknown number k at a place. */
 static double scale_at(const pendres_system *s, int k, const pendres_u u)
 {
-  return pendres_arc_scale(s->unknown[k], u[s->unknown[k]]);
+  return s->lengths && k < 2 ? 1.0 : pendres_arc_scale(s->unknown[k], u);
+}
+
+/* From a to b along unknown number k, in the scale between them. */
+static double way_between(const pendres_system *s, int k, const pendres_u a, const pendres_u b)
+{
+  const int i = s->unknown[k];
+  const double scale = s->lengths && k < 2 ? 1.0 : pendres_arc_scale_between(i, a, b);
+  return (b[i] - a[i]) / scale;
 }
 
 /* The equations at u, and the plane across a direction, linearised in the scaled unknowns. */
@@ -106,7 +114,8 @@ static void correct(pendres_correction *c)
 /* The inverse of the linearised equations, by columns, tells how rounding moves the point. */
 double pendres_correction_rounding(const pendres_correction *c)
 {
-  const int n = c->kind->system.unknowns;
+  const pendres_system *s = &c->kind->system;
+  const int n = s->unknowns;
   const double grown = fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1]));
   const double unit =
     pendres_step_rounding * grown * sqrt(c->steps * c->kind->system.map.period);
@@ -117,7 +126,8 @@ double pendres_correction_rounding(const pendres_correction *c)
     linearise(&c->kind->system, &c->at, c->u, c->tangent, a);
     b[column] = column < 2 ? unit : 4.0 * unit;
     if (!pendres_equations_linear(n, a, b)) return NAN;
-    for (int k = 0; k < n; k++) sum = hypot(sum, b[k]);
+    for (int k = 0; k < n; k++)
+      sum = hypot(sum, k < 2 ? scale_at(s, k, c->u) * b[k] : b[k]);
   }
   return sum;
 }
@@ -334,9 +344,7 @@ static double off_chord(const pendres_system *s, const pendres_curve_node *last,
 {
   double off = 0.0;
   for (int k = 0; k < s->unknowns; k++) {
-    const int i = s->unknown[k];
-    const double scale = pendres_arc_scale(i, 0.5 * (c->u[i] + last->u[i]));
-    const double chord = (c->u[i] - last->u[i]) / (scale * way);
+    const double chord = way_between(s, k, last->u, c->u) / way;
     off = hypot(off, chord - 0.5 * (last->tangent[k] + node->tangent[k]));
   }
   return off;
@@ -356,8 +364,8 @@ static int follows(const pendres_follower *w, const pendres_curve_node *last, in
   predict(w, rank, predicted);
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
-    way = hypot(way, (c->u[i] - last->u[i]) / pendres_arc_scale(i, 0.5 * (c->u[i] + last->u[i])));
-    miss = hypot(miss, (c->u[i] - predicted[i]) / pendres_arc_scale(i, c->u[i]));
+    way = hypot(way, way_between(s, k, last->u, c->u));
+    miss = hypot(miss, (c->u[i] - predicted[i]) / scale_at(s, k, c->u));
     turn += last->tangent[k] * node->tangent[k];
   }
   if (turn < follow_sharpest_turn || way > 2.0 * gap * w->step ||

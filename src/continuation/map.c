@@ -151,17 +151,34 @@ double pendres_arc_least_scale(int i)
   return i == PENDRES_U_OMEGA ? 0.3 : 0.1;
 }
 
-double pendres_arc_scale(int i, double value)
+/* Of y and w. At weak damping branches turn where orbits are small: there these count by their
+   ratios. */
+static double state_scale(const pendres_u u)
 {
-  const double least = pendres_arc_least_scale(i);
-  return i < PENDRES_U_OMEGA ? least : fmax(least, fabs(value) / scale_logarithmic);
+  const double least = fmax(scale_least, scale_weak * fabs(u[PENDRES_U_GAMMA]));
+  if (!(least < 1.0)) return 1.0;
+  const double orbit = fmax(hypot(u[PENDRES_U_Y], u[PENDRES_U_W]), fabs(u[PENDRES_U_DRIVE]));
+  return fmin(1.0, fmax(least, orbit));
+}
+
+double pendres_arc_scale(int i, const pendres_u u)
+{
+  if (i < PENDRES_U_OMEGA) return state_scale(u);
+  return fmax(pendres_arc_least_scale(i), fabs(u[i]) / scale_logarithmic);
+}
+
+double pendres_arc_scale_between(int i, const pendres_u a, const pendres_u b)
+{
+  pendres_u middle;
+  for (int k = 0; k < PENDRES_U_COUNT; k++) middle[k] = 0.5 * (a[k] + b[k]);
+  return pendres_arc_scale(i, middle);
 }
 
 double pendres_arc_distance(const pendres_u a, const pendres_u b)
 {
   double sum = 0.0;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
-    sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale(i, 0.5 * (a[i] + b[i])));
+    if (a[i] != b[i]) sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale_between(i, a, b));
   return sum;
 }
 

@@ -95,6 +95,7 @@ typedef struct pendres_system {
   int steps; /* a period */
   pendres_condition condition;
   int unknowns, unknown[PENDRES_UNKNOWNS];
+  int lengths; /* a follower counts the state in lengths, not by its ratio (pendres_arc_scale) */
 } pendres_system;
 
 pendres_pendulum pendres_map_pendulum(pendres_force force, const pendres_u u);
@@ -145,10 +146,15 @@ pendres_status pendres_map_closes(pendres_context *ctx, const pendres_map *half,
 double pendres_map_fold(const pendres_image *image);
 double pendres_map_flip(const pendres_image *image);
 
-/* The length that counts as one in arclength, of entry `i` of u where it has this value. Of
-   parameters it is a constant at first, but never less than a twentieth of the value: beyond twenty
-   of the constant they count by their logarithms, and a curve over decades is not a long one. */
-double pendres_arc_scale(int i, double value);
+/* The length that counts as one in arclength, of entry `i` of u where u is. Of parameters it is a
+   constant at first, but never less than a twentieth of the value: beyond twenty of the constant
+   they count by their logarithms, and a curve over decades is not a long one. Of the state it is 1,
+   at dampings below 0.05 the distance from rest: the narrow folds of weak resonances are then as
+   long as others. */
+double pendres_arc_scale(int i, const pendres_u u);
+
+/* The same half way from a to b. */
+double pendres_arc_scale_between(int i, const pendres_u a, const pendres_u b);
 
 /* The constant. */
 double pendres_arc_least_scale(int i);

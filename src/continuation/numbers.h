@@ -58,12 +58,20 @@ static const double pendres_central_step = 1e-4;
    rounding, 1e-15, does no harm. */
 static const double determinant_step = 2e-9;
 
+/* At weak damping the step is longer, but not beyond 2e-5, over which maps hardly bend. */
+static const double determinant_weakest = 1e-4;
+
 /* The derivative along the null vector enters the solution itself: central differences of order
    six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
 static const double null_vector_step = 8e-3;
 
 /* Values of a parameter above this times its least scale are taken by their ratios. */
 static const double scale_logarithmic = 20.0;
+
+/* The state counts by its ratio to the size of an orbit, but no further than to so many times the
+   damping, or to the last number: narrower than that no resonance is. From a damping of one over
+   this on, where folds are of order one, lengths are counted. */
+static const double scale_weak = 20.0, scale_least = 1e-5;
 
 /* ---- curves ---- */
 
@@ -105,6 +113,9 @@ static const double follow_sharpest_turn = 0.92, follow_farthest_miss = 0.25;
    points were stepped over. */
 static const double follow_farthest_off = 0.08;
 
+/* Steps to the nearest orbit before each of Newton's for a bifurcation at weak damping. */
+enum { NEWTON_APPROACH = 4 };
+
 /* With steps shorter than this many of the shortest no crossing is looked into: branches that come
    closer are told by the doubts of their points. */
 static const double follow_to_crossing = 32.0;
@@ -129,6 +140,9 @@ static const double zero_suspicious = 0.3, zero_touching = 0.05;
 /* A search ends at this length of arc. A vertex this close to the least point, as a share of what
    is searched, tells nothing new. */
 static const double zero_narrowest = 1e-9, zero_known = 0.02;
+
+/* A zero that Newton's method does not find from the chord is closed in to this share of it. */
+static const double zero_closed_in = 1e-5;
 
 enum {
   ZERO_TRIALS = 24,

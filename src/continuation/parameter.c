@@ -14,7 +14,9 @@ double pendres_parameter_scale(pendres_parameter parameter)
 
 double pendres_parameter_scale_at(pendres_parameter parameter, double value)
 {
-  return pendres_arc_scale(PENDRES_U_OMEGA + (int)parameter, value);
+  pendres_u u = {0.0};
+  u[PENDRES_U_OMEGA + (int)parameter] = value;
+  return pendres_arc_scale(PENDRES_U_OMEGA + (int)parameter, u);
 }
 
 double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance)

@@ -15,6 +15,16 @@
 #include "orbits/attractor_set.h"
 #include "orbits/orbit_measure.h"
 
+/* The share of a branch's way that goes along its parameter, where the state counts as it is: errors
+   are such lengths. */
+static double along_parameter(const pendres_system *s, const pendres_curve_node *at)
+{
+  const double size = pendres_arc_scale(s->unknown[0], at->u);
+  if (size == 1.0) return at->tangent[2];
+  const double state = size * hypot(at->tangent[0], at->tangent[1]);
+  return at->tangent[2] / hypot(state, at->tangent[2]);
+}
+
 /*
  * The two computations of a point of a branch differ in the parameter as well. What an orbit at one
  * value of it is known to is their distance there: the coarser is moved along the branch. Next to a
@@ -25,8 +35,8 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
                              pendres_solution *pair)
 {
   const int place = s->unknown[2];
-  const double along = at->tangent[2];
-  const double scale = pendres_arc_scale(place, pair->fine[place]);
+  const double along = along_parameter(s, at);
+  const double scale = pendres_arc_scale(place, pair->fine);
   const double off = (pair->fine[place] - pair->coarse[place]) / scale;
   if (!(fabs(off) < polish_before_fold * along * along)) {
     pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
@@ -34,7 +44,7 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
   }
   for (int k = 0; k < s->unknowns; k++)
     pair->coarse[s->unknown[k]] +=
-      pendres_arc_scale(s->unknown[k], pair->fine[s->unknown[k]]) * at->tangent[k] * off / along;
+      pendres_arc_scale(s->unknown[k], pair->fine) * at->tangent[k] * off / at->tangent[2];
   pair->coarse[place] = pair->fine[place];
   pair->rounding /= fmax(fabs(along), polish_flattest);
 }
@@ -125,14 +135,15 @@ static double errors_at(const pendres_curve *c, size_t i, double error[2])
   const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
                              p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
   /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
-  const double turning = across(c, i) ? fmax(fabs(c->node[i].tangent[2]), polish_flattest) : 1.0;
+  const double along = along_parameter(s, &c->node[i]);
+  const double turning = across(c, i) ? fmax(fabs(along), polish_flattest) : 1.0;
   const double chance = s->condition == PENDRES_CONDITION_LAG ? polish_agree_in_lag : polish_agree;
   double worst = 0.0;
   for (int k = 0; k < s->unknowns; k++) {
     const int place = s->unknown[k];
-    const double e = pendres_solution_error(
-      p->coarse[place], p->fine[place],
-      pendres_arc_scale(place, p->fine[place]) * p->rounding + (k >= 2 ? chance * point : 0.0));
+    const double scale = k >= 2 ? pendres_arc_scale(place, p->fine) : 1.0;
+    const double e = pendres_solution_error(p->coarse[place], p->fine[place],
+                                            scale * p->rounding + (k >= 2 ? chance * point : 0.0));
     if (k >= 2) error[k - 2] = e;
     worst = fmax(worst, k == 2 && s->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
   }

@@ -39,7 +39,7 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
   memcpy(way, at->crossing, sizeof at->crossing);
   if (unknown[2] == PENDRES_U_OMEGA) way[1] -= u[PENDRES_U_W] * way[2];
   way[1] /= u[PENDRES_U_OMEGA];
-  for (int k = 0; k < 3; k++) scale[k] = pendres_arc_scale(unknown[k], u[unknown[k]]);
+  for (int k = 0; k < 3; k++) scale[k] = pendres_arc_scale(unknown[k], u);
   for (int k = 0; k < 3; k++) way[k] /= scale[k];
   for (int k = 0; k < 3; k++) length = hypot(length, way[k]);
   for (int k = 0; k < 3; k++) way[k] /= length;

@@ -206,6 +206,33 @@ static pendres_status point_at(pendres_context *ctx, const pendres_curve *t,
   return pendres_follow_describe(ctx, &t->kind, c.steps, out);
 }
 
+pendres_status pendres_curve_close_in(pendres_context *ctx, const pendres_curve *t,
+                                      pendres_curve_function *test, const pendres_curve_zero *z,
+                                      pendres_u u)
+{
+  if (z->i + 1 >= t->nodes) return PENDRES_OK;
+  pendres_curve_node ends[2] = {t->node[z->i], t->node[z->i + 1]};
+  double value[2] = {test(&ends[0]), test(&ends[1])};
+  const double narrow = zero_closed_in * (ends[1].arclength - ends[0].arclength);
+  if (!(value[0] * value[1] < 0.0)) return PENDRES_OK;
+  for (int trial = 0; trial < ZERO_TRIALS; trial++) {
+    const double width = ends[1].arclength - ends[0].arclength;
+    const double at = ends[0].arclength + width * value[0] / (value[0] - value[1]);
+    pendres_curve_node here;
+    int good = 0;
+    const pendres_status status = point_at(ctx, t, ends, at, &here, &good);
+    if (status != PENDRES_OK || !good) return status;
+    memcpy(u, here.u, sizeof here.u);
+    const double now = test(&here);
+    const int side = now * value[0] > 0.0 ? 0 : 1;
+    if (now == 0.0 || fabs(at - ends[side].arclength) < narrow) break;
+    ends[side] = here;
+    value[side] = now;
+    value[1 - side] *= 0.5; /* or this end would stay where it is */
+  }
+  return PENDRES_OK;
+}
+
 static int insert(pendres_curve *t, size_t at, const pendres_curve_node *p)
 {
   pendres_curve_node *grown = pendres_grow(t->node, t->nodes, &t->capacity, sizeof *grown);

@@ -10,6 +10,7 @@
 #include "base/sized.h"
 #include "engine/accuracy.h"
 #include "engine/block.h"
+#include "engine/charts.h"
 #include "engine/compat.h"
 #include "engine/numbers.h"
 #include "engine/steps.h"
@@ -80,6 +81,7 @@ void pendres_context_free(pendres_context *ctx)
   free(ctx->mate);
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_block_free(ctx->blocks[i]);
   pendres_steps_memo_free(ctx->steps);
+  pendres_charts_memo_free(ctx->charts);
   SUNContext sun = ctx->sun;
   if (sun != NULL) SUNContext_Free(&sun);
   free(ctx);

@@ -22,7 +22,8 @@ typedef enum pendres_flow_kind {
   PENDRES_FLOW_KINDS
 } pendres_flow_kind;
 
-struct pendres_steps_memo; /* steps.h */
+struct pendres_steps_memo;  /* steps.h */
+struct pendres_charts_memo; /* charts.h */
 typedef struct pendres_block pendres_block; /* block.h */
 
 struct pendres_context {
@@ -35,6 +36,7 @@ struct pendres_context {
   pendres_context **mate; /* of the threads of a team (team.h), kept from one call to the next */
   int mates;
   struct pendres_steps_memo *steps;
+  struct pendres_charts_memo *charts; /* NULL: none so far */
   pendres_cost cost;
   double most_slopes;    /* pendres_context_slopes at which a computation ends; INFINITY: never */
   int (*stop)(void *arg);

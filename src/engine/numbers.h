@@ -77,4 +77,26 @@ static const double probe_rounding = 1e-9;
    the order, less a twentieth; before, half as many more. Four times as many at most are tried. */
 static const double probe_regular = 1e-2, probe_less = 0.95, probe_more = 1.5, probe_most = 4.0;
 
+/* ---- charts of the strobe map (charts.c) ---- */
+
+enum {
+  CHARTS_FAR = 8,   /* units of length from rest to the last square */
+  CHARTS_LEVELS = 5 /* 1, 8, 64, 512 and 4096 periods */
+};
+
+/* Settling takes at least so many periods where charts are made; the longest ones are over this
+   share of it. */
+static const double charts_worth = 300.0, charts_longest = 0.125;
+
+/* The error of a period that is charted, by the integrator; what a chart may miss between its nodes,
+   and how much more than what was seen it may be there. */
+static const double charts_integrated = 1e-12, charts_missed = 1e-11, charts_between = 2.0;
+
+/* Squares have sides of at least this share of the distance from the bottom, times the root of the
+   time of settling, ... */
+static const double charts_rounds = 100.0, charts_smallest = 1e-3;
+
+/* A chart takes as long as so many slopes. */
+static const double charts_slopes = 64.0;
+
 #endif

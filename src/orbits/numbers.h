@@ -205,6 +205,7 @@ static const double level_beyond = 1.2;
 
 enum {
   SETTLE_CHAOTIC_STREAK = 32, /* strobes in a row in a chaotic attractor's cells: then chaotic */
+  SETTLE_ASIDE = 32,          /* periods that a lane is integrated for where there is no chart */
   /* Periods in which replicas part, and that lanes of slow drives get in any case. */
   WARM_UP = 200
 };

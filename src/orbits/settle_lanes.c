@@ -2,10 +2,12 @@
    settle_lanes.h. */
 #include "orbits/settle_lanes.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "engine/charts.h"
 #include "engine/context_internal.h"
 #include "engine/coordinates.h"
 #include "engine/room.h"
@@ -214,7 +216,8 @@ static size_t set_of(const pendres_settle_labelling *l, size_t i)
 static int spent(const pendres_settle_labelling *l, size_t set, const pendres_strobe_lane *lane)
 {
   return lane->period >= l->budget[set] ||
-         (lane->period >= WARM_UP && (double)lane->period * lane->steps >= l->most_steps);
+         (lane->period >= WARM_UP &&
+          (double)(lane->period - lane->charted) * lane->steps >= l->most_steps);
 }
 
 /* Whether a lane is lost. What grows on a chaotic attractor after it has been reached does not
@@ -229,17 +232,171 @@ static int lost(const pendres_settle_labelling *l, size_t i, const pendres_attra
   return 1;
 }
 
-static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
+/* What settle_look() does where a lane is in no ellipse. */
+static int look_outside(const pendres_settle_labelling *l, size_t i,
+                        const pendres_strobe_lane *lane)
 {
-  const pendres_settle_labelling *l = arg;
   const size_t set = set_of(l, i);
   const pendres_attractor_set *c = &l->attractor_sets[set];
-  if (trapped(l, i, c, lane)) return 1;
   if (l->before != NULL && escapes(l, i, c, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
   if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
   if (l->drop_lost && lost(l, i, c, lane)) return 1;
   return spent(l, set, lane);
+}
+
+static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
+{
+  const pendres_settle_labelling *l = arg;
+  return trapped(l, i, &l->attractor_sets[set_of(l, i)], lane) || look_outside(l, i, lane);
+}
+
+/* ---- by charts ---- */
+
+/* Periods that a lane may go at once, by the longest chart: within its budget, and one by one where
+   its latest strobe points are recorded. */
+static long leap(const pendres_settle_labelling *l, size_t i, const pendres_strobe_lane *lane)
+{
+  const long left = l->budget[set_of(l, i)] - lane->period;
+  if (l->histories == NULL) return left;
+  return left > PENDRES_SETTLE_HISTORY ? left - PENDRES_SETTLE_HISTORY : 1;
+}
+
+/* Advance a lane by charts until it is done, or comes to where there are none. Where a long chart
+   leads into an ellipse, shorter ones tell when it came there. */
+static pendres_status glide(pendres_context *ctx, pendres_charts *charts,
+                            const pendres_settle_labelling *l, size_t i, pendres_strobe_lane *lane,
+                            int *done)
+{
+  const pendres_attractor_set *c = &l->attractor_sets[set_of(l, i)];
+  int most = pendres_charts_levels(charts) - 1, highest = most, level = 0;
+  *done = 0;
+  while (!*done) {
+    const pendres_strobe_lane from = *lane;
+    const long may = leap(l, i, lane);
+    while (highest > 0 && (highest > most || pendres_charts_periods(highest) > may)) highest--;
+    const pendres_status status = pendres_charts_advance(ctx, charts, highest, lane, &level);
+    if (status != PENDRES_OK || level < 0) return status;
+    lane->charted += pendres_charts_periods(level);
+    if (level == 0) {
+      *done = settle_look((void *)l, i, lane);
+    } else if (pendres_attractor_set_ellipse(c, lane->y, lane->w) != NULL) {
+      *lane = from;
+      most = level - 1;
+    } else {
+      *done = look_outside(l, i, lane);
+    }
+    highest = level + 1;
+  }
+  return pendres_context_poll(ctx);
+}
+
+/* Whether lanes of a parameter set may be advanced by charts: not on chaos, which is watched strobe
+   by strobe. */
+static int may_glide(const pendres_context *ctx, const pendres_attractor_set *c)
+{
+  return c->covers == 0 && pendres_charts_worth(ctx, &c->pendulum);
+}
+
+/* Lanes that are integrated, each thread's one of so many, so that all take about as long. */
+typedef struct running {
+  pendres_strobe_lane *lanes;
+  const size_t *which;
+  pendres_strobe_visit *visit;
+  void *arg;
+} running;
+
+static pendres_status run_some(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  const running *r = arg;
+  return pendres_strobe_run_some(ctx, count, r->which + first, r->lanes, r->visit, r->arg);
+}
+
+/* Integrate n lanes with the numbers `which` until visit ends them. */
+static pendres_status integrate(pendres_context *ctx, size_t n, const size_t *which,
+                                pendres_strobe_lane *lanes,
+                                pendres_strobe_visit *visit, void *arg)
+{
+  const size_t share = pendres_team_share(ctx, n), parts = share > 0 ? (n + share - 1) / share : 1;
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  size_t *dealt = pendres_room_take(&room, n, sizeof *dealt);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t part = 0, at = 0; part < parts; part++)
+    for (size_t k = part; k < n; k += parts) dealt[at++] = which[k];
+  running r = {.lanes = lanes, .which = dealt, .visit = visit, .arg = arg};
+  return pendres_room_close(&room, pendres_team_run(ctx, n, (n + parts - 1) / parts, run_some, &r));
+}
+
+/* Runs of lanes that take turns between charts and the integrator. */
+typedef struct turns {
+  pendres_settle_labelling *job;
+  long *until; /* of each lane: the period to which it is integrated */
+  unsigned char *ended;
+} turns;
+
+static int look_until(void *arg, size_t i, const pendres_strobe_lane *lane)
+{
+  const turns *t = arg;
+  t->ended[i] = (unsigned char)settle_look(t->job, i, lane);
+  return t->ended[i] || lane->period >= t->until[i];
+}
+
+/* Advance those of the lanes that can be by charts; those that are left are integrated, for a
+   while or, where there are no charts, to the end. */
+static pendres_status glide_all(pendres_context *ctx, size_t n, const size_t *which,
+                                pendres_strobe_lane *lanes, turns *t)
+{
+  double bottom[PENDRES_ATTRACTOR_SET_BOTTOMS];
+  const pendres_attractor_set *before = NULL;
+  pendres_charts *charts = NULL;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    const size_t i = which[k];
+    const pendres_attractor_set *c = &t->job->attractor_sets[set_of(t->job, i)];
+    int done = 0;
+    if (c != before) {
+      charts = NULL;
+      if (may_glide(ctx, c))
+        status = pendres_charts_of(ctx, &c->pendulum,
+                                   pendres_attractor_set_bottoms(&c->pendulum, bottom), bottom,
+                                   &charts);
+      before = c;
+    }
+    if (charts != NULL) status = glide(ctx, charts, t->job, i, &lanes[i], &done);
+    t->ended[i] = (unsigned char)done;
+    t->until[i] = charts != NULL ? lanes[i].period + SETTLE_ASIDE : LONG_MAX;
+  }
+  return status;
+}
+
+static pendres_status run_lanes(pendres_context *ctx, size_t n, size_t *which,
+                                pendres_strobe_lane *lanes, pendres_settle_labelling *l)
+{
+  size_t most = 0, left = n;
+  int may = 0;
+  for (size_t k = 0; k < n; k++) {
+    may |= may_glide(ctx, &l->attractor_sets[set_of(l, which[k])]);
+    most = which[k] >= most ? which[k] + 1 : most;
+  }
+  if (!may) return integrate(ctx, n, which, lanes, settle_look, l);
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  size_t *some = pendres_room_take(&room, n, sizeof *some);
+  turns t = {.job = l, .until = pendres_room_take(&room, most, sizeof *t.until)};
+  t.ended = pendres_room_take(&room, most, sizeof *t.ended);
+  pendres_status status = room.status;
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) some[k] = which[k];
+  while (left > 0 && status == PENDRES_OK) {
+    status = glide_all(ctx, left, some, lanes, &t);
+    for (int twice = 0; twice < 2; twice++) {
+      size_t count = 0;
+      for (size_t k = 0; k < left; k++)
+        if (!t.ended[some[k]]) some[count++] = some[k];
+      left = count;
+      if (twice == 0 && left > 0 && status == PENDRES_OK)
+        status = integrate(ctx, left, some, lanes, look_until, &t);
+    }
+  }
+  return pendres_room_close(&room, status);
 }
 
 /* List the lanes that are to run: those that are unresolved, in no ellipse, and within their
@@ -268,33 +425,6 @@ static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
   return left;
 }
 
-/* Lanes that run, each thread's one of so many, so that all take about as long. */
-typedef struct running {
-  pendres_strobe_lane *lanes;
-  pendres_settle_labelling *l;
-  const size_t *which;
-} running;
-
-static pendres_status run_some(pendres_context *ctx, size_t first, size_t count, void *arg)
-{
-  const running *r = arg;
-  return pendres_strobe_run_some(ctx, count, r->which + first, r->lanes, settle_look, r->l);
-}
-
-/* Run n lanes with the numbers `which`, which are put into another order. */
-static pendres_status run(pendres_context *ctx, size_t n, size_t *which,
-                          pendres_strobe_lane *lanes, pendres_settle_labelling *l)
-{
-  const size_t share = pendres_team_share(ctx, n), parts = share > 0 ? (n + share - 1) / share : 1;
-  pendres_room room = pendres_room_open(ctx, "pendulums");
-  size_t *dealt = pendres_room_take(&room, n, sizeof *dealt);
-  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  for (size_t part = 0, at = 0; part < parts; part++)
-    for (size_t k = part; k < n; k += parts) dealt[at++] = which[k];
-  running r = {.lanes = lanes, .l = l, .which = dealt};
-  return pendres_room_close(&room, pendres_team_run(ctx, n, (n + parts - 1) / parts, run_some, &r));
-}
-
 pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                     pendres_settle_labelling *l)
 {
@@ -314,7 +444,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
     const pendres_strobe_lane *from = &lanes[which[k]];
     l->before[which[k]] = (pendres_settle_place){from->y, from->w, from->worst};
   }
-  pendres_status status = run(ctx, left, which, lanes, l);
+  pendres_status status = run_lanes(ctx, left, which, lanes, l);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
     const size_t i = which[k];
     pendres_outcome *o = &l->outcome[i];

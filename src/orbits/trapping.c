@@ -25,6 +25,28 @@ static void map_of(const pendres_orbit *o, double m[2][2])
   m[1][1] = o->monodromy[1][1];
 }
 
+int pendres_trapping_is_weak(const pendres_orbit *o)
+{
+  const double (*m)[2] = o->monodromy, skew = 0.5 * (m[1][1] - m[0][0]);
+  return skew * skew < -m[0][1] * m[1][0] && /* complex multipliers */
+         hypot(o->multiplier_re[0], o->multiplier_im[0]) > level_weak;
+}
+
+/* The metric that the map shrinks evenly: with complex multipliers (c, (d - a)/2, -b) of the matrix
+   (a, b; c, d), by its invariant quadratic form. Scaled as trapping_ellipse.h says. */
+static void even_metric(const pendres_orbit *o, double p[3])
+{
+  const double omega = o->pendulum.drive_frequency;
+  const double b = o->monodromy[0][1] * omega, c = o->monodromy[1][0] / omega;
+  const double sign = c > 0.0 ? 1.0 : -1.0;
+  p[0] = sign * c;
+  p[1] = sign * 0.5 * (o->monodromy[1][1] - o->monodromy[0][0]);
+  p[2] = -sign * b;
+  const double mean = 0.5 * (p[0] + p[2]), spread = hypot(0.5 * (p[0] - p[2]), p[1]);
+  const double least = (p[0] * p[2] - p[1] * p[1]) / (mean + spread);
+  for (int i = 0; i < 3; i++) p[i] /= least;
+}
+
 /*
  * Close to a fold one direction is slow, and the metric below would make the ellipse short just
  * along it. There the distance is measured by components along the unit eigenvectors instead.
@@ -370,8 +392,9 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
     ellipses[i] = (pendres_trapping_ellipse){
       .y = at.y, .w = at.w, .period = o->period, .winding = o->winding,
       .turn = pendres_model_turn(&o->pendulum)};
-    if (!o->stable || !metric_of(o, ellipses[i].metric))
-      continue;
+    if (!o->stable) continue;
+    if (pendres_trapping_is_weak(o)) even_metric(o, ellipses[i].metric);
+    else if (!metric_of(o, ellipses[i].metric)) continue;
     const int looks = contraction_looks(&ellipses[i], o);
     s[left++] = (search){.orbit = i,
                          .stage = STAGE_BASE,

@@ -86,6 +86,10 @@ static inline int pendres_trapping_holds(const pendres_trapping_ellipse *t, doub
   return norm2 < t->reach * t->reach && pendres_trapping_polynomial(t, y, w) <= t->level;
 }
 
+/* Whether a stable orbit attracts slowly and from all directions alike: its metric is the one that
+   the map shrinks evenly. */
+int pendres_trapping_is_weak(const pendres_orbit *o);
+
 /* How hard to look for large ellipses. */
 typedef enum pendres_trapping_effort {
   PENDRES_TRAPPING_FEW = 0, /* for ensembles of hundreds: the radius within a factor of 1.4 */

@@ -87,21 +87,6 @@ typedef struct disk {
   pendres_trapping_ellipse ellipse;      /* with the metric of the linear map */
 } disk;
 
-/* The metric that the map shrinks evenly: with complex multipliers (c, (d - a)/2, -b) of the matrix
-   (a, b; c, d), by its invariant quadratic form. Scaled as trapping_ellipse.h says. */
-static void even_metric(const pendres_orbit *o, double p[3])
-{
-  const double omega = o->pendulum.drive_frequency;
-  const double b = o->monodromy[0][1] * omega, c = o->monodromy[1][0] / omega;
-  const double sign = c > 0.0 ? 1.0 : -1.0;
-  p[0] = sign * c;
-  p[1] = sign * 0.5 * (o->monodromy[1][1] - o->monodromy[0][0]);
-  p[2] = -sign * b;
-  const double mean = 0.5 * (p[0] + p[2]), spread = hypot(0.5 * (p[0] - p[2]), p[1]);
-  const double least = (p[0] * p[2] - p[1] * p[1]) / (mean + spread);
-  for (int i = 0; i < 3; i++) p[i] /= least;
-}
-
 /* Lay the points of a disk. */
 static void lay(disk *d, pendres_strobe_lane *lanes, const pendres_pendulum *p)
 {
@@ -336,14 +321,11 @@ static void begin(disk *d, size_t orbit, const pendres_orbit *o, const pendres_t
   const double kept = exp(-two_pi * o->period * o->pendulum.damping / o->pendulum.drive_frequency);
   *d = (disk){.orbit = orbit, .kept = kept, .ellipse = *t};
   d->radius = fmin(trapping_widest, 0.5 * t->radius / (1.0 - kept));
-  even_metric(o, d->ellipse.metric);
 }
 
-static int is_weak(const pendres_orbit *o, const pendres_trapping_ellipse *t)
+static int has_room(const pendres_orbit *o, const pendres_trapping_ellipse *t)
 {
-  const double (*m)[2] = o->monodromy, skew = 0.5 * (m[1][1] - m[0][0]);
-  return t->radius > 0.0 && skew * skew < -m[0][1] * m[1][0] && /* complex multipliers */
-         hypot(o->multiplier_re[0], o->multiplier_im[0]) > level_weak;
+  return t->radius > 0.0 && pendres_trapping_is_weak(o);
 }
 
 pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,
@@ -351,7 +333,7 @@ pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,
                                             pendres_trapping_ellipse *ellipses)
 {
   size_t left = 0;
-  for (size_t i = 0; i < n; i++) left += (size_t)is_weak(&orbits[i], &ellipses[i]);
+  for (size_t i = 0; i < n; i++) left += (size_t)has_room(&orbits[i], &ellipses[i]);
   if (left == 0) return PENDRES_OK;
   pendres_room room = pendres_room_open(ctx, "trapping levels");
   disk *disks = pendres_room_take(&room, left, sizeof *disks);
@@ -360,7 +342,7 @@ pendres_status pendres_trapping_levels_find(pendres_context *ctx, size_t n,
   pendres_status status = room.status;
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   for (size_t i = 0, k = 0; i < n && k < left; i++) {
-    if (!is_weak(&orbits[i], &ellipses[i])) continue;
+    if (!has_room(&orbits[i], &ellipses[i])) continue;
     at[k] = &disks[k];
     begin(&disks[k++], i, &orbits[i], &ellipses[i]);
   }

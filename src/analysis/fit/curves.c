@@ -4,12 +4,29 @@
 #include <math.h>
 #include <string.h>
 
+#include "continuation/parameter.h"
 #include "model/model.h"
 #include "orbits/orbit_pair.h"
 
 static double axis_of(const fit_model *m, const pendres_curve_node *node)
 {
   return node->u[pendres_fit_place(m)];
+}
+
+/* Curves are moved with the parameters, damping among them: their state counts in lengths,
+   whatever the damping. */
+static double scale_at(int place, double value)
+{
+  if (place < PENDRES_U_OMEGA) return 1.0;
+  return pendres_parameter_scale_at((pendres_parameter)(place - PENDRES_U_OMEGA), value);
+}
+
+static double distance(const pendres_u a, const pendres_u b)
+{
+  double sum = 0.0;
+  for (int i = 0; i < PENDRES_U_COUNT; i++)
+    sum = hypot(sum, (a[i] - b[i]) / scale_at(i, 0.5 * (a[i] + b[i])));
+  return sum;
 }
 
 static pendres_status lose(fit_model *m, const char *why)
@@ -105,13 +122,14 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
   const pendres_pendulum middle = pendres_map_pendulum(m->base.force, u);
   pendres_orbit_guess unused;
   linear_guess(&middle, &unused, &highest);
-  const double scale = pendres_arc_scale(pendres_fit_place(m), r->high);
+  const double scale = pendres_parameter_scale_at(m->axis, r->high);
   const double wide = m->axis == PENDRES_DRIVE_FREQUENCY ? middle.damping : 0.0;
   const double across = fmax(wide, (r->high - r->low) / fit_steps_across) / scale;
   const double spacing = fmin(0.1, fmax(fmin(fmin(highest, 2.0) / fit_nodes_high, across), 1e-5));
   o.symmetric = keeps_symmetry(m, &p);
   o.mean_angle = 0.0;
   c->kind = pendres_followed_of(&o, PENDRES_CONDITION_NONE, &m->axis, spacing, u);
+  c->kind.system.lengths = 1;
   return pendres_follow_begin(m->ctx, &c->kind, u, 1.0, w);
 }
 
@@ -163,7 +181,7 @@ static int describe_moved(const pendres_followed *kind, const pendres_correction
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 3; k++) {
       const int place = kind->system.unknown[k];
-      r[i][k] = at->at.j[i][place] * pendres_arc_scale(place, at->u[place]);
+      r[i][k] = at->at.j[i][place] * scale_at(place, at->u[place]);
     }
   for (int k = 0; k < 3; k++) {
     const int a = (k + 1) % 3, b = (k + 2) % 3;
@@ -184,10 +202,10 @@ static int is_whole(const fit_model *m, const fit_curve *c, const range *r, cons
   for (size_t i = 1; i < c->nodes; i++) {
     const pendres_curve_node *a = &c->node[i - 1], *b = &c->node[i];
     double ahead = 0.0, turn = 0.0;
-    const double way = pendres_arc_distance(a->u, b->u);
+    const double way = distance(a->u, b->u);
     for (int k = 0; k < 3; k++) {
       const int place = c->kind.system.unknown[k];
-      ahead += a->tangent[k] * (b->u[place] - a->u[place]) / pendres_arc_scale(place, b->u[place]);
+      ahead += a->tangent[k] * (b->u[place] - a->u[place]) / scale_at(place, b->u[place]);
       turn += a->tangent[k] * b->tangent[k];
     }
     if (way > fit_torn * before[i] + 1e-4 || ahead < 0.5 * way || turn < 0.8) return 0;
@@ -214,7 +232,7 @@ static pendres_status move(fit_model *m, fit_curve *c, const fit_values v)
     pendres_fit_point_at(m, c, v, axis_of(m, n), at[i].u);
     at[i].u[PENDRES_U_Y] = n->u[PENDRES_U_Y];
     at[i].u[PENDRES_U_W] = n->u[PENDRES_U_W];
-    if (i > 0) before[i] = pendres_arc_distance(c->node[i - 1].u, n->u);
+    if (i > 0) before[i] = distance(c->node[i - 1].u, n->u);
     if (hypot(n->u[0], n->u[1]) > hypot(c->node[highest].u[0], c->node[highest].u[1])) highest = i;
   }
   status = pendres_map_steps(m->ctx, m->base.force, at[highest].u, c->kind.tolerance, &steps);
@@ -259,12 +277,12 @@ static void set_pieces(const fit_model *m, fit_curve *c)
 static void cubic(const fit_curve *c, const pendres_curve_node *a, const pendres_curve_node *b,
                   double t, pendres_u u, double *tangent)
 {
-  const double way = pendres_arc_distance(a->u, b->u);
+  const double way = distance(a->u, b->u);
   double length = 0.0, along[3];
   memcpy(u, a->u, sizeof(pendres_u));
   for (int k = 0; k < 3; k++) {
     const int place = c->kind.system.unknown[k];
-    const double scale = pendres_arc_scale(place, 0.5 * (a->u[place] + b->u[place]));
+    const double scale = scale_at(place, 0.5 * (a->u[place] + b->u[place]));
     const double d = (b->u[place] - a->u[place]) / scale;
     const double p = way * a->tangent[k], q = way * b->tangent[k];
     const double e = 3.0 * d - 2.0 * p - q, f = p + q - 2.0 * d;
@@ -354,8 +372,8 @@ static void widen_pieces(const fit_model *m, fit_curve *c)
       p->low = fmin(p->low, s);
       p->high = fmax(p->high, s);
       const pendres_curve_node *a = &c->node[f->after], *b = a + 1;
-      const double before = pendres_arc_distance(a->u, f->u);
-      f->part = before / (before + pendres_arc_distance(f->u, b->u));
+      const double before = distance(a->u, f->u);
+      f->part = before / (before + distance(f->u, b->u));
     }
 }
 

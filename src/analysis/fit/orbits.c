@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "continuation/parameter.h"
 #include "engine/block.h"
 
 /* One lane: its samples on the closed orbit, and their derivatives by the fit's parameters. */
@@ -74,7 +75,7 @@ static int close_orbit(orbit *o, fit_lane *l)
 {
   const size_t end = o->s->steps;
   double inv[FIT_PLACES][FIT_PLACES];
-  o->scale = pendres_arc_scale(pendres_fit_place(o->m), l->u[pendres_fit_place(o->m)]);
+  o->scale = pendres_parameter_scale_at(o->m->axis, l->u[pendres_fit_place(o->m)]);
   if (!inverse(o, l, inv)) return 0;
   solve(inv, sample(o, end, PENDRES_ROW_Y) - l->u[PENDRES_U_Y],
         sample(o, end, PENDRES_ROW_W) - l->u[PENDRES_U_W], o->shift);
