@@ -65,13 +65,13 @@ def draw_fit(h, path):
     names = h.file["datum_observable"].attrs["flag_meanings"]
     names = (names.decode() if isinstance(names, bytes) else names).split()
     kinds = np.unique(h["datum_observable"])
-    jumps = all(names[kind] == "jump" for kind in kinds)
+    places = [kind for kind in kinds if names[kind] in ("jump", "resonance")]
     along = "datum_axis"
-    if jumps and "datum_other" in h:  # their places are values of the axis
+    if len(places) == len(kinds) and "datum_other" in h:  # their places are values of the axis
         along = "datum_other"
         x, label = in_units(h, "datum_other", words(other_text(h, 0.0).split(" =")[0]))
-    elif not jumps:
-        kinds = [kind for kind in kinds if names[kind] != "jump"]
+    elif len(places) < len(kinds):
+        kinds = [kind for kind in kinds if kind not in places]
     kinds = kinds[:MOST_PANELS]
     fig, axes = figure(h, 1.1 + 1.7 * len(kinds) + 0.8, len(kinds) + 1, 1, sharex=True,
                        height_ratios=[2.2] * len(kinds) + [1])

@@ -368,7 +368,8 @@ static void narrow_tip(void **state)
     .options = {.ensemble = {.members = 4, .x_first = -0.13, .x_last = 0.13}},
     .values = FREQUENCIES, .value = frequency,
     .across = PENDRES_DAMPING, .lines = 1, .line_value = &damping};
-  for (int i = 0; i < FREQUENCIES; i++) frequency[i] = (1.199 + 0.007 * i / (FREQUENCIES - 1)) / 1.2;
+  for (int i = 0; i < FREQUENCIES; i++)
+    frequency[i] = (1.199 + 0.007 * i / (FREQUENCIES - 1)) / 1.2;
   pendres_context *ctx = context_of(1e-8);
   pendres_phase_diagram *d = NULL;
   check_ok(pendres_phase_diagram_find(ctx, &grid, &d));

@@ -39,6 +39,9 @@ static range range_of(const fit_model *m, const fit_curve *c, const fit_values v
     a = low;
     b = high;
     span = high - low;
+  } else if (c->marked) {
+    /* Places tell little of how far it is to the next: as far as to 0, perhaps. */
+    span = fmax(span, fmax(fabs(a), fabs(b)));
   }
   range r = {.low = fmin(a, b) - fit_margin * span, .high = fmax(a, b) + fit_margin * span,
              .least = fmin(a, b) - fit_outside * span, .most = fmax(a, b) + fit_outside * span};

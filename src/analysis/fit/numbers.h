@@ -83,12 +83,16 @@ static const double fit_kinked = 1.0;
    most a third of their errors. */
 static const double fit_stepped = 0.1;
 
+/* Of two sets of values whose chi-squares differ by less than three standard deviations make,
+   neither is excluded; sets are two that are more than so many standard errors apart. */
+static const double fit_twin = 9.0, fit_apart = 6.0;
+
 /* A value this close to a bound, as a share of the range, is at it: fits begin further inside. */
 static const double fit_at_bound = 1e-5, fit_inside = 1e-3;
 
 /* Below this ratio of singular values of the scaled derivatives a combination is not determined:
-   they are known to seven digits or so. */
-static const double fit_undetermined = 1e-7;
+   they are known to six digits or so. */
+static const double fit_undetermined = 1e-5;
 
 /* A fit whose chi-square is so improbable says that it is on a wrong minimum, or the model or the
    errors are wrong. A start whose probability is above the second number ends the search. */
