@@ -121,13 +121,17 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
 /* ---- following ---- */
 
 /* Whether a curve has come out of the data's range for good at its last node; *over: it has left
-   what is followed. */
+   what is followed. Places alone do not show how far the state leads on which they are: over the
+   frequency it is passed where the motion is against the drive. */
 static int is_through(const fit_model *m, const fit_curve *c, const range *r, int *over)
 {
   const pendres_curve_node *last = &c->node[c->nodes - 1];
   const double s = axis_of(m, last);
+  const int passed = !c->marked || m->axis != PENDRES_DRIVE_FREQUENCY ||
+                     last->u[PENDRES_U_Y] * last->u[PENDRES_U_DRIVE] < 0.0;
   *over = s < r->least || s > r->most || c->nodes + PENDRES_AHEAD >= FIT_NODES;
-  return *over || (s > r->high && last->tangent[2] > 0.0 && pendres_map_fold(&last->image) > 0.0);
+  return *over || (s > r->high && last->tangent[2] > 0.0 && passed &&
+                   pendres_map_fold(&last->image) > 0.0);
 }
 
 static pendres_status follow(fit_model *m, fit_curve *c, const fit_values v)

@@ -313,7 +313,7 @@ static double own_guess(const fit_model *m, const pendres_fit_unknown *u)
    Returns how many. */
 static int find_starts(pendres_fit_call *c, fit_model *m, fit_values start[FIT_TRIED])
 {
-  int count = 0, whole = 1;
+  int count = 0, whole = 1, damped = 0; /* whether the damping is sought */
   fit_values open, own;
   memcpy(open, c->start, sizeof open);
   memcpy(own, c->start, sizeof own);
@@ -322,6 +322,7 @@ static int find_starts(pendres_fit_call *c, fit_model *m, fit_values start[FIT_T
     if (u->fixed) continue;
     own[u->quantity] = own_guess(m, u);
     whole &= !isnan(own[u->quantity]);
+    damped |= u->quantity == PENDRES_DAMPING;
     /* A prior is a guess as well, and what has bounds begins in their middle. */
     if (isnan(u->guess) && u->prior_error > 0.0) open[u->quantity] = u->prior;
   }
@@ -334,7 +335,7 @@ static int find_starts(pendres_fit_call *c, fit_model *m, fit_values start[FIT_T
         open[c->model->unknown[i].quantity] = NAN;
   }
   /* Where jumps are data and the guess has none, one of less damping, or of more, may. */
-  for (int k = 0; k < FIT_GUESS_AROUND && whole && m->marks > 0; k++) {
+  for (int k = 0; k < FIT_GUESS_AROUND && whole && damped && m->marks > 0; k++) {
     memcpy(start[count], own, sizeof(fit_values));
     start[count++][PENDRES_DAMPING] *= fit_guess_around[k];
   }
