@@ -15,6 +15,7 @@ enum {
   FIT_FOLDS = 16,
   /* Nodes of a curve: some hundred are usual. */
   FIT_NODES = 1500,
+  FIT_REST_ROUNDS = 8, /* of Newton's method, for where a pendulum rests under its torque */
   FIT_FOLD_ROUNDS = 4, /* secants for a fold: each gives as many digits as the two before */
   /* Steps a period, at most this many and so many times as many as where a start began: values that
      need more have gone astray. Slow drives take some hundred. */
