@@ -96,8 +96,9 @@ static const double fit_at_bound = 1e-5, fit_inside = 1e-3;
 static const double fit_undetermined = 1e-5;
 
 /* A fit whose chi-square is so improbable says that it is on a wrong minimum, or the model or the
-   errors are wrong. A start whose probability is above the second number ends the search. */
-static const double fit_improbable = 1e-6, fit_good_enough = 1e-3;
+   errors are wrong. A start whose probability is above the second number ends the search: one in
+   twenty of the right ones goes on in vain, and few of the wrong ones end it. */
+static const double fit_improbable = 1e-6, fit_good_enough = 0.05;
 
 /* Residuals of neighbours are correlated beyond chance where the sum of their products is further
    from 0 than this many standard deviations. */

@@ -233,11 +233,10 @@ static double jump_residual(const fit_model *m, const fit_track *t, const fit_te
   const double wide = inside ? fabs(gap[1] - gap[0]) : mean;
   *scale = hypot(wide / sqrt(12.0), terms->jump_error);
   if (inside) return (0.5 * (gap[0] + gap[1]) - fold) / *scale;
-  /* Nothing was seen: no objection to what lies beyond the data. */
-  const double end = isnan(gap[0]) ? gap[1] : gap[0];
-  const double past = (fold - end) * t->direction;
-  const int seen = isnan(gap[0]) ? past > 0.0 : past < 0.0;
-  return seen ? (end - fold) / *scale : 0.0;
+  /* Nothing was seen: no objection to what lies behind the data, nor to a sweep that began on
+     another state. */
+  const int seen = isnan(gap[1]) && (fold - gap[0]) * t->direction < 0.0;
+  return seen ? (gap[0] - fold) / *scale : 0.0;
 }
 
 /* The jumps from each stage to the next, with the data before station i on the one and from there
