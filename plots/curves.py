@@ -471,7 +471,8 @@ def write_steps(ax, h, x, unit):
             text += f" ({width * factor:.4g})"
         wide = (last - first) * factor > 0.15 * np.ptp(x)
         at = first + (0.55 * (last - first) if wide else last - first)
-        ax.annotate(text, (at * factor, turns * unit), ha="right", va="bottom", xytext=(0, 2),
+        ax.annotate(text, (at * factor, turns * unit), ha="right", va="bottom",
+                    xytext=(0 if wide else -5, 2),
                     textcoords="offset points", fontsize=plt.rcParams["legend.fontsize"])
 
 
