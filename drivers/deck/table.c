@@ -256,7 +256,8 @@ const deck_key deck_table[] = {
     SAYS("unit of 'key'", "its values, within the range of that key") },
 
   { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
-    .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters") },
+    .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters; "
+    "for 'branches', which are followed from what these find, a few are enough") },
   { CHOICE("ensemble", "shape", ensemble.shape), IN(MEMBERS), .choices = shapes, .text = "line",
     SAYS(NULL, "how the starts lie: on a line of one velocity, on a grid that fills a rectangle of "
          "x and v, or at random in such a rectangle; of the latter two, errors of shares and means "

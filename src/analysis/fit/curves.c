@@ -54,8 +54,8 @@ static range range_of(const fit_model *m, const fit_curve *c, const fit_values v
   return r;
 }
 
-/* The linear response about where the pendulum rests in the well at the origin; its amplitude is also
-   what a curve reaches at most, with the drive over the friction. */
+/* The linear response about where the pendulum rests in the well at the origin; its amplitude is
+   also what a curve reaches at most, with the drive over the friction. */
 static void linear_guess(const pendres_pendulum *p, pendres_orbit_guess *g, double *highest)
 {
   double rest = pendres_model_of(p->force)->origin, slope = 1.0;
