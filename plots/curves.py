@@ -474,6 +474,8 @@ def write_steps(ax, h, x, unit):
         ax.annotate(text, (at * factor, turns * unit), ha="right", va="bottom",
                     xytext=(0 if wide else -5, 2),
                     textcoords="offset points", fontsize=plt.rcParams["legend.fontsize"])
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.06 * (high - low))  # for a number above the highest
 
 
 def exponent_axis(h, label="Lyapunov\nexponent"):
