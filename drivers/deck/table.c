@@ -349,7 +349,7 @@ const deck_key deck_table[] = {
          "longer") },
 
   { STRING("data", "file", data.file), NEEDED_IN(FIT), EXAMPLE("'fit.csv'"),
-    SAYS(NULL, "text file of the data, a line a datum: numbers with commas, semicolons, tabs or "
+    SAYS(NULL, "text file of the data, one datum on each line: numbers with commas, semicolons, tabs or "
          "blanks between them; a line of names may come first; # and ! begin comments. The path is "
          "from the deck's folder. Or a file of results, whose variables are the columns") },
   { CHOICES("data", "columns", data.columns), IN(FIT),
