@@ -349,9 +349,9 @@ const deck_key deck_table[] = {
          "longer") },
 
   { STRING("data", "file", data.file), NEEDED_IN(FIT), EXAMPLE("'fit.csv'"),
-    SAYS(NULL, "text file of the data, one datum on each line: numbers with commas, semicolons, tabs or "
-         "blanks between them; a line of names may come first; # and ! begin comments. The path is "
-         "from the deck's folder. Or a file of results, whose variables are the columns") },
+    SAYS(NULL, "text file of the data, one datum on each line: numbers with commas, semicolons, "
+         "tabs or blanks between them; a line of names may come first; # and ! begin comments. The "
+         "path is from the deck's folder. Or a file of results, whose variables are the columns") },
   { CHOICES("data", "columns", data.columns), IN(FIT),
     SAYS(NULL, "columns of the file by name or number: the axis, the observables, then their "
          "standard errors (all or none), then the direction (1, -1, up, down); ROLE=COLUMN says "
