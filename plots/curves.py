@@ -471,8 +471,11 @@ def write_steps(ax, h, x, unit):
             text += f" ({width * factor:.4g})"
         wide = (last - first) * factor > 0.15 * np.ptp(x)
         at = first + (0.55 * (last - first) if wide else last - first)
-        ax.annotate(text, (at * factor, turns * unit), ha="right", va="bottom", xytext=(0, 2),
+        ax.annotate(text, (at * factor, turns * unit), ha="right", va="bottom",
+                    xytext=(0 if wide else -5, 2),
                     textcoords="offset points", fontsize=plt.rcParams["legend.fontsize"])
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.06 * (high - low))  # for a number above the highest
 
 
 def exponent_axis(h, label="Lyapunov\nexponent"):

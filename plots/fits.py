@@ -46,13 +46,30 @@ def sweeps_of(h, along="datum_axis"):
                 yield here[np.argsort(h[along][here], kind="stable")], i, value, direction
 
 
+def smooth(x, y):
+    """A curve through points by cubics that rise and fall only where the points do (F. N. Fritsch
+    and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300): it shows no folds that these have not."""
+    x, first = np.unique(x, return_index=True)
+    y = y[first]
+    if len(x) < 3:
+        return x, y
+    h, chord = np.diff(x), np.diff(y) / np.diff(x)
+    a, b = chord[:-1], chord[1:]
+    weight = (h[:-1] + 2 * h[1:]) / (3 * (h[:-1] + h[1:]))
+    mean = np.where(a * b > 0, weight * b + (1 - weight) * a, 1)
+    slope = np.r_[chord[0], np.where(a * b > 0, a * b / mean, 0), chord[-1]]
+    t = np.linspace(0, 1, 9)[:-1, None]
+    at = y[:-1] + t * h * (slope[:-1] + t * (3 * chord - 2 * slope[:-1] - slope[1:] +
+                                             t * (slope[:-1] + slope[1:] - 2 * chord)))
+    return np.r_[(x[:-1] + t * h).T.ravel(), x[-1]], np.r_[at.T.ravel(), y[-1]]
+
+
 def draw_model(ax, h, x, modelled, here, colour):
     """A line for each state of a sweep, through the model's values at the data, and dotted ones
-    where it jumps. Nothing is drawn that was not computed: a curve through these values would show
-    folds that the model does not have."""
+    where it jumps."""
     parts = np.array_split(here, np.flatnonzero(np.diff(h["datum_part"][here])) + 1)
     for part in parts:
-        ax.plot(x[part], modelled[part], color=colour, lw=1.0)
+        ax.plot(*smooth(x[part], modelled[part]), color=colour, lw=1.0)
     for before, after in zip(parts, parts[1:]):
         ends = [before[-1], after[0]]
         ax.plot(x[ends], modelled[ends], ":", color=colour, lw=0.7)
@@ -65,13 +82,13 @@ def draw_fit(h, path):
     names = h.file["datum_observable"].attrs["flag_meanings"]
     names = (names.decode() if isinstance(names, bytes) else names).split()
     kinds = np.unique(h["datum_observable"])
-    jumps = all(names[kind] == "jump" for kind in kinds)
+    places = [kind for kind in kinds if names[kind] in ("jump", "resonance")]
     along = "datum_axis"
-    if jumps and "datum_other" in h:  # their places are values of the axis
+    if len(places) == len(kinds) and "datum_other" in h:  # their places are values of the axis
         along = "datum_other"
         x, label = in_units(h, "datum_other", words(other_text(h, 0.0).split(" =")[0]))
-    elif not jumps:
-        kinds = [kind for kind in kinds if names[kind] != "jump"]
+    elif len(places) < len(kinds):
+        kinds = [kind for kind in kinds if kind not in places]
     kinds = kinds[:MOST_PANELS]
     fig, axes = figure(h, 1.1 + 1.7 * len(kinds) + 0.8, len(kinds) + 1, 1, sharex=True,
                        height_ratios=[2.2] * len(kinds) + [1])

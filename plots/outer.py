@@ -170,7 +170,7 @@ def draw_shares(run, path):
         below.axhline(np.log(2), color="0.7", lw=0.8, ls="--", label="log 2")
     below.set(xlabel=label, ylabel="basin entropy", xlim=around(x, 0.03))
     below.set_ylim(bottom=0)
-    top.legend()
+    top.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4, frameon=False)
     legend(below)
     return fig
 

@@ -1,8 +1,9 @@
 /*
  * fit_fixture.h -- measured responses by an integration that has no code in common with the
- * library: classical Runge-Kutta steps of fixed length of x'' + g x' + f(x) = F cos(w t) with its
- * variational equations, Newton's method on the map of a period from value to value of the sweep,
- * and, where the state has ended, plain integration until the motion has settled on another.
+ * library: classical Runge-Kutta steps of fixed length of y'' + g y' + (1 + b cos(w t)) f(y) =
+ * I + F cos(w t) with its variational equations, Newton's method on the map of a period from value
+ * to value of the sweep, and, where the state has ended, plain integration until the motion has
+ * settled on another.
  */
 #ifndef FIT_FIXTURE_H
 #define FIT_FIXTURE_H
@@ -16,33 +17,34 @@ enum { LAB_STEPS = 160 };
 
 static const double lab_pi = 3.14159265358979323846;
 
-/* y measured from the well's bottom; sine: f = sin y, else a1 y + a3 y^3. */
+/* y measured from the well's bottom; sine: f = sin y, else a1 y + a2 y^2 + a3 y^3. */
 typedef struct lab {
   int sine;
-  double a1, a3, damping, drive, frequency;
+  double a1, a2, a3, damping, drive, frequency, torque, parametric;
 } lab;
 
 typedef struct lab_motion {
   double y, v;        /* at drive phase 0 */
-  double amplitude, rms, cosine, sine; /* over the last period */
+  double amplitude, rms, cosine, sine, work; /* over the last period */
 } lab_motion;
 
 static double lab_force(const lab *l, double y, double *slope)
 {
-  *slope = l->sine ? cos(y) : l->a1 + 3.0 * l->a3 * y * y;
-  return l->sine ? sin(y) : y * (l->a1 + l->a3 * y * y);
+  *slope = l->sine ? cos(y) : l->a1 + y * (2.0 * l->a2 + 3.0 * l->a3 * y);
+  return l->sine ? sin(y) : y * (l->a1 + y * (l->a2 + y * l->a3));
 }
 
 /* s: y, v and their derivatives by the first y and v. */
 static void lab_slope(const lab *l, double t, const double s[6], double out[6])
 {
   double k;
-  const double f = lab_force(l, s[0], &k);
+  const double f = lab_force(l, s[0], &k), c = cos(l->frequency * t);
+  const double shaken = 1.0 + l->parametric * c;
   out[0] = s[1];
-  out[1] = l->drive * cos(l->frequency * t) - f - l->damping * s[1];
+  out[1] = l->torque + l->drive * c - shaken * f - l->damping * s[1];
   for (int i = 2; i < 6; i += 2) {
     out[i] = s[i + 1];
-    out[i + 1] = -k * s[i] - l->damping * s[i + 1];
+    out[i + 1] = -shaken * k * s[i] - l->damping * s[i + 1];
   }
 }
 
@@ -52,12 +54,14 @@ static void lab_period(const lab *l, lab_motion *m, double map[2][2])
   const double h = 2.0 * lab_pi / l->frequency / LAB_STEPS;
   double s[6] = {m->y, m->v, 1.0, 0.0, 0.0, 1.0}, k[4][6], at[6];
   double top = -INFINITY, bottom = INFINITY, sum = 0.0, squares = 0.0, c = 0.0, d = 0.0;
+  double work = 0.0;
   for (int n = 0; n < LAB_STEPS; n++) {
     const double t = n * h, theta = 2.0 * lab_pi * n / LAB_STEPS;
     sum += s[0] / LAB_STEPS;
     squares += s[0] * s[0] / LAB_STEPS;
     c += 2.0 / LAB_STEPS * s[0] * cos(theta);
     d += 2.0 / LAB_STEPS * s[0] * sin(theta);
+    work += h * l->drive * cos(theta) * s[1];
     lab_slope(l, t, s, k[0]);
     /* An extreme within the step: by the parabola with the slope and its derivative. */
     const double lead = k[0][1] != 0.0 ? -s[1] / k[0][1] : 0.0;
@@ -78,6 +82,7 @@ static void lab_period(const lab *l, lab_motion *m, double map[2][2])
   m->rms = sqrt(fmax(0.0, squares - sum * sum));
   m->cosine = c;
   m->sine = d;
+  m->work = work;
   map[0][0] = s[2];
   map[1][0] = s[3];
   map[0][1] = s[4];
@@ -126,27 +131,32 @@ static int lab_settle(const lab *l, lab_motion *m)
   return 0;
 }
 
-/* Measure at n frequencies in order, beginning at rest; the state is followed as an experimenter
-   who waits long enough at each does. Returns how many were measured. */
-static inline int lab_sweep(lab l, int n, const double *frequency, lab_motion *out)
+/* Measure at n values, in order, of the number at *swept, beginning at rest; the state is followed
+   as an experimenter who waits long enough at each does. Returns how many were measured. */
+static inline int lab_sweep_of(lab *l, double *swept, int n, const double *value, lab_motion *out)
 {
   lab_motion m = {0};
   double map[2][2];
   for (int i = 0; i < n; i++) {
     lab_motion at = m, before = m;
-    l.frequency = frequency[i];
+    *swept = value[i];
     const double size = hypot(m.y, m.v);
-    if (i == 0 || !lab_newton(&l, 0.6 * size, &at)) {
+    if (i == 0 || !lab_newton(l, 0.6 * size, &at)) {
       at = before;
-      if (!lab_settle(&l, &at)) return i;
+      if (!lab_settle(l, &at)) return i;
     }
     m = at;
-    lab_period(&l, &at, map);
+    lab_period(l, &at, map);
     out[i] = at;
     out[i].y = m.y;
     out[i].v = m.v;
   }
   return n;
+}
+
+static inline int lab_sweep(lab l, int n, const double *frequency, lab_motion *out)
+{
+  return lab_sweep_of(&l, &l.frequency, n, frequency, out);
 }
 
 /* Random numbers of its own: splitmix64, and normal ones by Box and Muller. */

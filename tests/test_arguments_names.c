@@ -59,7 +59,7 @@ static const struct {
    {"regular", "fold", "period_doubling", "symmetry_breaking", "branch_point"}},
   {"fit_observable", PENDRES_NAMES_FIT_OBSERVABLE, PENDRES_FIT_OBSERVABLE_COUNT,
    {"amplitude", "rms", "first_harmonic_amplitude", "phase_lag", "in_phase", "quadrature",
-    "loop_area", "displacement", "mean_velocity", "jump"}},
+    "loop_area", "displacement", "mean_velocity", "jump", "resonance"}},
   {"fit_quantity", PENDRES_NAMES_FIT_QUANTITY, PENDRES_FIT_QUANTITY_COUNT,
    {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2",
     "a3", "a4", "a5", "frequency_scale", "drive_scale", "amplitude_scale", "offset",

@@ -293,11 +293,48 @@ static void jumps_count(void **state)
   pendres_context_free(ctx);
 }
 
+/* Amplitudes over the drive alone do not tell a spring that stiffens, driven above its frequency,
+   from one that softens, driven below: both are found, and the caller's guess decides. */
+static void twins(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context();
+  lab l = {.a1 = 1.0, .a3 = 1.0, .damping = 0.05, .frequency = 1.25};
+  double drive[SWEEP];
+  lab_motion m[SWEEP];
+  pendres_fit_datum data[SWEEP];
+  uint64_t seed = 7;
+  for (int i = 0; i < SWEEP; i++) drive[i] = 0.25 * (i + 1) / SWEEP;
+  assert_int_equal(lab_sweep_of(&l, &l.drive, SWEEP, drive, m), SWEEP);
+  for (int i = 0; i < SWEEP; i++)
+    data[i] = (pendres_fit_datum){.observable = PENDRES_FIT_RMS, .direction = 1, .axis = drive[i],
+                                  .observed = m[i].rms + 0.01 * lab_normal(&seed), .error = 0.01};
+  const pendres_fit_data all = {.n = SWEEP, .datum = data, .axis = PENDRES_DRIVE_AMPLITUDE,
+                                .other = PENDRES_PARAMETER_COUNT};
+  for (int guessed = 0; guessed < 2; guessed++) {
+    pendres_fit *fit = NULL;
+    const pendres_fit_unknown open[] = {
+      {.quantity = PENDRES_DAMPING, .guess = guessed ? 1.1 * l.damping : NAN},
+      {.quantity = PENDRES_A1, .guess = guessed ? 1.1 : NAN},
+      {.quantity = PENDRES_A3, .guess = guessed ? 1.1 : NAN}};
+    const pendres_fit_model model = {
+      .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .drive_frequency = l.frequency},
+      .unknowns = 3, .unknown = open};
+    check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+    assert_non_null(pendres_fit_note_get(fit, 0));
+    assert_non_null(strstr(pendres_fit_note_get(fit, 0), "other values fit about as well"));
+    for (size_t i = 0; i < 3 && guessed; i++)
+      check_value(fit, i, (double[]){l.damping, l.a1, l.a3}[i]);
+    pendres_fit_free(fit);
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sets_of_data),
                                      cmocka_unit_test(open_combination),
                                      cmocka_unit_test(turned_phase), cmocka_unit_test(outliers),
-                                     cmocka_unit_test(jumps_count)};
+                                     cmocka_unit_test(jumps_count), cmocka_unit_test(twins)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -354,6 +354,38 @@ static void stiffening_oscillator(void **state)
   pendres_context_free(ctx);
 }
 
+/* Of a resonance that is narrow beside its bend the largest amplitude is next to the upper fold,
+   between points of the branch: LA ends there nevertheless, at the larger orbit of the two. */
+static void narrow_tip(void **state)
+{
+  (void)state;
+  enum { FREQUENCIES = 141 };
+  const double damping = 2e-4;
+  double frequency[FREQUENCIES];
+  const pendres_phase_grid grid = {
+    .pendulum = {.drive_amplitude = 1.621e-5, .force = PENDRES_FORCE_POLYNOMIAL,
+                 .force_coefficients = {1.0, 0.0, 1.0}},
+    .options = {.ensemble = {.members = 4, .x_first = -0.13, .x_last = 0.13}},
+    .values = FREQUENCIES, .value = frequency,
+    .across = PENDRES_DAMPING, .lines = 1, .line_value = &damping};
+  for (int i = 0; i < FREQUENCIES; i++)
+    frequency[i] = (1.199 + 0.007 * i / (FREQUENCIES - 1)) / 1.2;
+  pendres_context *ctx = context_of(1e-8);
+  pendres_phase_diagram *d = NULL;
+  check_ok(pendres_phase_diagram_find(ctx, &grid, &d));
+  const pendres_bifurcation *small = pendres_phase_diagram_fold_get(d, 0, PENDRES_LABEL_SA);
+  const pendres_bifurcation *large = pendres_phase_diagram_fold_get(d, 0, PENDRES_LABEL_LA);
+  assert_non_null(small);
+  assert_non_null(large);
+  assert_true(small->orbit.amplitude < 0.3 * large->orbit.amplitude && small->value < large->value);
+  assert_int_equal(pendres_phase_diagram_ending_get(d, &small->orbit, small->curvature),
+                   PENDRES_LABEL_SA);
+  assert_int_equal(pendres_phase_diagram_ending_get(d, &large->orbit, large->curvature),
+                   PENDRES_LABEL_LA);
+  pendres_phase_diagram_free(d);
+  pendres_context_free(ctx);
+}
+
 /* A point that is left out, or that cannot be computed, is marked, and the others are there. */
 static void points_fail_alone(void **state)
 {
@@ -395,7 +427,8 @@ int main(void)
     cmocka_unit_test(whole_diagrams),
     cmocka_unit_test(families_make_the_same_curves),
     cmocka_unit_test(stiffening_oscillator),
-    cmocka_unit_test(points_fail_alone),
+    cmocka_unit_test(narrow_tip),
+                                     cmocka_unit_test(points_fail_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -256,7 +256,8 @@ const deck_key deck_table[] = {
     SAYS("unit of 'key'", "its values, within the range of that key") },
 
   { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
-    .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters") },
+    .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters; "
+    "for 'branches', which are followed from what these find, a few are enough") },
   { CHOICE("ensemble", "shape", ensemble.shape), IN(MEMBERS), .choices = shapes, .text = "line",
     SAYS(NULL, "how the starts lie: on a line of one velocity, on a grid that fills a rectangle of "
          "x and v, or at random in such a rectangle; of the latter two, errors of shares and means "
@@ -348,9 +349,9 @@ const deck_key deck_table[] = {
          "longer") },
 
   { STRING("data", "file", data.file), NEEDED_IN(FIT), EXAMPLE("'fit.csv'"),
-    SAYS(NULL, "text file of the data, a line a datum: numbers with commas, semicolons, tabs or "
-         "blanks between them; a line of names may come first; # and ! begin comments. The path is "
-         "from the deck's folder. Or a file of results, whose variables are the columns") },
+    SAYS(NULL, "text file of the data, one datum on each line: numbers with commas, semicolons, "
+         "tabs or blanks between them; a line of names may come first; # and ! begin comments. The "
+         "path is from the deck's folder. Or a file of results, whose variables are the columns") },
   { CHOICES("data", "columns", data.columns), IN(FIT),
     SAYS(NULL, "columns of the file by name or number: the axis, the observables, then their "
          "standard errors (all or none), then the direction (1, -1, up, down); ROLE=COLUMN says "

@@ -137,11 +137,11 @@ static int take_role(reader *r, const char *role, int column)
   return 1;
 }
 
-/* Whether all data are places of jumps, which are values of the axis themselves. */
-static int are_jumps(const reader *r)
+/* Whether all data are places of jumps or resonances, which are values of the axis themselves. */
+static int are_places(const reader *r)
 {
   for (size_t i = 0; i < r->observables; i++)
-    if (r->kind[i] != PENDRES_FIT_JUMP) return 0;
+    if (!fit_is_place(r->kind[i])) return 0;
   return 1;
 }
 
@@ -150,7 +150,7 @@ static void take_in_order(reader *r, size_t n, const int *column)
 {
   const size_t m = r->observables;
   size_t k = 0;
-  if (r->axis == NONE && k < n && !are_jumps(r)) r->axis = column[k++];
+  if (r->axis == NONE && k < n && !are_places(r)) r->axis = column[k++];
   for (size_t i = 0; i < m && k < n; i++)
     if (r->observable[i] == NONE) r->observable[i] = column[k++];
   /* One more than there are observables: the last is the direction. */
@@ -199,7 +199,7 @@ static void find_columns(reader *r)
     if (named == 0) take_in_order(r, r->names < 4 ? r->names : 4, first);
   }
   if (!scene_going(r->run)) return;
-  const char *missing = r->axis == NONE && !are_jumps(r) ? r->d->data.axis : NULL;
+  const char *missing = r->axis == NONE && !are_places(r) ? r->d->data.axis : NULL;
   for (size_t i = 0; i < r->observables; i++)
     if (r->observable[i] == NONE && missing == NULL)
       missing = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
@@ -297,7 +297,7 @@ static void read_line(reader *r, char *line)
     one.error = r->error[i] != NONE
                   ? read_number(r, n, cell, r->error[i], "standard error")
                   : hypot(d->data.error, d->data.relative_error * one.observed);
-    one.axis = one.observable == PENDRES_FIT_JUMP ? one.observed : axis;
+    one.axis = fit_is_place(one.observable) ? one.observed : axis;
     if (r->error[i] != NONE && scene_going(r->run) && !(one.error > 0.0))
       FAIL(r, "%s:%zu: the standard error must be above 0: give all data one, or leave the column "
            "out", r->out->path, r->line);
@@ -306,14 +306,17 @@ static void read_line(reader *r, char *line)
 }
 
 /* Without a column the order of the lines tells the direction, sweep by sweep: that to the next
-   line, for the last one of a sweep that from the line before. */
+   line, for the last one of a sweep that from the line before. Resonances have none. */
 static void set_directions(reader *r)
 {
   fit_data *out = r->out;
   const size_t m = r->gaps ? 1 : r->observables, lines = out->of.n / m;
   const char *told = r->d->data.direction;
-  int jumps = 0;
-  for (size_t i = 0; i < r->observables; i++) jumps |= r->kind[i] == PENDRES_FIT_JUMP;
+  int jumps = 0, resonances = 1;
+  for (size_t i = 0; i < r->observables; i++) {
+    jumps |= r->kind[i] == PENDRES_FIT_JUMP;
+    resonances &= r->kind[i] == PENDRES_FIT_RESONANCE;
+  }
   if (r->direction == NONE && (jumps || r->gaps) && strcmp(told, "file") == 0)
     FAIL(r, "%s: which way the axis went does not follow from the lines where there are jumps or "
          "empty cells: give a column for the direction, or data.direction", out->path);
@@ -327,7 +330,7 @@ static void set_directions(reader *r)
       way = here->axis > last->axis ? 1 : -1;
     else if (next != NULL && next->other == here->other)
       way = next->axis >= here->axis ? 1 : -1;
-    if (strcmp(told, "up") == 0 || fit_is_decay(r->d)) way = 1;
+    if (strcmp(told, "up") == 0 || fit_is_decay(r->d) || resonances) way = 1;
     if (strcmp(told, "down") == 0) way = -1;
     for (size_t k = 0; k < m; k++) out->datum[i * m + k].direction = way;
   }

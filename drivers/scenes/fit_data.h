@@ -48,6 +48,12 @@ static inline int fit_is_rotation(const deck *d)
          strcmp(d->data.observables.name[0], "mean_velocity") == 0;
 }
 
+/* Whether an observable is a value of the axis itself. */
+static inline int fit_is_place(pendres_fit_observable o)
+{
+  return o == PENDRES_FIT_JUMP || o == PENDRES_FIT_RESONANCE;
+}
+
 /* Standard error of unknown number i. */
 double fit_error(const fit_work *w, size_t i);
 

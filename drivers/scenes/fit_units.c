@@ -23,7 +23,7 @@ int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out)
 
 static int units_of_observable(const fit_work *w, pendres_fit_observable o, deck_si *out)
 {
-  if (o == PENDRES_FIT_JUMP) return fit_units_of_data(w, w->data.of.axis, out);
+  if (fit_is_place(o)) return fit_units_of_data(w, w->data.of.axis, out);
   const int is_reading = o != PENDRES_FIT_PHASE_LAG && o != PENDRES_FIT_LOOP_AREA;
   return is_reading ? deck_fit_si(w->d, "offset", out)
                     : deck_si_of(w->d, pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)o), out);

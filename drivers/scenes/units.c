@@ -43,7 +43,8 @@ typedef struct shown {
   char units[DECK_UNITS];
 } shown;
 
-/* Its values in SI, with the prefix that the largest of them takes; without a unit as they are. */
+/* Its values in SI, with the prefix that the largest of them, or of their errors, takes; without a
+   unit as they are. */
 static void read_shown(scene_run *run, const char *name, size_t n, shown *out)
 {
   char error_name[DECK_NAME + 8];
@@ -60,6 +61,8 @@ static void read_shown(scene_run *run, const char *name, size_t n, shown *out)
   if (!deck_si_of(run->deck, name, &si)) return;
   for (size_t i = 0; i < n; i++)
     if (isfinite(out->value[i])) most = fmax(most, fabs(si.factor * out->value[i]));
+  for (size_t i = 0; i < n && out->has_error; i++)
+    if (isfinite(out->error[i])) most = fmax(most, si.factor * out->error[i]);
   si = deck_si_prefixed(&si, most);
   memcpy(out->units, si.units, sizeof out->units);
   for (size_t i = 0; i < n; i++) {
@@ -68,11 +71,11 @@ static void read_shown(scene_run *run, const char *name, size_t n, shown *out)
   }
 }
 
-/* A value with the digits that its error leaves, and two more. */
+/* A value with the digits that its error leaves, and two more; 0 if that leaves none. */
 static void print_value(FILE *out, const shown *s, size_t i, int width)
 {
   char text[80];
-  const double x = s->value[i], e = s->error[i];
+  const double e = s->error[i], x = fabs(s->value[i]) < 1e-3 * e ? 0.0 : s->value[i];
   int digits = 10, used = 0;
   if (isfinite(x) && isfinite(e) && e > 0.0 && x != 0.0) digits = (int)log10(fabs(x) / e) + 2;
   digits = digits < 3 ? 3 : digits > 15 ? 15 : digits;

@@ -43,7 +43,8 @@ extern "C" {
   X(LOOP_AREA, "loop_area")                                \
   X(DISPLACEMENT, "displacement")                          \
   X(MEAN_VELOCITY, "mean_velocity")                        \
-  X(JUMP, "jump")
+  X(JUMP, "jump")                                          \
+  X(RESONANCE, "resonance")
 
 /**
  * An observable. AMPLITUDE: half the peak-to-peak; RMS: the root mean square of the distance from
@@ -52,7 +53,8 @@ extern "C" {
  * drive a cycle; of free decays DISPLACEMENT: from the bottom of the well, at a time; of junctions,
  * which are pendulums without a drive, over the torque, MEAN_VELOCITY: 0 at rest, and of rotations
  * 2 pi over their period, with their sign; JUMP: the value of the axis itself, in its unit, at
- * which the oscillator jumps while the axis goes that way.
+ * which the oscillator jumps while the axis goes that way; RESONANCE: the value of the axis at
+ * which the first harmonic lags behind the drive by a quarter turn, whatever the direction.
  * PENDRES_FIT_OBSERVABLE_COUNT: how many there are.
  */
 typedef enum pendres_fit_observable {
@@ -113,11 +115,12 @@ typedef struct pendres_fit_unknown {
 typedef struct pendres_fit_datum {
   pendres_fit_observable observable; /**< what it is of */
   int direction;      /**< 1: while the axis grew, -1: fell */
-  double axis;        /**< value of the swept parameter, in the data's unit; of a JUMP it is
-                           `observed` that is read */
+  double axis;        /**< value of the swept parameter, in the data's unit; of a JUMP or a
+                           RESONANCE it is `observed` that is read */
   double other;       /**< value of the other parameter; not read if there is none */
   double observed;    /**< the number */
-  double error;       /**< its standard error; 0 in all data: not known, and found from the fit */
+  double error;       /**< its standard error; 0 in all data: not known, and found from the fit,
+                           where either all data are places on the axis or none is */
 } pendres_fit_datum;
 
 /** All of them. */

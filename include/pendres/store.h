@@ -72,7 +72,7 @@ typedef enum pendres_store_type {
 
 /** Attributes of the root group, of which NULL leaves one out, and how the file is made. Of these
  *  only the history may contain the date, as the CF conventions require; whatever else changes from
- *  run to run (hosts, times taken) belongs into the provenance, so that the rest is equal for equal
+ *  run to run (hosts, times taken) belongs in the provenance, so that the rest is equal for equal
  *  results. */
 typedef struct pendres_store_options {
   size_t size; /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */

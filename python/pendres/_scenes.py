@@ -351,13 +351,28 @@ def _failure(code, said):
 # ---- Functions ---------------------------------------------------------------------------------
 
 
+def _written_columns(table, folder):
+    """A text file in the folder with the columns of a table, {name: values} or pandas' or xarray's."""
+    if hasattr(table, "to_dataframe"):
+        table = table.to_dataframe().reset_index()
+    columns = {name: np.asarray(table[name]).ravel().tolist() for name in table}
+    if len({len(values) for values in columns.values()}) != 1:
+        raise ValueError("file: the columns of a table have one length, not " + ", ".join(
+            f"{name} {len(values)}" for name, values in columns.items()))
+    path = os.path.join(folder, "table.csv")
+    with open(path, "w", **TEXT) as out:
+        for row in (columns, *zip(*columns.values())):
+            out.write(";".join(one if isinstance(one, str) else repr(one) for one in row) + "\n")
+    return path
+
+
 WORDS = """\
 An xarray.Dataset, with the variables of the program's files: every result has its NAME_error
 beside it, units and meanings are in attributes. Keywords are the keys of decks, as told below:
 drive_amplitude=0.2, damping=[0.1, 0.2], drive_frequency_range=(0.5, 1, 101). Of a key in &sweep and
 another group, a list is &sweep's, one value the other's; noise={"seed": 2} names a group, and from_
-stands for `from`. force=[a1, a2, ...] is the polynomial's. output, threads, budget, resume: as of
-pendres.run.
+stands for `from`. force=[a1, a2, ...] is the polynomial's. file may be a table, {column: values},
+a DataFrame or a Dataset. output, threads, budget, resume: as of pendres.run.
 """
 RUN = ("output", "threads", "budget", "resume")
 
@@ -373,7 +388,10 @@ def scene(kind, beside=None):
         if arguments:
             raise TypeError(f"{kind}() takes keywords: damping=0.1, not {arguments[0]!r:.40}")
         options = {key: keys.pop(key) for key in RUN if key in keys}
-        return _computed(["-"], *_deck(_sorted_into_groups(kind, keys)), options)
+        with tempfile.TemporaryDirectory(prefix="pendres-") as folder:
+            if hasattr(keys.get("file"), "keys"):
+                keys["file"] = _written_columns(keys["file"], folder)
+            return _computed(["-"], *_deck(_sorted_into_groups(kind, keys)), options)
 
     compute.__name__ = compute.__qualname__ = kind
     compute.__module__ = "pendres"

@@ -35,6 +35,7 @@ static const section sections[] = {
   {"sweeps", accuracy_sweeps},
   {"ramps", accuracy_ramps},
   {"switching", accuracy_switching},
+  {"fits", accuracy_fits},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 

@@ -154,6 +154,7 @@ void accuracy_ensembles(accuracy *a);
 void accuracy_sweeps(accuracy *a);
 void accuracy_ramps(accuracy *a);
 void accuracy_switching(accuracy *a);
+void accuracy_fits(accuracy *a);
 
 /* ---- for main ---- */
 

@@ -20,6 +20,7 @@ typedef struct pendres_fit_call {
   pendres_fit_options options;
   pendres_fit **out;
   int errors_known;
+  int own; /* of the starts, the first one is the caller's: all guesses are given */
   fit_values start; /* in the caller's units; NaN: from the data */
 } pendres_fit_call;
 

@@ -12,17 +12,19 @@ static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_da
   if (!isfinite(one->axis) || !isfinite(one->observed)) return "a datum is no finite number";
   if (!isfinite(one->error) || one->error < 0.0)
     return "a standard error is no finite number from 0 on";
-  if (one->observable == PENDRES_FIT_JUMP && d->axis == PENDRES_PARAMETER_COUNT)
-    return "a free decay has no jumps";
-  if (one->observable == PENDRES_FIT_JUMP && !(one->error > 0.0))
-    return "a jump needs a standard error: nothing else tells how well its place is known";
+  const int is_place = pendres_fit_is_place(one->observable);
+  if (is_place && d->axis == PENDRES_PARAMETER_COUNT)
+    return "a free decay has neither jumps nor resonances";
+  if (!(one->error > 0.0) && is_place != pendres_fit_is_place(d->datum[0].observable))
+    return "jumps and resonances need standard errors beside other data: nothing else tells how "
+           "well their places are known";
   if (d->axis == PENDRES_PARAMETER_COUNT && one->direction != 1) return "time goes one way";
   if ((d->axis == PENDRES_PARAMETER_COUNT) != (one->observable == PENDRES_FIT_DISPLACEMENT))
     return "a displacement is a datum over time, and nothing else is";
   if ((one->observable == PENDRES_FIT_MEAN_VELOCITY) !=
       (d->datum[0].observable == PENDRES_FIT_MEAN_VELOCITY))
     return "mean velocities are fitted alone: leave the other observables out";
-  const double axis = one->observable == PENDRES_FIT_JUMP ? one->observed : one->axis;
+  const double axis = is_place ? one->observed : one->axis;
   if (d->axis != PENDRES_PARAMETER_COUNT && pendres_parameter_of(d->axis)->positive &&
       !(axis > 0.0))
     return "the swept parameter must be positive";

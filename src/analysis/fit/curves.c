@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <pendres/attractor.h>
+
 #include "continuation/parameter.h"
 #include "model/model.h"
 #include "orbits/orbit_pair.h"
@@ -56,6 +58,9 @@ static range range_of(const fit_model *m, const fit_curve *c, const fit_values v
     a = low;
     b = high;
     span = high - low;
+  } else if (c->marked) {
+    /* Places tell little of how far it is to the next: as far as to 0, perhaps. */
+    span = fmax(span, fmax(fabs(a), fabs(b)));
   }
   range r = {.low = fmin(a, b) - fit_margin * span, .high = fmax(a, b) + fit_margin * span,
              .least = fmin(a, b) - fit_outside * span, .most = fmax(a, b) + fit_outside * span};
@@ -66,19 +71,26 @@ static range range_of(const fit_model *m, const fit_curve *c, const fit_values v
   return r;
 }
 
-/* The linear response about the well at the origin; its amplitude is also what a curve reaches at
-   most, with the drive over the friction. */
+/* The linear response about where the pendulum rests in the well at the origin; its amplitude is
+   also what a curve reaches at most, with the drive over the friction. */
 static void linear_guess(const pendres_pendulum *p, pendres_orbit_guess *g, double *highest)
 {
-  const double top = pendres_model_of(p->force)->origin;
-  pendres_pendulum free_one = {.force = p->force, .drive_frequency = 1.0};
+  double rest = pendres_model_of(p->force)->origin, slope = 1.0;
+  pendres_pendulum free_one = {.force = p->force, .drive_frequency = 1.0, .torque = p->torque};
   memcpy(free_one.force_coefficients, p->force_coefficients, sizeof p->force_coefficients);
-  const double slope =
-    pendres_pendulum_acceleration(&free_one, top - linear_near, 0.0, 0.0) / linear_near;
+  for (int round = 0; round < FIT_REST_ROUNDS; round++) {
+    const double here = pendres_pendulum_acceleration(&free_one, rest, 0.0, 0.0);
+    slope = (pendres_pendulum_acceleration(&free_one, rest - linear_near, 0.0, 0.0) - here) /
+            linear_near;
+    if (!(slope > 0.0)) break;
+    rest += here / slope;
+  }
   const double w = p->drive_frequency, d = slope - w * w, e = p->damping * w;
-  const double size = p->drive_amplitude / (d * d + e * e);
-  *g = (pendres_orbit_guess){.pendulum = *p, .x = top + size * d, .v = w * size * e, .period = 1};
-  *highest = fabs(p->drive_amplitude) / fmax(e, 1e-300);
+  /* The parametric drive shakes the force that holds the torque. */
+  const double drive = p->drive_amplitude - p->parametric_amplitude * p->torque;
+  const double size = drive / (d * d + e * e);
+  *g = (pendres_orbit_guess){.pendulum = *p, .x = rest + size * d, .v = w * size * e, .period = 1};
+  *highest = fabs(drive) / fmax(e, 1e-300);
 }
 
 /* An orbit to begin from: next to the linear response or, failing that, what a pendulum at rest
@@ -89,6 +101,15 @@ static pendres_status first_orbit(fit_model *m, const pendres_orbit_guess *g, pe
   pendres_status status = pendres_orbit_find_points(m->ctx, 1, g, o, &outcome);
   if (status != PENDRES_OK) return status;
   if (outcome == PENDRES_OK || outcome == PENDRES_TOLERANCE_UNREACHABLE) return PENDRES_OK;
+  const double x = pendres_model_of(g->pendulum.force)->origin, v = 0.0;
+  pendres_attractors *set = NULL;
+  status = pendres_attractors_find(m->ctx, &g->pendulum, 1, &x, &v, &set);
+  const pendres_attractor *a = pendres_attractors_get(set, 0);
+  const int found = status == PENDRES_OK && a != NULL && a->label != PENDRES_LABEL_CHAOTIC &&
+                    a->orbit.period == 1 && a->orbit.winding == 0;
+  if (found) *o = a->orbit;
+  pendres_attractors_free(set);
+  if (status != PENDRES_OK || found) return status;
   return lose(m, "no orbit was found where a sweep begins");
 }
 
@@ -136,13 +157,17 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
 /* ---- following ---- */
 
 /* Whether a curve has come out of the data's range for good at its last node; *over: it has left
-   what is followed. */
+   what is followed. Places alone do not show how far the state leads on which they are: over the
+   frequency it is passed where the motion is against the drive. */
 static int is_through(const fit_model *m, const fit_curve *c, const range *r, int *over)
 {
   const pendres_curve_node *last = &c->node[c->nodes - 1];
   const double s = axis_of(m, last);
+  const int passed = !c->marked || m->axis != PENDRES_DRIVE_FREQUENCY ||
+                     last->u[PENDRES_U_Y] * last->u[PENDRES_U_DRIVE] < 0.0;
   *over = s < r->least || s > r->most || c->nodes + PENDRES_AHEAD >= FIT_NODES;
-  return *over || (s > r->high && last->tangent[2] > 0.0 && pendres_map_fold(&last->image) > 0.0);
+  return *over || (s > r->high && last->tangent[2] > 0.0 && passed &&
+                   pendres_map_fold(&last->image) > 0.0);
 }
 
 static pendres_status follow(fit_model *m, fit_curve *c, const fit_values v)

@@ -114,7 +114,9 @@ static double scatter_of(const fit_model *m, pendres_fit_observable o, double *w
         largest = fmax(largest, fabs(d->observed));
       }
   }
-  if (m->decays) return fit_decay_scatter * largest + 1e-300;
+  for (size_t i = 0; i < m->marks; i++)
+    largest = fmax(largest, fabs(m->datum[m->mark[i].datum].observed));
+  if (m->decays || m->stations == 0) return fit_decay_scatter * largest + 1e-300;
   qsort(work, n, sizeof *work, ascending);
   const double median = n > 0 ? work[n / 2] / (0.6745 * sqrt(6.0)) : 0.0;
   return fmax(median, 1e-6 * largest + 1e-300);
@@ -165,10 +167,36 @@ static void set_free(const pendres_fit_call *c, fit_problem *p)
   }
 }
 
-static int is_better(const fit_result *a, const fit_result *b)
+/* Whether a fit is better than the best so far by more than this in chi-square. */
+static int is_better(const fit_result *a, const fit_result *b, double least)
 {
   if (!b->computed || !a->computed) return a->computed;
-  return a->chi_square < b->chi_square;
+  return a->chi_square < b->chi_square - least;
+}
+
+/* What chi-square is expected of a datum: 1, or where errors are not known what the scatter about
+   the fit says. */
+static double expected(const pendres_fit_call *c, const fit_result *r)
+{
+  return c->errors_known ? 1.0 : fmax(r->chi_square, 1e-300) / fmax(r->freedom, 1.0);
+}
+
+/* Remember the worse of two fits if their values are different ones, and about as good. */
+static void compare(const pendres_fit_call *c, fit_problem *p, const fit_result *best,
+                    const fit_result *other)
+{
+  const double above = (other->chi_square - best->chi_square) / expected(c, best);
+  double apart = 0.0;
+  if (!best->computed || !other->computed || !best->converged || !other->converged) return;
+  for (size_t k = 0; k < p->unknowns && best->determined; k++) {
+    const int q = p->free[k].quantity;
+    const double error = sqrt(best->covariance[k * p->unknowns + k]);
+    if (!best->at_bound[k]) apart = fmax(apart, fabs(other->v[q] - best->v[q]) / error);
+  }
+  if (!(apart > fit_apart && above < fit_twin)) return;
+  p->has_twin = 1;
+  p->twin_above = above;
+  memcpy(p->twin, other->v, sizeof p->twin);
 }
 
 /* What comes next is computed from the beginnings of the curves on. */
@@ -178,12 +206,13 @@ static void forget_curves(fit_problem *p)
   p->known = 0;
 }
 
-/* Put the starts into the order of their chi-square: guesses know nothing of jumps. Those without a
-   model come last. */
-static pendres_status order_starts(fit_problem *p, int starts, fit_values *start)
+/* Put the starts, behind the caller's own, into the order of their chi-square: guesses know nothing
+   of jumps. Those without a model come last. */
+static pendres_status order_starts(const pendres_fit_call *c, fit_problem *p, int starts,
+                                   fit_values *start)
 {
   double chi[FIT_TRIED];
-  for (int k = 0; k < starts; k++) {
+  for (int k = c->own; k < starts; k++) {
     fit_values v, at;
     memcpy(at, start[k], sizeof at);
     scale_values(p->m, at, v);
@@ -192,7 +221,7 @@ static pendres_status order_starts(fit_problem *p, int starts, fit_values *start
     const double sum = pendres_fit_evaluate(p, v) ? pendres_fit_sum_of_squares(p) : INFINITY;
     if (p->status != PENDRES_OK) return p->status;
     int to = k;
-    for (; to > 0 && chi[to - 1] > sum; to--) {
+    for (; to > c->own && chi[to - 1] > sum; to--) {
       chi[to] = chi[to - 1];
       memcpy(start[to], start[to - 1], sizeof(fit_values));
     }
@@ -217,11 +246,14 @@ static void widen(fit_problem *p, fit_values v)
       v[PENDRES_DAMPING] = fmax(v[PENDRES_DAMPING], least);
 }
 
+/* Without a frequency axis a spring that stiffens, driven above its frequency, is like one that
+   softens, driven below it: there all starts are tried, although one fits. */
 static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int starts,
                                  fit_values *start, fit_result *best, fit_result *now)
 {
   pendres_status status = PENDRES_OK;
   const size_t window = p->m->active;
+  int own = 0; /* the best is of the caller's start */
   for (int k = 0; k < starts && status == PENDRES_OK; k++) {
     scale_values(p->m, start[k], now->v);
     forget_curves(p);
@@ -233,14 +265,20 @@ static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int 
       widen(p, now->v);
       status = pendres_fit_solve(p, c->options.iterations, now);
     }
-    if (status == PENDRES_OK && is_better(now, best)) {
+    /* Of values that fit as well those next to the caller's guesses are taken. */
+    const double least = own && best->converged ? fit_twin * expected(c, best) : 0.0;
+    if (status == PENDRES_OK && is_better(now, best, least)) {
       const fit_result other = *best;
+      p->has_twin &= best->computed &&
+                     now->chi_square > best->chi_square - fit_twin * expected(c, now);
       *best = *now;
       *now = other;
+      own = k < c->own;
     }
+    if (status == PENDRES_OK) compare(c, p, best, now);
     const int good = best->computed && best->converged &&
                      (!c->errors_known || pendres_fit_probability(best) > fit_good_enough);
-    if (good) break;
+    if (good && (p->m->decays || p->m->rotates || p->m->axis == PENDRES_DRIVE_FREQUENCY)) break;
   }
   return status;
 }
@@ -273,10 +311,9 @@ static double own_guess(const fit_model *m, const pendres_fit_unknown *u)
 
 /* Starts in the caller's units: the deck's own, where it has all values, then those from the data.
    Returns how many. */
-static int find_starts(const pendres_fit_call *c, fit_model *m,
-                       fit_values start[FIT_TRIED])
+static int find_starts(pendres_fit_call *c, fit_model *m, fit_values start[FIT_TRIED])
 {
-  int count = 0, whole = 1;
+  int count = 0, whole = 1, damped = 0; /* whether the damping is sought */
   fit_values open, own;
   memcpy(open, c->start, sizeof open);
   memcpy(own, c->start, sizeof own);
@@ -285,9 +322,11 @@ static int find_starts(const pendres_fit_call *c, fit_model *m,
     if (u->fixed) continue;
     own[u->quantity] = own_guess(m, u);
     whole &= !isnan(own[u->quantity]);
+    damped |= u->quantity == PENDRES_DAMPING;
     /* A prior is a guess as well, and what has bounds begins in their middle. */
     if (isnan(u->guess) && u->prior_error > 0.0) open[u->quantity] = u->prior;
   }
+  c->own = whole;
   if (whole) {
     memcpy(start[count++], own, sizeof(fit_values));
     for (size_t i = 0; i < c->model->unknowns; i++)
@@ -296,7 +335,7 @@ static int find_starts(const pendres_fit_call *c, fit_model *m,
         open[c->model->unknown[i].quantity] = NAN;
   }
   /* Where jumps are data and the guess has none, one of less damping, or of more, may. */
-  for (int k = 0; k < FIT_GUESS_AROUND && whole && m->marks > 0; k++) {
+  for (int k = 0; k < FIT_GUESS_AROUND && whole && damped && m->marks > 0; k++) {
     memcpy(start[count], own, sizeof(fit_values));
     start[count++][PENDRES_DAMPING] *= fit_guess_around[k];
   }
@@ -325,7 +364,7 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
   set_errors(c, m, error, work);
   set_free(c, &p);
   const int most = c->options.starts > 0 ? c->options.starts : FIT_STARTS;
-  if (starts > 1) status = order_starts(&p, starts, start);
+  if (starts > 1) status = order_starts(c, &p, starts, start);
   if (status == PENDRES_OK)
     status = try_starts(c, &p, starts < most ? starts : most, start, &best, &now);
   if (status == PENDRES_OK && !c->errors_known) status = find_errors(c, &p, error, &best);

@@ -24,10 +24,14 @@ enum {
 typedef double fit_values[FIT_QUANTITIES];
 
 /* An orbit that is to be found and measured: across a border in the scaled (y, w, axis), which for
-   orbits at given parameters is the axis itself, and for those at folds the curve's tangent. */
+   orbits at given parameters is the axis itself, and for those at folds the curve's tangent; or, if
+   it is tuned, where it lags by a quarter turn. */
 typedef struct fit_lane {
   pendres_u u;
   double border[FIT_PLACES];
+  int tuned;
+  double turn[2], axis_by_lag; /* cosine and sine of the lag that the instrument adds, and how that
+                                  moves the axis of a tuned one */
   int found, stable;
   double moved; /* by the last step of Newton's method */
   double base[FIT_BASES]; /* the observables, in canonical units */
@@ -38,7 +42,7 @@ typedef struct fit_lane {
                                         and by the logarithm of the time */
 } fit_lane;
 
-/* A fold: where it lies on its curve, and its orbit. */
+/* A fold, or where the lag is a quarter turn: where that lies on its curve, and its orbit. */
 typedef struct fit_fold {
   size_t after; /* between this node and the next */
   double part;  /* at this share of the arc */
@@ -66,9 +70,10 @@ typedef struct fit_curve {
   size_t nodes;
   pendres_curve_node *node; /* [FIT_NODES] */
   int ready;                /* they are those of some values */
-  int marked;               /* jumps over it are data */
-  size_t folds, pieces;
-  fit_fold fold[FIT_FOLDS];
+  int marked;               /* places on its axis are data, ... */
+  int tuned;                /* ... of resonances among them */
+  size_t folds, quarters, pieces;
+  fit_fold fold[FIT_FOLDS], quarter[FIT_FOLDS];
   fit_piece piece[FIT_FOLDS + 1];
 } fit_curve;
 
@@ -90,11 +95,19 @@ typedef struct fit_track {
   int piece[FIT_STAGES];
 } fit_track;
 
-/* A jump that is a datum: on a track, from one of its stages to the next. */
+/* A place on the axis that is a datum: the fold at which a stage of its track ends, or where its
+   curve lags by a quarter turn. */
 typedef struct fit_mark {
   size_t track, datum;
-  int stage;
+  int stage; /* -1: of a resonance */
+  size_t lane;
 } fit_mark;
+
+/* Whether an observable is such a place. */
+static inline int pendres_fit_is_place(pendres_fit_observable o)
+{
+  return o == PENDRES_FIT_JUMP || o == PENDRES_FIT_RESONANCE;
+}
 
 typedef struct fit_model {
   pendres_context *ctx;
@@ -142,9 +155,9 @@ void pendres_fit_point_at(const fit_model *m, const fit_curve *c, const fit_valu
 double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lane *l,
                            pendres_fit_observable o, int bound, fit_values slope);
 
-/* Value of the axis at a fold in the data's unit, and its derivatives. */
-double pendres_fit_fold_at(const fit_model *m, const fit_values v, const fit_lane *l,
-                           fit_values slope);
+/* Value of the axis at a fold, or of a tuned lane, in the data's unit, and its derivatives. */
+double pendres_fit_place_at(const fit_model *m, const fit_values v, const fit_lane *l,
+                            fit_values slope);
 
 /* ---- curves.c ---- */
 
@@ -181,6 +194,15 @@ pendres_status pendres_fit_sample_period(const fit_model *m, int steps, size_t n
 
 /* Find and measure n orbits with these steps a period; those that fail are not found. */
 pendres_status pendres_fit_orbits(const fit_model *m, int steps, size_t n, fit_lane *lanes);
+
+/* ---- places.c ---- */
+
+/* Put where curves lag by a quarter turn among the lanes, if that was measured. */
+pendres_status pendres_fit_quarters(fit_model *m, const fit_values v, int steps);
+
+/* Which fold of its track, or which resonance of its curve, each mark is: the nearest. 0: there is
+   none. */
+int pendres_fit_find_marks(fit_model *m, const fit_values v);
 
 /* ---- stages.c ---- */
 

@@ -111,11 +111,11 @@ double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lan
   return value;
 }
 
-double pendres_fit_fold_at(const fit_model *m, const fit_values v, const fit_lane *l,
+double pendres_fit_place_at(const fit_model *m, const fit_values v, const fit_lane *l,
                            fit_values slope)
 {
-  const double axis = l->u[pendres_fit_place(m)], value = pendres_fit_out(m, m->axis, v, axis);
-  const double out = value / axis; /* the data's unit */
+  const double value = pendres_fit_out(m, m->axis, v, l->u[pendres_fit_place(m)]);
+  const double out = pendres_fit_out(m, m->axis, v, 1.0); /* the data's unit */
   const int scale = scale_of(m->axis);
   memset(slope, 0, sizeof(fit_values));
   for (int k = 0; k < m->parameters; k++) {
@@ -126,6 +126,7 @@ double pendres_fit_fold_at(const fit_model *m, const fit_values v, const fit_lan
     slope[scale_of(m->other)] = out * l->axis_slope[m->other] * by_scale(m->other, v, l);
   if (scale >= 0)
     slope[scale] += (m->axis == PENDRES_DRIVE_FREQUENCY ? value : -value) / v[scale];
+  slope[PENDRES_FIT_PHASE_OFFSET] = out * l->axis_by_lag;
   return value;
 }
 
@@ -143,10 +144,10 @@ static int in_order(const void *a, const void *b)
   const sorted *p = a, *q = b;
   if (p->other != q->other) return p->other < q->other ? -1 : 1;
   if (p->of->direction != q->of->direction) return p->of->direction > q->of->direction ? -1 : 1;
-  /* Jumps come behind the stations of their sweep. */
-  const int is_jump = p->of->observable == PENDRES_FIT_JUMP;
-  if (is_jump != (q->of->observable == PENDRES_FIT_JUMP)) return is_jump ? 1 : -1;
-  if (p->of->axis != q->of->axis && !is_jump)
+  /* Places come behind the stations of their sweep. */
+  const int is_place = pendres_fit_is_place(p->of->observable);
+  if (is_place != pendres_fit_is_place(q->of->observable)) return is_place ? 1 : -1;
+  if (p->of->axis != q->of->axis && !is_place)
     return (p->of->axis < q->of->axis) == (p->of->direction > 0) ? -1 : 1;
   return p->index < q->index ? -1 : p->index > q->index;
 }
@@ -155,8 +156,8 @@ static int in_order(const void *a, const void *b)
 static void append(fit_model *m, const sorted *s, size_t k)
 {
   const int curve = m->curves == 0 || m->curve[m->curves - 1].other != s->other;
-  const int is_jump = s->of->observable == PENDRES_FIT_JUMP;
-  const double axis = is_jump ? s->of->observed : s->of->axis;
+  const int is_place = pendres_fit_is_place(s->of->observable);
+  const double axis = is_place ? s->of->observed : s->of->axis;
   if (curve) m->curve[m->curves++] = (fit_curve){.other = s->other, .from = axis, .to = axis};
   const int track =
     curve || m->track[m->tracks - 1].direction != s->of->direction;
@@ -164,14 +165,15 @@ static void append(fit_model *m, const sorted *s, size_t k)
     m->track[m->tracks++] = (fit_track){.curve = m->curves - 1, .direction = s->of->direction,
                                         .first = m->stations};
   const int station = track || m->station[m->stations - 1].axis != axis;
-  if (is_jump) {
+  if (is_place) {
     m->mark[m->marks++] = (fit_mark){.track = m->tracks - 1, .datum = s->index};
     m->curve[m->curves - 1].marked = 1;
+    m->curve[m->curves - 1].tuned |= s->of->observable == PENDRES_FIT_RESONANCE;
   } else if (station) {
     m->station[m->stations++] = (fit_station){.axis = axis, .first = k};
     m->track[m->tracks - 1].count++;
   }
-  if (!is_jump) m->station[m->stations - 1].count++;
+  if (!is_place) m->station[m->stations - 1].count++;
   m->order[k] = s->index;
   m->measured[s->of->observable] = 1;
   fit_curve *c = &m->curve[m->curves - 1];
@@ -217,7 +219,7 @@ pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
     curve->span = widest > 0.0 ? widest : fmax(0.1 * fabs(curve->to), 1e-3);
     curve->node = pendres_room_take(room, FIT_NODES, sizeof *curve->node);
   }
-  m->room = n * FIT_STAGES + curves * FIT_FOLDS;
+  m->room = n * FIT_STAGES + 2 * curves * FIT_FOLDS;
   m->lane = pendres_room_take(room, m->room, sizeof *m->lane);
   return room->status;
 }

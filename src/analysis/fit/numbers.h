@@ -15,6 +15,7 @@ enum {
   FIT_FOLDS = 16,
   /* Nodes of a curve: some hundred are usual. */
   FIT_NODES = 1500,
+  FIT_REST_ROUNDS = 8, /* of Newton's method, for where a pendulum rests under its torque */
   FIT_FOLD_ROUNDS = 4, /* secants for a fold: each gives as many digits as the two before */
   /* Steps a period, at most this many and so many times as many as where a start began: values that
      need more have gone astray. Slow drives take some hundred. */
@@ -83,16 +84,21 @@ static const double fit_kinked = 1.0;
    most a third of their errors. */
 static const double fit_stepped = 0.1;
 
+/* Of two sets of values whose chi-squares differ by less than three standard deviations make,
+   neither is excluded; sets are two that are more than so many standard errors apart. */
+static const double fit_twin = 9.0, fit_apart = 6.0;
+
 /* A value this close to a bound, as a share of the range, is at it: fits begin further inside. */
 static const double fit_at_bound = 1e-5, fit_inside = 1e-3;
 
 /* Below this ratio of singular values of the scaled derivatives a combination is not determined:
-   they are known to seven digits or so. */
-static const double fit_undetermined = 1e-7;
+   they are known to six digits or so. */
+static const double fit_undetermined = 1e-5;
 
 /* A fit whose chi-square is so improbable says that it is on a wrong minimum, or the model or the
-   errors are wrong. A start whose probability is above the second number ends the search. */
-static const double fit_improbable = 1e-6, fit_good_enough = 1e-3;
+   errors are wrong. A start whose probability is above the second number ends the search: one in
+   twenty of the right ones goes on in vain, and few of the wrong ones end it. */
+static const double fit_improbable = 1e-6, fit_good_enough = 0.05;
 
 /* Residuals of neighbours are correlated beyond chance where the sum of their products is further
    from 0 than this many standard deviations. */

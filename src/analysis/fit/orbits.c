@@ -38,6 +38,26 @@ static void record(void *arg, int step, const pendres_rows *rows)
     memcpy(to, rows->at + r * rows->stride, s->lanes * sizeof *to);
 }
 
+/* The part of the first harmonic in a row that is in phase with the drive turned by a lag, whose
+   cosine and sine these are. */
+static double in_phase(const orbit *o, int row, double cosine, double sine)
+{
+  const size_t n = o->s->steps;
+  double c = 0.0, s = 0.0;
+  for (size_t k = 0; k < n; k++) {
+    const double theta = two_pi * (double)k / (double)n;
+    c += 2.0 / (double)n * sample(o, k, row) * cos(theta);
+    s += 2.0 / (double)n * sample(o, k, row) * sin(theta);
+  }
+  return c * cosine - s * sine;
+}
+
+/* By how much a row breaks the third equation, that of the border. */
+static double third(const orbit *o, const fit_lane *l, int row)
+{
+  return l->tuned ? in_phase(o, row, l->turn[0], l->turn[1]) : 0.0;
+}
+
 /* The inverse of the equations' derivative by the scaled (y, w, axis), bordered; 0: singular. */
 static int inverse(const orbit *o, const fit_lane *l, double inv[FIT_PLACES][FIT_PLACES])
 {
@@ -48,9 +68,13 @@ static int inverse(const orbit *o, const fit_lane *l, double inv[FIT_PLACES][FIT
     a[i][0] = sample(o, end, PENDRES_ROW_BY_Y + i) - (i == 0);
     a[i][1] = sample(o, end, PENDRES_ROW_BY_W + i) - (i == 1);
     a[i][2] = sample(o, end, axis + i) * o->scale;
-    a[2][i] = l->border[i];
   }
-  a[2][2] = l->border[2];
+  memcpy(a[2], l->border, sizeof a[2]);
+  if (l->tuned) {
+    a[2][0] = third(o, l, PENDRES_ROW_BY_Y);
+    a[2][1] = third(o, l, PENDRES_ROW_BY_W);
+    a[2][2] = third(o, l, axis) * o->scale;
+  }
   double det = 0.0;
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) {
@@ -64,10 +88,12 @@ static int inverse(const orbit *o, const fit_lane *l, double inv[FIT_PLACES][FIT
   return 1;
 }
 
-/* The place, in the border's plane, at which the equations are off by less than f. */
-static void solve(double inv[FIT_PLACES][FIT_PLACES], double f, double g, double out[FIT_PLACES])
+/* The place at which the equations, which are off by f, hold. */
+static void solve(double inv[FIT_PLACES][FIT_PLACES], const double f[FIT_PLACES],
+                  double out[FIT_PLACES])
 {
-  for (int i = 0; i < FIT_PLACES; i++) out[i] = -(inv[i][0] * f + inv[i][1] * g);
+  for (int i = 0; i < FIT_PLACES; i++)
+    out[i] = -(inv[i][0] * f[0] + inv[i][1] * f[1] + inv[i][2] * f[2]);
 }
 
 /* How the orbit closes, and how that moves with parameters. */
@@ -77,13 +103,18 @@ static int close_orbit(orbit *o, fit_lane *l)
   double inv[FIT_PLACES][FIT_PLACES];
   o->scale = pendres_parameter_scale_at(o->m->axis, l->u[pendres_fit_place(o->m)]);
   if (!inverse(o, l, inv)) return 0;
-  solve(inv, sample(o, end, PENDRES_ROW_Y) - l->u[PENDRES_U_Y],
-        sample(o, end, PENDRES_ROW_W) - l->u[PENDRES_U_W], o->shift);
+  solve(inv, (double[]){sample(o, end, PENDRES_ROW_Y) - l->u[PENDRES_U_Y],
+                        sample(o, end, PENDRES_ROW_W) - l->u[PENDRES_U_W],
+                        third(o, l, PENDRES_ROW_Y)}, o->shift);
   for (int k = 0; k < o->m->parameters; k++) {
     const int row = row_of(o->m->parameter[k]);
-    solve(inv, sample(o, end, row), sample(o, end, row + 1), o->by[k]);
+    solve(inv, (double[]){sample(o, end, row), sample(o, end, row + 1), third(o, l, row)},
+          o->by[k]);
     l->axis_slope[o->m->parameter[k]] = o->by[k][2] * o->scale;
   }
+  if (l->tuned)
+    l->axis_by_lag =
+      -inv[2][2] * in_phase(o, PENDRES_ROW_Y, -l->turn[1], l->turn[0]) * o->scale;
   const double trace = sample(o, end, PENDRES_ROW_BY_Y) + sample(o, end, PENDRES_ROW_BY_W + 1);
   const double det = exp(-l->u[PENDRES_U_GAMMA] * two_pi / l->u[PENDRES_U_OMEGA]);
   l->stable = 1.0 - trace + det > 0.0 && 1.0 + trace + det > 0.0;

@@ -60,6 +60,20 @@ static void note_open(const fit_problem *p, const fit_result *best, pendres_fit 
        "together, as shares of their values: %s; fix one of them, or give it a prior", words);
 }
 
+/* Other values that fit about as well. */
+static void note_twin(const fit_problem *p, pendres_fit *fit)
+{
+  char words[FIT_NOTE / 2] = "";
+  for (size_t k = 0; k < p->unknowns; k++) {
+    const int q = p->free[k].quantity;
+    const size_t at = strlen(words);
+    snprintf(words + at, sizeof words - at, "%s%s %.6g", at > 0 ? ", " : "",
+             pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, q), p->twin[q] * p->m->unit[q]);
+  }
+  note(fit, "other values fit about as well (chi-square %+.2g): %s; a bound, a guess of all "
+       "unknowns, or more data decide between them", p->twin_above, words);
+}
+
 /* Whether residuals of neighbours have the same sign more often than by chance. */
 static double correlation_of(const fit_problem *p)
 {
@@ -87,6 +101,7 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
     if (best->at_bound[k])
       note(fit, "%s is at its bound: its error is that of a value held there",
            pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, p->free[k].quantity));
+  if (p->has_twin) note_twin(p, fit);
   if (!s->converged)
     note(fit, "the fit has not converged: chi-square may still fall by %.2g; begin nearer by, or "
          "fix some unknowns", s->remaining);
@@ -185,7 +200,7 @@ static void take_points(const fit_problem *p, const fit_result *best, pendres_fi
   }
 }
 
-/* Jumps that are data. Their orbit is one on the state that ends there. */
+/* Places that are data. The orbit of a jump is one on the state that ends there. */
 static void take_marks(const fit_problem *p, const fit_result *best, pendres_fit *fit)
 {
   const fit_model *m = p->m;
@@ -193,15 +208,17 @@ static void take_marks(const fit_problem *p, const fit_result *best, pendres_fit
     const fit_mark *mark = &m->mark[i];
     const fit_track *t = &m->track[mark->track];
     const fit_curve *c = &m->curve[t->curve];
-    const fit_piece *piece = &c->piece[t->piece[mark->stage]];
+    const fit_lane *l = &m->lane[mark->lane];
+    const int stage = mark->stage < 0 ? 0 : mark->stage;
+    const fit_piece *piece = &c->piece[t->piece[stage]];
     fit_values slope;
     pendres_fit_point *to = &fit->point[mark->datum];
-    const double value =
-      pendres_fit_fold_at(m, best->v, pendres_fit_fold_lane(m, t, mark->stage), slope);
-    *to = (pendres_fit_point){.modelled = value, .modelled_error = error_of(p, best, slope),
-                              .residual = m->datum[mark->datum].observed - value,
-                              .error = p->terms.error[mark->datum], .part = mark->stage,
-                              .orbit = orbit_at(m, c->node[(piece->first + piece->last) / 2].u)};
+    const double value = pendres_fit_place_at(m, best->v, l, slope);
+    *to = (pendres_fit_point){
+      .modelled = value, .modelled_error = error_of(p, best, slope),
+      .residual = m->datum[mark->datum].observed - value, .error = p->terms.error[mark->datum],
+      .part = stage,
+      .orbit = orbit_at(m, mark->stage < 0 ? l->u : c->node[(piece->first + piece->last) / 2].u)};
   }
 }
 
@@ -218,7 +235,7 @@ static void take_jumps(const fit_problem *p, const fit_result *best, pendres_fit
       fit_values slope;
       if (l->gradual) continue;
       pendres_fit_jump *to = &fit->jump[fit->jumps++];
-      to->value = pendres_fit_fold_at(m, best->v, l, slope);
+      to->value = pendres_fit_place_at(m, best->v, l, slope);
       to->value_error = error_of(p, best, slope);
       to->direction = t->direction;
       to->other = m->other != PENDRES_PARAMETER_COUNT ? c->other : NAN;

@@ -26,6 +26,9 @@ typedef struct fit_problem {
   pendres_status status; /* what ends the fit */
   int evaluations, iterations;
   double worst; /* sum of squares of the first values that could be computed */
+  int has_twin; /* other values fit about as well: */
+  fit_values twin;
+  double twin_above; /* by so much more chi-square, in units of what is expected a datum */
 } fit_problem;
 
 /* What comes of a start. */

@@ -125,29 +125,6 @@ const fit_lane *pendres_fit_fold_lane(const fit_model *m, const fit_track *t, in
   return fold >= 0 ? &m->lane[c->fold[fold].lane] : NULL;
 }
 
-/* Which of the jumps of its track each measured one is: the nearest. 0: there is none. */
-static int find_jumps(fit_model *m, const fit_values v)
-{
-  for (size_t i = 0; i < m->marks; i++) {
-    fit_mark *mark = &m->mark[i];
-    const fit_track *t = &m->track[mark->track];
-    double nearest = INFINITY;
-    for (int j = 0; j + 1 < t->stages; j++) {
-      fit_values unused;
-      const fit_lane *l = pendres_fit_fold_lane(m, t, j);
-      const double away =
-        l->found ? fabs(pendres_fit_fold_at(m, v, l, unused) - m->datum[mark->datum].observed)
-                 : INFINITY;
-      if (away >= nearest) continue;
-      nearest = away;
-      mark->stage = j;
-    }
-    if (isinf(nearest)) m->lost = "the model has no jump in a sweep in which one was measured";
-    if (isinf(nearest)) return 0;
-  }
-  return 1;
-}
-
 pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
 {
   int steps = 0;
@@ -167,8 +144,10 @@ pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
       for (int j = 0; j < t->stages; j++) set_lane(m, v, t, &m->station[i], j);
   }
   if (m->rotates) pendres_fit_rotations(m);
-  else status = pendres_fit_orbits(m, steps, m->lanes, m->lane);
-  if (status == PENDRES_OK && !find_jumps(m, v)) return PENDRES_NOT_CONVERGED;
+  else status = pendres_fit_quarters(m, v, steps);
+  if (status == PENDRES_OK && !m->rotates)
+    status = pendres_fit_orbits(m, steps, m->lanes, m->lane);
+  if (status == PENDRES_OK && !pendres_fit_find_marks(m, v)) return PENDRES_NOT_CONVERGED;
   for (size_t k = 0; k < m->tracks && status == PENDRES_OK; k++) {
     const fit_track *t = &m->track[k];
     for (size_t i = t->first; i < t->first + t->count; i++)
@@ -254,11 +233,10 @@ static double jump_residual(const fit_model *m, const fit_track *t, const fit_te
   const double wide = inside ? fabs(gap[1] - gap[0]) : mean;
   *scale = hypot(wide / sqrt(12.0), terms->jump_error);
   if (inside) return (0.5 * (gap[0] + gap[1]) - fold) / *scale;
-  /* Nothing was seen: no objection to what lies beyond the data. */
-  const double end = isnan(gap[0]) ? gap[1] : gap[0];
-  const double past = (fold - end) * t->direction;
-  const int seen = isnan(gap[0]) ? past > 0.0 : past < 0.0;
-  return seen ? (end - fold) / *scale : 0.0;
+  /* Nothing was seen: no objection to what lies behind the data, nor to a sweep that began on
+     another state. */
+  const int seen = isnan(gap[1]) && (fold - gap[0]) * t->direction < 0.0;
+  return seen ? (gap[0] - fold) / *scale : 0.0;
 }
 
 /* The jumps from each stage to the next, with the data before station i on the one and from there
@@ -273,7 +251,7 @@ static double jump_cost(const fit_model *m, const fit_values v, const fit_terms 
   if (l->gradual) return 0.0;
   gap_before(m, t, i, gap);
   const double r =
-    jump_residual(m, t, terms, gap, pendres_fit_fold_at(m, v, l, unused), &scale);
+    jump_residual(m, t, terms, gap, pendres_fit_place_at(m, v, l, unused), &scale);
   return loss(r, terms->huber);
 }
 
@@ -329,7 +307,8 @@ static void take_jumps(const fit_model *m, const fit_values v, const fit_terms *
     if (t->count == 0 || j + 1 >= t->stages || pendres_fit_fold_lane(m, t, j)->gradual) continue;
     while (i < t->count && m->station[t->first + i].stage <= j) i++;
     gap_before(m, t, i, gap);
-    const double fold = pendres_fit_fold_at(m, v, pendres_fit_fold_lane(m, t, j), rows->slope[row]);
+    const double fold = pendres_fit_place_at(m, v, pendres_fit_fold_lane(m, t, j),
+                                             rows->slope[row]);
     const double sharp = jump_residual(m, t, terms, gap, fold, &scale);
     const double before = scale, wide = blur(m, terms, t, i);
     if (wide > 0.0) scale = hypot(scale, wide * fabs(gap[1] - gap[0]));
@@ -378,8 +357,8 @@ void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *te
   for (size_t i = 0; i < m->marks; i++) {
     const fit_mark *mark = &m->mark[i];
     const size_t datum = mark->datum;
-    const fit_lane *l = pendres_fit_fold_lane(m, &m->track[mark->track], mark->stage);
-    const double value = pendres_fit_fold_at(m, v, l, rows->slope[datum]);
+    const fit_lane *l = &m->lane[mark->lane];
+    const double value = pendres_fit_place_at(m, v, l, rows->slope[datum]);
     rows->residual[datum] = (m->datum[datum].observed - value) / terms->error[datum];
     for (int q = 0; q < FIT_QUANTITIES; q++) rows->slope[datum][q] /= -terms->error[datum];
   }

@@ -1,6 +1,8 @@
 /* small.c -- the fold that distinguishes SA from LA along a line; see line.h. */
 #include "analysis/phase_diagram/line.h"
 
+#include <math.h>
+
 #include "continuation/sets.h"
 #include "model/model.h"
 
@@ -11,16 +13,21 @@ int pendres_phase_on_sheets(const pendres_orbit *o)
 }
 
 /* Whether it is the small state that ends at a fold, which is so if the unstable orbit that it
-   meets is the larger one, for any force and whichever way the resonance bends. point: the fold's
-   place on its branch. */
-static int ends_small(const pendres_branch *branch, size_t point)
+   meets is the larger one at the same parameter, for any force and whichever way the resonance
+   bends. Next to a tip the largest amplitude is off the fold: what counts is the slope along the
+   curve, by the parabola through the fold and the points beside it, whose distances from it are as
+   the roots of those of their parameters. point: the fold's place on its branch. */
+static int ends_small(const pendres_branch *branch, size_t point, const pendres_bifurcation *f)
 {
   if (point == 0 || point + 1 >= pendres_branch_count(branch)) return 0;
   const pendres_orbit *before = &pendres_branch_get(branch, point - 1)->orbit;
   const pendres_orbit *behind = &pendres_branch_get(branch, point + 1)->orbit;
   if (before->stable == behind->stable) return 0;
-  return before->stable ? behind->amplitude > before->amplitude
-                        : before->amplitude > behind->amplitude;
+  const double away[2] = {fabs(pendres_parameter_get(f->parameter, &before->pendulum) - f->value),
+                          fabs(pendres_parameter_get(f->parameter, &behind->pendulum) - f->value)};
+  const double slope = (behind->amplitude - f->orbit.amplitude) * away[0] -
+                       (before->amplitude - f->orbit.amplitude) * away[1];
+  return before->stable ? slope > 0.0 : slope < 0.0;
 }
 
 /*
@@ -40,7 +47,7 @@ static pendres_small_end find_small_end(const pendres_branches *branches, int pl
       const pendres_bifurcation *f =
         pendres_branch_bifurcation_get(branch, (size_t)p->bifurcation);
       const double larger = f->orbit.amplitude - end.amplitude;
-      if (plain ? !(f->curvature < 0.0) : !ends_small(branch, k)) continue;
+      if (plain ? !(f->curvature < 0.0) : !ends_small(branch, k, f)) continue;
       if (end.known && (plain ? larger >= 0.0 : larger <= 0.0)) continue;
       end = (pendres_small_end){.known = 1,
                                 .parameter = f->parameter,
