@@ -197,7 +197,8 @@ static size_t extend(basins *b, const lost *l)
 static size_t sweep_once(basins *b, int last)
 {
   const size_t nv = b->grid.nv, nx = b->grid.nx, group = rows_of_group(b);
-  const size_t some = (nx + BASINS_TASKS - 1) / BASINS_TASKS, rows = some < group ? some : group;
+  const size_t least = 1 + TASK_STATES_LEAST / nv, some = (nx + BASINS_TASKS - 1) / BASINS_TASKS;
+  const size_t enough = some > least ? some : least, rows = enough < group ? enough : group;
   states s = {.b = b,
               .points = {.n = nx * nv, .chunk = rows * nv,
                          .size = sizeof(pendres_basin_state), .compute = find_rows,

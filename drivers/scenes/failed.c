@@ -36,12 +36,13 @@ static int too_long(const pendres_pendulum *p, double runs, int charted, char *w
   /* E-folding times after which 1e-8 of a start is left; the least number of periods of a
      verdict. */
   const double times = 18.0, periods = 20.0;
+  /* In the pendulum's units: how fast it oscillates is of order one in them. */
+  const pendres_units units = pendres_units_of(p);
+  const double time = units.time;
+  const double damping = time * p->damping, frequency = time * p->drive_frequency;
   /* The steps of about a minute. At weak damping chaos lasts long, and labels take several runs: a
      quarter of the steps is left for each. Slow drives settle within a period or two, of many
      steps. */
-  /* In the pendulum's units: how fast it oscillates is of order one in them. */
-  const double time = pendres_units_of(p).time;
-  const double damping = time * p->damping, frequency = time * p->drive_frequency;
   const int weak = damping < 2.0;
   const double most_settling = weak ? 5e6 : 2e7, most = weak ? 2e9 : 2e7;
   const double half = 0.5 * damping;
@@ -50,7 +51,9 @@ static int too_long(const pendres_pendulum *p, double runs, int charted, char *w
   const double steps_per_time =
     fmax(fmax(damping / 4.0, 1.0 / 1.5), 8.0 * frequency / (2.0 * PENDRES_PI));
   double settling = runs * steps_per_time * times / rate;
-  if (charted && weak) settling = fmin(settling, runs * charted_steps);
+  const double drive = fmax(fabs(p->drive_amplitude) * time * time / units.length,
+                            fabs(p->parametric_amplitude));
+  if (charted && weak && drive <= charted_drive) settling *= charted_share;
   const double steps =
     settling + runs * steps_per_time * periods * 2.0 * PENDRES_PI / frequency;
   if (settling <= most_settling && steps <= most) return 0;

@@ -15,8 +15,8 @@
 #include "orbits/attractor_set.h"
 #include "orbits/orbit_measure.h"
 
-/* The share of a branch's way that goes along its parameter, where the state counts as it is: errors
-   are such lengths. */
+/* The share of a branch's way that goes along its parameter, where the state counts as it is:
+   errors are such lengths. */
 static double along_parameter(const pendres_system *s, const pendres_curve_node *at)
 {
   const double size = pendres_arc_scale(s->unknown[0], at->u);

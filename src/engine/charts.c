@@ -250,7 +250,8 @@ static pendres_status chart_square(pendres_context *ctx, pendres_charts *c, int 
    worth charting. */
 static double least_side(const pendres_charts *c, int number, const place *at)
 {
-  return fmax(charts_smallest, distance_of(c, at) * sqrt(charts_rounds / c->settling) * (double)(1 << number));
+  const double share = sqrt(charts_rounds / c->settling) * (double)(1 << number);
+  return fmax(charts_smallest, distance_of(c, at) * share);
 }
 
 static pendres_status divide(pendres_context *ctx, level *l, size_t s)
@@ -267,13 +268,13 @@ static pendres_status divide(pendres_context *ctx, level *l, size_t s)
   return PENDRES_OK;
 }
 
-static pendres_status find(pendres_context *ctx, pendres_charts *c, int number, double y, double w,
-                           const charted **out, place *at);
+static pendres_status find(pendres_context *ctx, pendres_charts *c, int number,
+                           const pendres_strobe_lane *lane, const charted **out, place *at);
 
-/* Chart a new square, or divide it, or find that neither is possible. y, w: a place in it. Over more
+/* Chart a new square that a lane is in, or divide it, or find that neither is possible. Over more
    periods no larger square is tried than over fewer. */
 static pendres_status open_square(pendres_context *ctx, pendres_charts *c, int number, size_t s,
-                                  const place *at, double y, double w)
+                                  const place *at, const pendres_strobe_lane *lane)
 {
   level *l = &c->level[number];
   charted made;
@@ -282,7 +283,7 @@ static pendres_status open_square(pendres_context *ctx, pendres_charts *c, int n
   if (number > 0) {
     const charted *chart;
     place within;
-    status = find(ctx, c, number - 1, y, w, &chart, &within);
+    status = find(ctx, c, number - 1, lane, &chart, &within);
     known = status == PENDRES_OK && chart != NULL && within.half >= at->half;
   }
   if (known) status = chart_square(ctx, c, number, at, &made, &known);
@@ -301,10 +302,12 @@ static pendres_status open_square(pendres_context *ctx, pendres_charts *c, int n
   return status;
 }
 
-/* Find the chart at a place; *out: NULL where there is none, else valid until another is made. */
-static pendres_status find(pendres_context *ctx, pendres_charts *c, int number, double y, double w,
-                           const charted **out, place *at)
+/* Find the chart of the square that a lane is in; *out: NULL where there is none, else valid until
+   another is made. */
+static pendres_status find(pendres_context *ctx, pendres_charts *c, int number,
+                           const pendres_strobe_lane *lane, const charted **out, place *at)
 {
+  const double y = lane->y, w = lane->w;
   *out = NULL;
   if (!(fabs(y) < CHARTS_FAR && fabs(w) < CHARTS_FAR)) return PENDRES_OK;
   level *l = &c->level[number];
@@ -312,7 +315,7 @@ static pendres_status find(pendres_context *ctx, pendres_charts *c, int number, 
   size_t s = (size_t)(floor(y) + CHARTS_FAR) * SIDE + (size_t)(floor(w) + CHARTS_FAR);
   for (;;) {
     if (l->square[s].state == SQUARE_NEW) {
-      const pendres_status status = open_square(ctx, c, number, s, at, y, w);
+      const pendres_status status = open_square(ctx, c, number, s, at, lane);
       if (status != PENDRES_OK) return status;
     }
     if (l->square[s].state != SQUARE_DIVIDED) break;
@@ -333,7 +336,8 @@ static void move(const charted *chart, const place *at, long periods, pendres_st
 {
   double image[2], d[2][2];
   const double per = 1.0 / at->half;
-  pendres_chart_kernel()->at(&chart->map, (lane->y - at->y) * per, (lane->w - at->w) * per, image, d);
+  pendres_chart_kernel()->at(&chart->map, (lane->y - at->y) * per, (lane->w - at->w) * per, image,
+                             d);
   const pendres_flow_error e = lane->off;
   const double yy = d[0][0] * per, yw = d[0][1] * per, wy = d[1][0] * per, ww = d[1][1] * per;
   lane->off.yy = yy * yy * e.yy + 2.0 * yy * yw * e.yw + yw * yw * e.ww + chart->added;
@@ -358,7 +362,7 @@ static pendres_status repeat(pendres_context *ctx, pendres_charts *c, int number
     for (int k = 0; k < 8; k++) {
       const charted *chart;
       place at;
-      status = find(ctx, c, number, lanes[i].y, lanes[i].w, &chart, &at);
+      status = find(ctx, c, number, &lanes[i], &chart, &at);
       if (status != PENDRES_OK || chart == NULL) return status;
       move(chart, &at, periods_of(number), &lanes[i]);
       together += chart->missed;
@@ -386,7 +390,7 @@ pendres_status pendres_charts_advance(pendres_context *ctx, pendres_charts *c, i
   place at;
   pendres_status status = PENDRES_OK;
   for (*number = highest; *number >= 0; --*number) {
-    status = find(ctx, c, *number, lane->y, lane->w, &chart, &at);
+    status = find(ctx, c, *number, lane, &chart, &at);
     if (status != PENDRES_OK) return status;
     if (chart != NULL) break;
   }

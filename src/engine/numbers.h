@@ -88,8 +88,8 @@ enum {
    share of it. */
 static const double charts_worth = 300.0, charts_longest = 0.125;
 
-/* The error of a period that is charted, by the integrator; what a chart may miss between its nodes,
-   and how much more than what was seen it may be there. */
+/* The error of a period that is charted, by the integrator; what a chart may miss between its
+   nodes, and how much more than what was seen it may be there. */
 static const double charts_integrated = 1e-12, charts_missed = 1e-11, charts_between = 2.0;
 
 /* Squares have sides of at least this share of the distance from the bottom, times the root of the

@@ -277,7 +277,7 @@ static pendres_status glide(pendres_context *ctx, pendres_charts *charts,
     while (highest > 0 && (highest > most || pendres_charts_periods(highest) > may)) highest--;
     const pendres_status status = pendres_charts_advance(ctx, charts, highest, lane, &level);
     if (status != PENDRES_OK || level < 0) return status;
-    lane->charted += pendres_charts_periods(level);
+    lane->charted += pendres_charts_periods(level) - 1;
     if (level == 0) {
       *done = settle_look((void *)l, i, lane);
     } else if (pendres_attractor_set_ellipse(c, lane->y, lane->w) != NULL) {
