@@ -10,7 +10,8 @@
 #include "engine/kernels_chart.h"
 
 enum {
-  PENDRES_CHART_CHECKED = 5, /* places a coordinate at which the interpolation is checked */
+  PENDRES_CHART_CHECKED = 4, /* places a coordinate at which the interpolation is checked: ten
+                                vectors with the nodes */
   PENDRES_CHART_NODES = PENDRES_CHART_TERMS * PENDRES_CHART_TERMS,
   PENDRES_CHART_PLACES = PENDRES_CHART_NODES + PENDRES_CHART_CHECKED * PENDRES_CHART_CHECKED
 };

@@ -25,7 +25,8 @@ typedef enum square_state {
 
 typedef struct square {
   square_state state;
-  size_t at; /* the number of its chart, or of the first of its four parts */
+  size_t at; /* the number of its chart, or of the first of its four parts; of a new one: how often
+                it is to be divided before a chart is tried */
 } square;
 
 typedef struct charted {
@@ -174,9 +175,10 @@ static double distance_of(const pendres_charts *c, const place *at)
   return distance;
 }
 
-static double scale_of(const pendres_charts *c, const place *at)
+/* What may be missed in a period. */
+static double tolerance(const pendres_charts *c, const place *at)
 {
-  return fmax(distance_of(c, at) - 1.5 * at->half, at->half);
+  return charts_missed / c->settling * fmax(distance_of(c, at) - 1.5 * at->half, at->half);
 }
 
 /* Follow places over one period by the integrator. */
@@ -191,7 +193,7 @@ static pendres_status integrate(pendres_context *ctx, const pendres_charts *c, c
   int steps = 0;
   *known = 0;
   pendres_status status =
-    pendres_steps_choose(ctx, &c->pendulum, speed, charts_integrated * scale_of(c, at), &steps);
+    pendres_steps_choose(ctx, &c->pendulum, speed, charts_integrated * tolerance(c, at), &steps);
   if (status == PENDRES_TOLERANCE_UNREACHABLE) return PENDRES_OK;
   for (int i = 0; i < PLACES; i++) lanes[i].steps = steps;
   const pendres_cost before = ctx->cost;
@@ -209,9 +211,20 @@ static pendres_status integrate(pendres_context *ctx, const pendres_charts *c, c
 static pendres_status repeat(pendres_context *ctx, pendres_charts *c, int number,
                              pendres_strobe_lane *lanes, double *missed, int *known);
 
-/* Chart a square. */
+/* How often a square is to be divided until a chart may miss no more than it may. */
+static size_t divisions(double missed, double may)
+{
+  size_t times = 0;
+  while (missed > may && isfinite(missed)) {
+    missed /= charts_falls;
+    times++;
+  }
+  return isfinite(missed) ? times : 1;
+}
+
+/* Chart a square. *divided: how often it is to be divided before a chart is known; 0: it is. */
 static pendres_status chart_square(pendres_context *ctx, pendres_charts *c, int number,
-                                   const place *at, charted *out, int *known)
+                                   const place *at, charted *out, size_t *divided)
 {
   const double turn = pendres_model_turn(&c->pendulum);
   pendres_strobe_lane lanes[PLACES];
@@ -223,11 +236,13 @@ static pendres_status chart_square(pendres_context *ctx, pendres_charts *c, int 
       .pendulum = &c->pendulum, .y = at->y + at->half * a, .w = at->w + at->half * b};
     pendres_coordinates_wrap(&c->pendulum, &lanes[i].y, &lanes[i].turns);
   }
-  double before = charts_integrated * scale_of(c, at);
+  double before = charts_integrated * tolerance(c, at);
+  int known = 0;
   const pendres_status status = number == 0
-                                  ? integrate(ctx, c, at, lanes, known)
-                                  : repeat(ctx, c, number - 1, lanes, &before, known);
-  if (status != PENDRES_OK || !*known) return status;
+                                  ? integrate(ctx, c, at, lanes, &known)
+                                  : repeat(ctx, c, number - 1, lanes, &before, &known);
+  *divided = 1;
+  if (status != PENDRES_OK || !known) return status;
   for (int i = 0; i < PLACES; i++) {
     const pendres_strobe_lane *l = &lanes[i];
     image[i][0] = l->turns != 0 ? l->y + turn * (double)l->turns : l->y;
@@ -237,7 +252,7 @@ static pendres_status chart_square(pendres_context *ctx, pendres_charts *c, int 
   const double missed = pendres_chart_fit((const double (*)[2])image, &out->map);
   const double own = charts_between * missed, periods = (double)periods_of(number);
   /* Nearer than what shorter charts miss no other can come to them. */
-  *known = missed <= fmax(before, charts_missed * scale_of(c, at) * periods);
+  *divided = divisions(missed, fmax(before, tolerance(c, at) * periods));
   out->missed = own + before;
   const double each = number == 0 ? out->missed : own;
   out->added = most + each * each * fmax(1.0, 2.0 * c->settling / periods);
@@ -254,7 +269,8 @@ static double least_side(const pendres_charts *c, int number, const place *at)
   return fmax(charts_smallest, distance_of(c, at) * share);
 }
 
-static pendres_status divide(pendres_context *ctx, level *l, size_t s)
+/* Divide a square, so many times before charts are tried. */
+static pendres_status divide(pendres_context *ctx, level *l, size_t s, size_t times)
 {
   const size_t first = l->squares;
   if (first + 4 > l->square_room) {
@@ -262,7 +278,7 @@ static pendres_status divide(pendres_context *ctx, level *l, size_t s)
     if (!pendres_regrow(&l->square, larger, sizeof *l->square)) return no_memory(ctx);
     l->square_room = larger;
   }
-  for (size_t k = 0; k < 4; k++) l->square[first + k] = (square){.state = SQUARE_NEW};
+  for (size_t k = 0; k < 4; k++) l->square[first + k] = (square){SQUARE_NEW, times - 1};
   l->squares += 4;
   l->square[s] = (square){SQUARE_DIVIDED, first};
   return PENDRES_OK;
@@ -278,24 +294,25 @@ static pendres_status open_square(pendres_context *ctx, pendres_charts *c, int n
 {
   level *l = &c->level[number];
   charted made;
-  int known = 1;
+  size_t divided = l->square[s].at;
   pendres_status status = PENDRES_OK;
-  if (number > 0) {
+  if (number > 0 && divided == 0) {
     const charted *chart;
     place within;
     status = find(ctx, c, number - 1, lane, &chart, &within);
-    known = status == PENDRES_OK && chart != NULL && within.half >= at->half;
+    divided = chart == NULL || within.half < at->half;
   }
-  if (known) status = chart_square(ctx, c, number, at, &made, &known);
+  if (status == PENDRES_OK && divided == 0)
+    status = chart_square(ctx, c, number, at, &made, &divided);
   if (status != PENDRES_OK) return status;
-  if (known) {
+  if (divided == 0) {
     charted *grown = pendres_grow(l->chart, l->count, &l->room, sizeof *grown);
     if (grown == NULL) return no_memory(ctx);
     l->chart = grown;
     l->chart[l->count] = made;
     l->square[s] = (square){SQUARE_CHARTED, l->count++};
   } else if (at->half >= least_side(c, number, at)) {
-    status = divide(ctx, l, s);
+    status = divide(ctx, l, s, divided);
   } else {
     l->square[s].state = SQUARE_NOT;
   }

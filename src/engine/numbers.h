@@ -88,9 +88,14 @@ enum {
    share of it. */
 static const double charts_worth = 300.0, charts_longest = 0.125;
 
-/* The error of a period that is charted, by the integrator; what a chart may miss between its
-   nodes, and how much more than what was seen it may be there. */
-static const double charts_integrated = 1e-12, charts_missed = 1e-11, charts_between = 2.0;
+/* What a chart may miss between its nodes, of the distance from the bottom, in a time of settling;
+   the share of that by the integrator; and what counts of the most that was seen to be missed:
+   from place to place it changes its sign, and pendulums were off by a fiftieth of this at most. */
+static const double charts_missed = 3e-6, charts_integrated = 0.1, charts_between = 0.5;
+
+/* What a polynomial of degree seven misses falls by 2^8 where a square is divided; twice that,
+   since more may be missed farther from the bottom. */
+static const double charts_falls = 512.0;
 
 /* Squares have sides of at least this share of the distance from the bottom, times the root of the
    time of settling, ... */
