@@ -20,8 +20,8 @@ static double between(double from, double to)
   return from + (to - from) * next_random(&seed);
 }
 
-/* A pendulum or a resonator with a cubic force that settles in some 300 to 6000 periods, driven up
-   to where its answer bends over. */
+/* A pendulum or a resonator with a cubic force that settles in some 300 to 11,000 periods, driven
+   up to where its answer bends over. */
 static pendres_pendulum drawn(int i)
 {
   pendres_pendulum p = {.damping = 7e-4 * exp(-between(0.0, 3.0)),
@@ -60,7 +60,9 @@ static pendres_strobe_lane start_of(const pendres_pendulum *p)
 /*
  * Where charts lead to in a time of settling, beside the integrator, whose error there, 1e-13 a
  * period, is a thousandth of what charts may miss. The variance that a lane carries is that of
- * misses which add up for the whole of that time; they do not quite.
+ * misses which add up for the whole of that time; they do not quite. It is 3e-6 of the distance
+ * from rest, here of order one, and grows as orbits of different amplitudes run apart: a
+ * thousandfold allows for that.
  */
 static void test_errors_are_carried(void **state)
 {
@@ -80,8 +82,9 @@ static void test_errors_are_carried(void **state)
       check_ok(pendres_steps_choose(ctx, &p, pendres_steps_speed(&p, 1.5, 1.0), 1e-13,
                                     &exact.steps));
       check_ok(pendres_strobe_run(ctx, 1, &exact, reached, &lane.period));
-      check_near(hypot(lane.y - exact.y, lane.w - exact.w), 0.0,
-                 sqrt(lane.off.yy + lane.off.ww));
+      const double carried = sqrt(lane.off.yy + lane.off.ww);
+      check_near(hypot(lane.y - exact.y, lane.w - exact.w), 0.0, carried);
+printf("CAR %g %g\n", carried, hypot(lane.y,lane.w));
       charted++;
     }
   }
@@ -94,6 +97,7 @@ static void test_charts_do_not_depend_on_who_asks(void **state)
 {
   pendres_context *fresh = context_with(NULL);
   const double bottom = 0.0;
+  int moved = 0;
   seed = 5;
   for (int i = 0; i < 6; i++) {
     const pendres_pendulum p = drawn(i);
@@ -101,19 +105,17 @@ static void test_charts_do_not_depend_on_who_asks(void **state)
     pendres_charts *charts;
     for (int k = 0; k < 2 * STARTS; k++) lane[k] = start_of(&p);
     check_ok(pendres_charts_of(*state, &p, 1, &bottom, &charts));
-    for (int k = 0; k < 2 * STARTS; k++) {
-      pendres_strobe_lane again = lane[k];
-      advance(*state, charts, &lane[k]);
-      pendres_charts *own;
-      check_ok(pendres_charts_of(fresh, &p, 1, &bottom, &own));
-      if (k == 2 * STARTS - 1) advance(fresh, own, &again);
-      if (k < 2 * STARTS - 1) continue;
-      check_near(again.y, lane[k].y, 0.0);
-      check_near(again.w, lane[k].w, 0.0);
-      check_near(again.off.yy, lane[k].off.yy, 0.0);
-      assert_int_equal(again.period, lane[k].period);
-    }
+    pendres_strobe_lane *last = &lane[2 * STARTS - 1], again = *last;
+    for (int k = 0; k < 2 * STARTS; k++) advance(*state, charts, &lane[k]);
+    check_ok(pendres_charts_of(fresh, &p, 1, &bottom, &charts));
+    advance(fresh, charts, &again);
+    check_near(again.y, last->y, 0.0);
+    check_near(again.w, last->w, 0.0);
+    check_near(again.off.yy, last->off.yy, 0.0);
+    assert_int_equal(again.period, last->period);
+    moved += again.period > 0;
   }
+  assert_true(moved > 0);
   pendres_context_free(fresh);
 }
 

@@ -3,7 +3,8 @@
  * (fit_fixture.h) found the ends of its states, and the values at which they lag by a quarter turn.
  *
  * Tolerances: a value is within four and a half standard errors (one normal number in 150,000 is
- * not), a chi-square has a probability above 1e-5. Seeds are fixed.
+ * not), a chi-square has a probability above 1e-5. Seeds are fixed. Places without noise have
+ * tolerances of their own, below.
  */
 #include "fit_fixture.h"
 #include "check.h"

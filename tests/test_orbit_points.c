@@ -56,7 +56,7 @@ static void as_measured(void **state)
 
 /* Amplitudes by states alone, also of an orbit that turns over: seven times in six drive periods.
    They serve to tell orbits apart that differ by 0.02; turning points of a cubic between two of 40
-   states a period are off by the fourth power of their distance, a few times 1e-4. */
+   states a period or more are off by the fourth power of their distance, a few times 1e-4. */
 static void rough_amplitudes(void **state)
 {
   pendres_context *ctx = *state;

@@ -195,6 +195,9 @@ static void sweep_on_threads(void **state)
     pendres_context_free(ctx);
   }
   assert_memory_equal(&cost[0], &cost[1], sizeof cost[0]);
+  assert_int_equal(pendres_hysteresis_count(h[0]), 2 * VALUES);
+  assert_int_equal(pendres_hysteresis_count(h[1]), 2 * VALUES);
+  assert_int_equal(pendres_hysteresis_jump_count(h[0]), pendres_hysteresis_jump_count(h[1]));
   for (size_t i = 0; i < pendres_hysteresis_count(h[0]); i++)
     assert_memory_equal(pendres_hysteresis_get(h[0], i), pendres_hysteresis_get(h[1], i),
                         sizeof(pendres_hysteresis_point));

@@ -428,7 +428,7 @@ int main(void)
     cmocka_unit_test(families_make_the_same_curves),
     cmocka_unit_test(stiffening_oscillator),
     cmocka_unit_test(narrow_tip),
-                                     cmocka_unit_test(points_fail_alone),
+    cmocka_unit_test(points_fail_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

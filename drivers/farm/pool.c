@@ -27,7 +27,8 @@ long long pool_milliseconds(void)
   return (long long)(1e3 * clock_wall());
 }
 
-/* A long task moves as the drive periods do that it has taken. */
+/* A long task moves as the drive periods do that it has taken; those of its helpers count when they
+   are done. */
 static void tick(progress *p, size_t finished, at_work *w, double seconds)
 {
   char name[POINT_NAME + 40];
@@ -252,7 +253,8 @@ static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_re
   return status;
 }
 
-/* The same on a thread of the pool, with its context. */
+/* The same on a thread of the pool, with its context; a task that has all threads for itself with
+   the one that may use them. */
 static pendres_status run_on(pool *c, worker *w, farm_record *record)
 {
   pendres_context *ctx = NULL;

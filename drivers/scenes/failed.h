@@ -51,7 +51,9 @@ scene_failure scene_failure_of(pendres_status status);
 int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size);
 
 /* The same for a deck that may bound the drive periods of a pendulum itself, and then never takes
-   too long; words[size] name that key. Without damping nothing settles: it is not asked. */
+   too long; words[size] name that key. Charts shorten the settling of weakly damped pendulums that
+   are not driven hard, where the deck's method and steps allow them. Without damping nothing
+   settles: it is not asked. */
 int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double runs, char *words,
                             size_t size);
 

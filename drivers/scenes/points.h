@@ -41,7 +41,7 @@ struct scene_points {
    * ends the run.
    */
   pendres_status (*compute)(const scene_some *some);
-  /* Whether a point would take longer than anybody waits, see scene_failure_too_long(); it is not
+  /* Whether a point would take longer than anybody waits, see scene_settling_too_long(); it is not
      computed then. May be NULL. */
   int (*too_long)(const scene_points *p, size_t point, char *words, size_t size);
   /* Fill what is not NaN in the record of a point that has no result; NULL: it stays blank. */

@@ -335,6 +335,7 @@ static pendres_status add_special(pendres_context *ctx, const pendres_curve_test
     /* At weak damping the chord may be too far off the curve for Newton's method. */
     status = pendres_curve_close_in(ctx, c, test->function, zero, u);
     if (status == PENDRES_OK) status = test->locate(ctx, c, u, 2.0 * chord, &s);
+    else if (status == PENDRES_TOLERANCE_UNREACHABLE) status = PENDRES_NOT_CONVERGED;
   }
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
   if (!pendres_located_found(status)) return status;

@@ -259,6 +259,9 @@ static pendres_status approach_orbit(pendres_context *ctx, const pendres_system 
       u[s->unknown[k]] += scale[k] * d;
       length = hypot(length, d);
     }
+    const pendres_pendulum p = pendres_map_pendulum(s->map.force, u);
+    if (!(length < newton_lost) || pendres_pendulum_check(&p, NULL) != PENDRES_OK)
+      return PENDRES_NOT_CONVERGED;
     if (length < follow_last_step) break;
   }
   return PENDRES_OK;

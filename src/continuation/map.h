@@ -149,8 +149,8 @@ double pendres_map_flip(const pendres_image *image);
 /* The length that counts as one in arclength, of entry `i` of u where u is. Of parameters it is a
    constant at first, but never less than a twentieth of the value: beyond twenty of the constant
    they count by their logarithms, and a curve over decades is not a long one. Of the state it is 1,
-   at dampings below 0.05 the distance from rest: the narrow folds of weak resonances are then as
-   long as others. */
+   at dampings below 0.05 the distance from the origin of y, or the drive if that is more: the
+   narrow folds of weak resonances about that origin are then as long as others. */
 double pendres_arc_scale(int i, const pendres_u u);
 
 /* The same half way from a to b. */

@@ -79,10 +79,12 @@ static int is_beside(const pendres_part *s, const pendres_branch_point *p,
   return pendres_part_distance(s->branch, p, &at->orbit) < just_beyond / p->orbit.period;
 }
 
-/* Whether a multiplier is so close to 1 that the errors of a point that only leads on decide. */
+/* Whether a real multiplier is so close to 1 or -1 that the errors of a point that only leads on
+   decide. Of a complex pair damping decides. */
 static int is_untold(const pendres_branch_point *p)
 {
-  return fabs(hypot(p->orbit.multiplier_re[0], p->orbit.multiplier_im[0]) - 1.0) < curve_untold;
+  const pendres_orbit *o = &p->orbit;
+  return o->multiplier_im[0] == 0.0 && fabs(fabs(o->multiplier_re[0]) - 1.0) < curve_untold;
 }
 
 /* Whether point number k has such a bifurcation before it, with nothing in between but points as
@@ -106,8 +108,8 @@ static double unlocated(const pendres_part *s, size_t k)
   return last > 0 ? fmax(behind, fabs(here - pendres_part_value(s, last - 1))) : behind;
 }
 
-/* How far orbits are from the one that they are born from, as the square a parameter: it goes as
-   that near their birth. */
+/* The square of the distance from the orbit that they are born from, for each unit of the
+   parameter: near a birth that is a constant. */
 static double spread(pendres_part *s, int step)
 {
   const pendres_orbit *from = &pendres_part_point(s, 0)->orbit;

@@ -101,6 +101,7 @@ pendres_status pendres_bifurcation_widest(pendres_context *ctx, const pendres_bi
                                               pendres_curve_spacing, u);
   pendres_map_unfold(&once.system.map);
   pendres_status status = way_of_doubling(ctx, &once.system.map, u, &steps, way);
+  if (status != PENDRES_OK) return status;
   double x[2] = {o->x, o->x + switch_beside * way[0]};
   double v[2] = {o->v, o->v + switch_beside * o->pendulum.drive_frequency * way[1]};
   for (int k = 1; k < o->period && status == PENDRES_OK; k++) {

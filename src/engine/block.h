@@ -95,11 +95,6 @@ void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, d
  */
 pendres_status pendres_block_period(pendres_block *b);
 pendres_status pendres_block_period_by(pendres_block *b, pendres_flow_way way);
-
-/* A state at drive phase 0 in the coordinates of a splitting of so many steps, in which lanes are
-   when their periods are computed so; or, if `back`, one of these as it is. */
-void pendres_block_split_state(const pendres_pendulum *p, int steps, int back, double *y,
-                               double *w);
 pendres_status pendres_block_half_period(pendres_block *b);
 
 /* The same, and call sample(arg, step, rows) after each step 1..n; fixed steps only, so that the
@@ -107,6 +102,11 @@ pendres_status pendres_block_half_period(pendres_block *b);
 typedef void pendres_block_sample(void *arg, int step, const pendres_rows *rows);
 pendres_status pendres_block_period_sampled(pendres_block *b, pendres_block_sample *sample,
                                             void *arg);
+
+/* A state at drive phase 0 in the coordinates of a splitting of so many steps, in which lanes are
+   when their periods are computed so; or, if `back`, one of these as it is. */
+void pendres_block_split_state(const pendres_pendulum *p, int steps, int back, double *y,
+                               double *w);
 
 /* Right-hand sides evaluated so far, counting each lane in use, and steps taken, likewise; those
    that an adaptive block rejected do not count. */

@@ -2,7 +2,7 @@
  * block_internal.h -- what a block is made of.
  *
  * Owns: the struct that block.c, which advances a block, block_lanes.c, which fills its lanes, and
- * block_float.c share. No other file includes it.
+ * block_alone.c share. No other file includes it.
  */
 #ifndef PENDRES_BLOCK_INTERNAL_H
 #define PENDRES_BLOCK_INTERNAL_H

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/angles.h"
 #include "base/grow.h"
@@ -14,7 +13,7 @@
 #include "engine/steps.h"
 #include "model/model.h"
 
-enum { PLACES = PENDRES_CHART_PLACES, SIDE = 2 * CHARTS_FAR, KEPT = 96 };
+enum { PLACES = PENDRES_CHART_PLACES, SIDE = 2 * CHARTS_FAR };
 
 typedef enum square_state {
   SQUARE_NEW,
@@ -44,7 +43,6 @@ typedef struct level {
 
 struct pendres_charts {
   pendres_pendulum pendulum;
-  pendres_table table; /* of the integrator */
   size_t bottoms;
   double bottom[PENDRES_CHARTS_BOTTOMS];
   double settling; /* periods in which a small oscillation decays to 1/e */
@@ -56,7 +54,7 @@ struct pendres_charts {
 struct pendres_charts_memo {
   size_t count;
   unsigned long clock;
-  pendres_charts *charts[KEPT];
+  pendres_charts *charts[CHARTS_KEPT];
 };
 
 /* A square, by its centre. */
@@ -66,18 +64,13 @@ typedef struct place {
 
 static long periods_of(int number)
 {
-  return 1L << (3 * number);
-}
-
-static double settling_of(const pendres_pendulum *p)
-{
-  return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
+  return number > 0 ? CHARTS_TIMES * periods_of(number - 1) : 1;
 }
 
 int pendres_charts_worth(const pendres_context *ctx, const pendres_pendulum *p)
 {
   return ctx->options.method == PENDRES_BLOCK_FIXED && ctx->options.steps_per_period == 0 &&
-         p->damping > 0.0 && settling_of(p) >= charts_worth;
+         p->damping > 0.0 && pendres_model_settling(p) >= charts_worth;
 }
 
 /* ---- what a context keeps ---- */
@@ -104,16 +97,14 @@ static pendres_status no_memory(pendres_context *ctx)
   return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for charts");
 }
 
-static pendres_charts *charts_make(const pendres_context *ctx, const pendres_pendulum *p, size_t n,
-                                   const double *bottom)
+static pendres_charts *charts_make(const pendres_pendulum *p, size_t n, const double *bottom)
 {
   pendres_charts *c = calloc(1, sizeof *c);
   if (c == NULL) return NULL;
   c->pendulum = *p;
-  c->table = ctx->options.table;
   for (c->bottoms = 0; c->bottoms < n && c->bottoms < PENDRES_CHARTS_BOTTOMS; c->bottoms++)
     c->bottom[c->bottoms] = bottom[c->bottoms];
-  c->settling = settling_of(p);
+  c->settling = pendres_model_settling(p);
   while (c->levels < CHARTS_LEVELS &&
          (double)periods_of(c->levels) <= charts_longest * c->settling)
     c->levels++;
@@ -135,7 +126,7 @@ pendres_status pendres_charts_of(pendres_context *ctx, const pendres_pendulum *p
   if (ctx->charts == NULL) ctx->charts = calloc(1, sizeof *ctx->charts);
   pendres_charts_memo *memo = ctx->charts;
   if (memo == NULL) return no_memory(ctx);
-  size_t oldest = 0;
+  size_t oldest = 0, charted = 0;
   memo->clock++;
   for (size_t i = 0; i < memo->count; i++) {
     *out = memo->charts[i];
@@ -144,15 +135,16 @@ pendres_status pendres_charts_of(pendres_context *ctx, const pendres_pendulum *p
       return PENDRES_OK;
     }
     if (memo->charts[i]->used < memo->charts[oldest]->used) oldest = i;
+    for (int k = 0; k < CHARTS_LEVELS; k++) charted += memo->charts[i]->level[k].count;
   }
-  *out = charts_make(ctx, p, n, bottom);
+  *out = charts_make(p, n, bottom);
   if (*out == NULL) return no_memory(ctx);
   (*out)->used = memo->clock;
-  if (memo->count < KEPT) {
-    memo->charts[memo->count++] = *out;
-  } else {
+  if (oldest < memo->count && (memo->count == CHARTS_KEPT || charted > CHARTS_MOST)) {
     charts_free(memo->charts[oldest]);
     memo->charts[oldest] = *out;
+  } else {
+    memo->charts[memo->count++] = *out;
   }
   return PENDRES_OK;
 }
@@ -175,7 +167,8 @@ static double distance_of(const pendres_charts *c, const place *at)
   return distance;
 }
 
-/* What may be missed in a period. */
+/* What may be missed in a period: a share of the distance of the place in the square that is next
+   to the bottom, a little more than half a diagonal from its centre. */
 static double tolerance(const pendres_charts *c, const place *at)
 {
   return charts_missed / c->settling * fmax(distance_of(c, at) - 1.5 * at->half, at->half);
@@ -196,12 +189,19 @@ static pendres_status integrate(pendres_context *ctx, const pendres_charts *c, c
     pendres_steps_choose(ctx, &c->pendulum, speed, charts_integrated * tolerance(c, at), &steps);
   if (status == PENDRES_TOLERANCE_UNREACHABLE) return PENDRES_OK;
   for (int i = 0; i < PLACES; i++) lanes[i].steps = steps;
-  const pendres_cost before = ctx->cost;
-  const double slopes = pendres_context_slopes(ctx);
+  /* What is kept does not count, nor end a computation: what this costs does not depend on those
+     before it. */
+  const pendres_cost kept = ctx->cost;
+  const double most = ctx->most_slopes;
+  pendres_cost was, now;
+  pendres_context_cost(ctx, &was);
+  ctx->most_slopes = INFINITY;
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, PLACES, lanes, after_one, NULL);
-  /* What is kept does not count: what a computation costs does not depend on those before it. */
-  ctx->cost = before;
-  ctx->cost.rhs_evaluations += slopes - pendres_context_slopes(ctx);
+  pendres_context_cost(ctx, &now);
+  ctx->most_slopes = most;
+  ctx->cost = kept;
+  ctx->cost.rhs_evaluations -= now.rhs_evaluations - was.rhs_evaluations;
+  ctx->cost.steps -= now.steps - was.steps;
   *known = status == PENDRES_OK;
   return status;
 }
@@ -261,7 +261,7 @@ static pendres_status chart_square(pendres_context *ctx, pendres_charts *c, int 
 
 /* ---- squares ---- */
 
-/* The least side of a square: a pendulum that winds round comes back to it so often that it is
+/* The least half side of a square: a pendulum that winds round comes back to it so often that it is
    worth charting. */
 static double least_side(const pendres_charts *c, int number, const place *at)
 {
@@ -376,7 +376,7 @@ static pendres_status repeat(pendres_context *ctx, pendres_charts *c, int number
   *missed = 0.0;
   for (int i = 0; i < PLACES && status == PENDRES_OK; i++) {
     double together = 0.0;
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < CHARTS_TIMES; k++) {
       const charted *chart;
       place at;
       status = find(ctx, c, number, &lanes[i], &chart, &at);

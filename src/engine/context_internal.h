@@ -53,8 +53,8 @@ struct pendres_context {
 
 /*
  * Evaluations of the slope so far, counted for each lane, without those that went into choosing
- * steps. This measure of work does not depend on what the context did before, nor on the size of
- * its blocks. One evaluation with its overhead takes about 2.5e-9 seconds.
+ * steps or making charts. This measure of work does not depend on what the context did before, nor
+ * on the size of its blocks. One evaluation with its overhead takes about 2.5e-9 seconds.
  */
 double pendres_context_slopes(const pendres_context *ctx);
 

@@ -19,7 +19,7 @@ typedef struct pendres_strobe_lane {
   double y, w;                      /* angle, dy/dtheta at the latest strobe */
   long turns;                       /* whole turns taken out of y */
   long period;                      /* strobes so far */
-  long charted;                     /* those that charts led to (charts.h) */
+  long charted;                     /* those that charts led over: all but one of each (charts.h) */
   int steps;                        /* a period; unused by adaptive methods */
   pendres_flow_way way;             /* of block_fixed. In single precision errors are propagated,
                                        and `added` allows for it; by splitting they stay as they

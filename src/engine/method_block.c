@@ -14,6 +14,7 @@ typedef struct filling {
   size_t taken;                   /* and how many of the first rank do not any more */
   int fixed; /* steps */
   int carry; /* errors, in this class */
+  pendres_flow_way way; /* of this class */
 } filling;
 
 /* Put the next lane that waits into a slot. */
@@ -26,10 +27,10 @@ static void put(filling *f, size_t slot)
     f->taken = 0;
   }
   f->slot[slot] = index;
-  if (l->way == PENDRES_FLOW_SPLIT)
+  if (f->way == PENDRES_FLOW_SPLIT)
     pendres_block_split_state(l->pendulum, l->steps, 0, &l->y, &l->w);
   pendres_block_load(f->block, slot, l->pendulum, l->y, l->w);
-  if (f->carry && l->way != PENDRES_FLOW_SPLIT)
+  if (f->carry && f->way != PENDRES_FLOW_SPLIT)
     pendres_block_set_error(f->block, slot, &l->off, l->added);
 }
 
@@ -43,14 +44,14 @@ static int look(filling *f, size_t slot)
   l->period++;
   pendres_coordinates_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   pendres_block_put_state(f->block, slot, l->y, l->w);
-  if (f->carry && l->way != PENDRES_FLOW_SPLIT) {
+  if (f->carry && f->way != PENDRES_FLOW_SPLIT) {
     l->off = pendres_block_get_error(f->block, slot);
     const double off = l->off.yy + l->off.ww;
     /* An error that is NaN counts as infinite. */
     if (!(off <= l->worst)) l->worst = off;
   }
   const int done = f->job->visit(f->job->arg, f->slot[slot], l);
-  if (done && l->way == PENDRES_FLOW_SPLIT)
+  if (done && f->way == PENDRES_FLOW_SPLIT)
     pendres_block_split_state(l->pendulum, l->steps, 1, &l->y, &l->w);
   return done;
 }
@@ -64,6 +65,7 @@ static pendres_status run_class(filling *f, const pendres_rank *first, const pen
   f->next = first;
   f->end = end;
   f->taken = 0;
+  f->way = first->way;
   f->filled = n < capacity ? n : capacity;
   f->carry = f->fixed && f->job->lanes[pendres_strobe_which(f->job, first->index)].added > 0.0;
   pendres_block_clear(f->block);
@@ -76,7 +78,7 @@ static pendres_status run_class(filling *f, const pendres_rank *first, const pen
   pendres_block_resize(f->block, f->filled);
   for (size_t slot = 0; slot < f->filled; slot++) put(f, slot);
   while (f->filled > 0) {
-    status = pendres_block_period_by(f->block, first->way);
+    status = pendres_block_period_by(f->block, f->way);
     if (status != PENDRES_OK) return status;
     for (size_t slot = 0; slot < f->filled;) {
       if (!look(f, slot)) {

@@ -81,7 +81,12 @@ static const double probe_regular = 1e-2, probe_less = 0.95, probe_more = 1.5, p
 
 enum {
   CHARTS_FAR = 8,   /* units of length from rest to the last square */
-  CHARTS_LEVELS = 5 /* 1, 8, 64, 512 and 4096 periods */
+  CHARTS_TIMES = 8, /* the periods of a chart are so many times those of the level before */
+  CHARTS_LEVELS = 5, /* 1, 8, 64, 512 and 4096 periods */
+  /* A context keeps the charts of so many pendulums, as the lines of a diagram that are computed
+     side by side, if they are no more than so many together: a chart takes a kilobyte. */
+  CHARTS_KEPT = 96,
+  CHARTS_MOST = 65536
 };
 
 /* Settling takes at least so many periods where charts are made; the longest ones are over this
@@ -97,8 +102,9 @@ static const double charts_missed = 3e-6, charts_integrated = 0.1, charts_betwee
    since more may be missed farther from the bottom. */
 static const double charts_falls = 512.0;
 
-/* Squares have sides of at least this share of the distance from the bottom, times the root of the
-   time of settling, ... */
+/* Squares have half sides of at least the distance from the bottom times the root of this over the
+   time of settling, twice that for each further level, and of at least the second number: smaller
+   ones are not come back to often enough. */
 static const double charts_rounds = 100.0, charts_smallest = 1e-3;
 
 /* A chart takes as long as so many slopes. */

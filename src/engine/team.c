@@ -32,7 +32,8 @@ static int stops(void *arg)
   return stopped;
 }
 
-/* Take the next items; 0 if there are none left, or some have failed. */
+/* Take the next items, in ascending order, so that the first failure is always the same; 0 if there
+   are none left, or some have failed. */
 static int begin(team *t, size_t *first)
 {
   (void)pthread_mutex_lock(&t->lock);
@@ -96,7 +97,10 @@ static void *labour(void *arg)
     const size_t left = t->n - first;
     const pendres_status status =
       t->work(h->mate, first, left < t->each ? left : t->each, t->arg);
-    if (status != PENDRES_OK) fail(t, first, status, pendres_context_message(h->mate));
+    /* A mate may still have the message of an earlier failure that ended nothing. */
+    const int said = h->mate->guard.said == status;
+    if (status != PENDRES_OK)
+      fail(t, first, status, said ? pendres_context_message(h->mate) : NULL);
   }
   return NULL;
 }

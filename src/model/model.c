@@ -188,6 +188,11 @@ double pendres_model_origin(const pendres_pendulum *p)
   return models[p->force]->origin;
 }
 
+double pendres_model_settling(const pendres_pendulum *p)
+{
+  return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
+}
+
 /* ---- the scale of a force ---- */
 
 /* For a polynomial as if all its terms had the same sign; for other forces the larger of both

@@ -49,6 +49,9 @@ double pendres_model_centre(const pendres_pendulum *p, double near);
 /* The origin of y. */
 double pendres_model_origin(const pendres_pendulum *p);
 
+/* The time, in drive periods, in which a small oscillation decays to 1/e. */
+double pendres_model_settling(const pendres_pendulum *p);
+
 /* Upper bounds by which steps are chosen: of the energy needed to come from y = 0 to `reach` on
    either side, and of the spring's stiffness on the way. */
 double pendres_model_climb(const pendres_pendulum *p, double reach);

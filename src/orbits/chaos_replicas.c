@@ -2,7 +2,6 @@
 #include "orbits/chaos_replicas.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/angles.h"

@@ -18,7 +18,7 @@ void pendres_tangents_put(pendres_block *block, size_t lane, double u[2][2])
   for (int i = 0; i < 2; i++) pendres_block_put_tangent(block, lane, i, u[i]);
 }
 
-void pendres_tangents_shorten(double u[2][2], double log_length[2])
+static void shorten(double u[2][2], double log_length[2])
 {
   for (int i = 0; i < 2; i++) {
     const double length = fmax(hypot(u[i][0], u[i][1]), DBL_MIN);
@@ -38,7 +38,7 @@ void pendres_tangents_take(pendres_block *block, size_t lane, int last, double u
     log_length[i] = 0.0;
   }
   if (!last && fmax(size[0], size[1]) < longest && fmin(size[0], size[1]) > 1.0 / longest) return;
-  pendres_tangents_shorten(u, log_length);
+  shorten(u, log_length);
   pendres_tangents_put(block, lane, u);
 }
 

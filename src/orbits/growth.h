@@ -20,9 +20,6 @@
 
 void pendres_tangents_put(pendres_block *block, size_t lane, double u[2][2]);
 
-/* Put vectors back to length one; log[] receives the logarithms of what their lengths were. */
-void pendres_tangents_shorten(double u[2][2], double log_length[2]);
-
 /* Vectors of a lane after a period. They are put back to length one if this is `last`, and where
    they must be: then log[] has the logarithms of their lengths, else 0. */
 void pendres_tangents_take(pendres_block *block, size_t lane, int last, double u[2][2],

@@ -206,6 +206,7 @@ static const double level_beyond = 1.2;
 enum {
   SETTLE_CHAOTIC_STREAK = 32, /* strobes in a row in a chaotic attractor's cells: then chaotic */
   SETTLE_ASIDE = 32,          /* periods that a lane is integrated for where there is no chart */
+  SETTLE_GLIDES = 4096,       /* charts, a millisecond, after which it is asked whether to go on */
   /* Periods in which replicas part, and that lanes of slow drives get in any case. */
   WARM_UP = 200
 };

@@ -117,7 +117,7 @@ static void set_budgets(const pendres_context *ctx, size_t sets,
 {
   for (size_t s = 0; s < sets; s++) {
     const pendres_pendulum *p = &attractor_sets[s].pendulum;
-    const double some = settle_soon_least + settle_soon_times * pendres_settle_time(p);
+    const double some = settle_soon_least + settle_soon_times * pendres_model_settling(p);
     const long most = pendres_settle_last_budget(ctx, &attractor_sets[s]);
     long first = pendres_settle_first_budget(p);
     if (soon) first = is_plain(p) ? (long)fmin(some, settle_soon_most) : 0;

@@ -18,14 +18,10 @@
 #include "orbits/numbers.h"
 #include "orbits/strobe_noise.h"
 
-double pendres_settle_time(const pendres_pendulum *p)
-{
-  return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
-}
-
 long pendres_settle_first_budget(const pendres_pendulum *p)
 {
-  return (long)ceil(fmin(settle_least + settle_times * pendres_settle_time(p), settle_first_most));
+  const double some = settle_least + settle_times * pendres_model_settling(p);
+  return (long)ceil(fmin(some, settle_first_most));
 }
 
 /*
@@ -41,7 +37,7 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attrac
     const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
     if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
   }
-  const double most = settle_last_some + settle_last_times * pendres_settle_time(&c->pendulum) +
+  const double most = settle_last_some + settle_last_times * pendres_model_settling(&c->pendulum) +
                       settle_least * fmin(slowest, settle_slowest) +
                       settle_times * fmin(c->transient, settle_slowest);
   return (long)ceil(fmin(most, settle_last_most));
@@ -84,10 +80,11 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor
 pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
                                              double v)
 {
-  const pendres_coordinates at = pendres_coordinates_in(neighbour->pendulum, x, v);
-  return (pendres_strobe_lane){.pendulum = neighbour->pendulum, .y = at.y, .w = at.w,
-                               .turns = at.turns, .steps = neighbour->steps,
-                               .added = neighbour->added, .way = neighbour->way};
+  pendres_strobe_lane lane = pendres_strobe_lane_at(neighbour->pendulum, x, v);
+  lane.steps = neighbour->steps;
+  lane.added = neighbour->added;
+  lane.way = neighbour->way;
+  return lane;
 }
 
 static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
@@ -271,11 +268,12 @@ static pendres_status glide(pendres_context *ctx, pendres_charts *charts,
   const pendres_attractor_set *c = &l->attractor_sets[set_of(l, i)];
   int most = pendres_charts_levels(charts) - 1, highest = most, level = 0;
   *done = 0;
-  while (!*done) {
+  for (long taken = 1; !*done; taken++) {
     const pendres_strobe_lane from = *lane;
     const long may = leap(l, i, lane);
     while (highest > 0 && (highest > most || pendres_charts_periods(highest) > may)) highest--;
-    const pendres_status status = pendres_charts_advance(ctx, charts, highest, lane, &level);
+    pendres_status status = pendres_charts_advance(ctx, charts, highest, lane, &level);
+    if (status == PENDRES_OK && taken % SETTLE_GLIDES == 0) status = pendres_context_poll(ctx);
     if (status != PENDRES_OK || level < 0) return status;
     lane->charted += pendres_charts_periods(level) - 1;
     if (level == 0) {
@@ -284,6 +282,8 @@ static pendres_status glide(pendres_context *ctx, pendres_charts *charts,
       *lane = from;
       most = level - 1;
     } else {
+      /* Histories are of successive strobes: they begin anew. */
+      if (l->histories != NULL) l->histories[i].filled = 0;
       *done = look_outside(l, i, lane);
     }
     highest = level + 1;

@@ -68,9 +68,6 @@ static inline int pendres_settle_ended(const pendres_outcome *o)
   return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
 }
 
-/* The time, in drive periods, in which a small oscillation decays to 1/e. */
-double pendres_settle_time(const pendres_pendulum *p);
-
 /* Periods after which attractors are searched for near a pendulum that is in no ellipse. */
 long pendres_settle_first_budget(const pendres_pendulum *p);
 

@@ -130,8 +130,10 @@ static void take(const pendres_fit *fit, item *t)
 static double farthest(const item *t)
 {
   double most = 0.0;
-  for (size_t i = 0; i < t->values; i++)
-    most = fmax(most, fabs((t->got[i] - t->truth[i]) / t->error[i]));
+  for (size_t i = 0; i < t->values; i++) {
+    const double off = fabs((t->got[i] - t->truth[i]) / t->error[i]);
+    if (!(off <= most)) most = off; /* NaN, too */
+  }
   return most;
 }
 
@@ -168,7 +170,7 @@ static void compute(accuracy_random *r, void *of, long number)
   pendres_fit_free(fit);
   fit = NULL;
   t->from_truth = t->chi_square;
-  if (t->status == PENDRES_OK && farthest(t) > suspicious) {
+  if (t->status == PENDRES_OK && !(farthest(t) <= suspicious)) {
     for (size_t i = 0; i < OPEN; i++) open[i].guess = truth[i];
     (void)pendres_fit_find(ctx, &all, &model, NULL, &fit);
     t->from_truth = pendres_fit_summary_get(fit).chi_square;

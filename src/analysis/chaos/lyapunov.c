@@ -283,7 +283,8 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
     .accuracy = pendres_accuracy_to_average(ctx), .transient = o->transient,
     .periods = o->periods > 0 ? o->periods : EXPONENT_PERIODS, .asked = o->periods > 0,
     .rounds = EXPONENT_ROUNDS,
-    .coarse = o->periods == 0, .longer = o->periods > 0 ? 0 : 3 * EXPONENT_PERIODS,
+    .coarse = o->periods == 0 && ctx->options.steps_per_period == 0,
+    .longer = o->periods > 0 ? 0 : 3 * EXPONENT_PERIODS,
     .care = PENDRES_CARE_FULL, .points = 1,
     .runner = pendres_room_take(&room, n, sizeof *j.runner),
     .orbit = pendres_room_take(&room, n, sizeof *j.orbit)};

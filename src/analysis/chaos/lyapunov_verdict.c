@@ -314,14 +314,14 @@ static pendres_status split(pendres_context *ctx, pendres_runner *r, double accu
                                     &r->lane.steps);
 }
 
-/* Run all that move until their time is over; those whose errors are large already by a splitting,
-   in which they may be larger. */
+/* Run all that move until their time is over; those whose errors are large already, and copies, by
+   a splitting. Steps that the caller has chosen are kept. */
 static pendres_status run_on(pendres_context *ctx, const job *j)
 {
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
-    if (r->state != PENDRES_RUNNER_MOVING) continue;
+    if (r->state != PENDRES_RUNNER_MOVING || ctx->options.steps_per_period > 0) continue;
     if (r->doubt > 1.0 || j->copies > 0)
       status = split(ctx, r, pendres_accuracy_to_follow(ctx));
     else
@@ -360,7 +360,8 @@ static pendres_status choose_steps(pendres_context *ctx, const job *j, const rou
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING) continue;
     if (splits(j, r, now)) status = split(ctx, r, accuracy);
-    if (now->number > 0) r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
+    if (now->number > 0 && ctx->options.steps_per_period == 0)
+      r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   }
   return status;
 }

@@ -191,7 +191,6 @@ static inline double pendres_fit_sample(const fit_samples *s, size_t lane, size_
 pendres_status pendres_fit_sample_period(const fit_model *m, int steps, size_t n,
                                          fit_lane *const *lanes, fit_samples *s);
 
-
 /* Find and measure n orbits with these steps a period; those that fail are not found. */
 pendres_status pendres_fit_orbits(const fit_model *m, int steps, size_t n, fit_lane *lanes);
 

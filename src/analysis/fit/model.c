@@ -112,7 +112,7 @@ double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lan
 }
 
 double pendres_fit_place_at(const fit_model *m, const fit_values v, const fit_lane *l,
-                           fit_values slope)
+                            fit_values slope)
 {
   const double value = pendres_fit_out(m, m->axis, v, l->u[pendres_fit_place(m)]);
   const double out = pendres_fit_out(m, m->axis, v, 1.0); /* the data's unit */

@@ -84,8 +84,9 @@ static const double fit_kinked = 1.0;
    most a third of their errors. */
 static const double fit_stepped = 0.1;
 
-/* Of two sets of values whose chi-squares differ by less than three standard deviations make,
-   neither is excluded; sets are two that are more than so many standard errors apart. */
+/* Of two sets of values whose chi-squares differ by less than this, three standard deviations of
+   one value, neither is excluded; they are two if they are more than so many standard errors
+   apart. */
 static const double fit_twin = 9.0, fit_apart = 6.0;
 
 /* A value this close to a bound, as a share of the range, is at it: fits begin further inside. */

@@ -218,12 +218,14 @@ static pendres_status tell_apart(pendres_context *ctx, size_t n, const size_t *w
   return status;
 }
 
-/* Measure the orbit that a pendulum has come to, of which the point is known. */
+/* Measure the orbit that a pendulum has come to if only its point is known: averages told it. Those
+   that were settled on are measured and named. */
 static pendres_status measure(pendres_context *ctx, pendres_settled *s)
 {
   pendres_orbit *o = &s->attractor.orbit, found;
   pendres_status outcome = PENDRES_OK;
-  if (!pendres_settled_closed(&s->attractor)) return PENDRES_OK;
+  if (!pendres_settled_closed(&s->attractor) || !pendres_lyapunov_may_rotate(&o->pendulum))
+    return PENDRES_OK;
   const pendres_orbit_guess guess = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                      .period = o->period, .winding = o->winding};
   const pendres_status status =

@@ -110,8 +110,9 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
     if (fabs(w->value[k] - w->at) > sweep_side_by_side * scale && k > i) break;
     pendres_unlocked *u = at(w, w->value[k]);
     onward = onward && (k == i || is_next(w, i, k));
-    u->again = k > i && u->tried && !u->found && onward;
-    if (u->tried && k > i && !u->again) continue;
+    const int again = k > i && u->tried && !u->found && onward;
+    if (u->tried && k > i && !again) continue;
+    u->again = again;
     const pendres_pendulum p = pendres_path_pendulum(w, u->value);
     u->tried = 1;
     known[n] = u;

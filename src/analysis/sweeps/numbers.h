@@ -65,7 +65,6 @@ enum {
    periods. */
 static const double jump_further = 10.0;
 
-
 /* Trials start this far from an orbit that has become unstable, where deviations grow fast. */
 static const double jump_away = 0.03;
 

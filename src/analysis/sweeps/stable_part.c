@@ -138,6 +138,8 @@ pendres_status pendres_part_born(pendres_context *ctx, const pendres_bifurcation
   pendres_status status = born(ctx, at, limit, out, &lost);
   if (status != PENDRES_NOT_FOUND || !lost) return status;
   status = pendres_bifurcation_widest(ctx, at, &wide);
+  if (status == PENDRES_OK && wide.orbit.x == at->orbit.x && wide.orbit.v == at->orbit.v)
+    return PENDRES_NOT_FOUND;
   return status == PENDRES_OK ? born(ctx, &wide, limit, out, &lost) : status;
 }
 
