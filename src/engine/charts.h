@@ -7,8 +7,8 @@
  *
  * A weakly damped pendulum winds round its attractor for thousands of periods before it settles,
  * and comes back next to where it has been many times. A square is charted when a pendulum first
- * comes to it: over one period by the integrator, over eight times as many by eight charts in a row.
- * Where polynomials of degree seven miss too much, a square is divided into four. Nothing of a
+ * comes to it: over one period by the integrator, over eight times as many by eight charts in a
+ * row. Where polynomials of degree seven miss too much, a square is divided into four. Nothing of a
  * chart depends on who asked for it. What a chart misses is measured between its nodes. It is the
  * same each time, so that the errors of a time of settling may add up: the variance that a chart
  * adds allows for that.
