@@ -91,8 +91,8 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-fuzz deps-mpi deps-plots deps-python clean uninstall doc style \
-              gallery sdist wheel help,$(GOALS))
+BUILDING := $(filter-out deps deps-fuzz deps-mpi fuzz deps-plots deps-python clean uninstall doc \
+              style gallery sdist wheel help,$(GOALS))
 
 ifneq ($(BUILDING),)
 # For tests that compute much by themselves. Clang has the library for it in a package of its own;

@@ -23,10 +23,11 @@ static inline void polynomials(double a, double value[TERMS], double slope[TERMS
   }
 }
 
-/* In pairs. */
-static inline double total(row a)
+/* The sum of all products, in pairs. */
+static inline double total(const row *a, const row *b)
 {
-  return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+  const row c = *a * *b;
+  return ((c[0] + c[1]) + (c[2] + c[3])) + ((c[4] + c[5]) + (c[6] + c[7]));
 }
 
 static void at(const pendres_chart *c, double a, double b, double image[2], double by[2][2])
@@ -47,9 +48,9 @@ static void at(const pendres_chart *c, double a, double b, double image[2], doub
       sum += of_b[j] * term;
       by_b += slope_b[j] * term;
     }
-    image[k] = total(sum * of_a);
-    by[k][0] = total(sum * slope_a);
-    by[k][1] = total(by_b * of_a);
+    image[k] = total(&sum, &of_a);
+    by[k][0] = total(&sum, &slope_a);
+    by[k][1] = total(&by_b, &of_a);
   }
 }
 
