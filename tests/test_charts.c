@@ -6,6 +6,8 @@
 
 #include <pendres/pendres.h>
 
+#include "base/instructions.h"
+#include "engine/chart.h"
 #include "engine/charts.h"
 #include "engine/steps.h"
 #include "model/model.h"
@@ -119,6 +121,36 @@ static void test_charts_do_not_depend_on_who_asks(void **state)
   pendres_context_free(fresh);
 }
 
+/* Each instruction set gives the same image and slopes of a place. */
+static void test_same_bytes_on_every_instruction_set(void **state)
+{
+  const pendres_kernels_chart *list[3] = {&pendres_kernels_chart_base};
+  const pendres_instructions here = pendres_instructions_here();
+  size_t count = 1;
+  (void)state;
+  (void)here;
+#if defined(__x86_64__)
+  if (here >= PENDRES_INSTRUCTIONS_AVX2) list[count++] = &pendres_kernels_chart_avx2;
+  if (here >= PENDRES_INSTRUCTIONS_AVX512) list[count++] = &pendres_kernels_chart_avx512;
+#endif
+  seed = 3;
+  for (int i = 0; i < 100; i++) {
+    pendres_chart map;
+    for (int j = 0; j < PENDRES_CHART_TERMS; j++)
+      for (int c = 0; c < 2; c++)
+        for (int k = 0; k < PENDRES_CHART_TERMS; k++) map.term[j][c][k] = between(-1.0, 1.0);
+    const double a = between(-1.0, 1.0), b = between(-1.0, 1.0);
+    double first[2], slope[2][2];
+    list[0]->at(&map, a, b, first, slope);
+    for (size_t n = 1; n < count; n++) {
+      double image[2], by[2][2];
+      list[n]->at(&map, a, b, image, by);
+      assert_memory_equal(image, first, sizeof first);
+      assert_memory_equal(by, slope, sizeof slope);
+    }
+  }
+}
+
 /* Labels that are certain are those of pendulums which are integrated throughout: charts are not
    made where the caller sets the steps. 64 of tp8 err by less than 1e-9 a period at such speeds. */
 static void test_labels_are_those_of_the_integrator(void **state)
@@ -156,6 +188,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(test_errors_are_carried, setup, teardown),
     cmocka_unit_test_setup_teardown(test_charts_do_not_depend_on_who_asks, setup, teardown),
+    cmocka_unit_test(test_same_bytes_on_every_instruction_set),
     cmocka_unit_test_setup_teardown(test_labels_are_those_of_the_integrator, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
