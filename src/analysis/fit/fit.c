@@ -300,8 +300,8 @@ static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, dou
 
 /* ---- the call ---- */
 
-/* What an unknown begins with: its guess, or where jumps are data, which tell none, its prior or
-   the middle of its bounds. */
+/* What an unknown begins with: its guess, or where places of jumps or resonances are data, which
+   tell none, its prior or the middle of its bounds. */
 static double own_guess(const fit_model *m, const pendres_fit_unknown *u)
 {
   if (!isnan(u->guess) || m->marks == 0) return u->guess;
@@ -334,7 +334,7 @@ static int find_starts(pendres_fit_call *c, fit_model *m, fit_values start[FIT_T
           c->model->unknown[i].quantity != PENDRES_FIT_OFFSET)
         open[c->model->unknown[i].quantity] = NAN;
   }
-  /* Where jumps are data and the guess has none, one of less damping, or of more, may. */
+  /* Where places are data and the guess has none, one of less damping, or of more, may. */
   for (int k = 0; k < FIT_GUESS_AROUND && whole && damped && m->marks > 0; k++) {
     memcpy(start[count], own, sizeof(fit_values));
     start[count++][PENDRES_DAMPING] *= fit_guess_around[k];
