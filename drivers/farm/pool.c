@@ -27,8 +27,8 @@ long long pool_milliseconds(void)
   return (long long)(1e3 * clock_wall());
 }
 
-/* A long task moves as the drive periods do that it has taken; those of its helpers count when they
-   are done. */
+/* A long task moves as the drive periods do that it has taken; those on other threads count when
+   they are done. */
 static void tick(progress *p, size_t finished, at_work *w, double seconds)
 {
   char name[POINT_NAME + 40];
