@@ -205,7 +205,7 @@ double pendres_curve_between(const pendres_curve *curve, const pendres_curve_zer
                              pendres_u u);
 
 /* The point of the curve itself where a function changes its sign between two nodes, by the rule of
-   false position (Illinois); u stays what it is where it does not. */
+   false position, the value at the end that stays halved; u stays what it is where it does not. */
 pendres_status pendres_curve_close_in(pendres_context *ctx, const pendres_curve *curve,
                                       pendres_curve_function *function,
                                       const pendres_curve_zero *zero, pendres_u u);

@@ -189,19 +189,9 @@ static pendres_status integrate(pendres_context *ctx, const pendres_charts *c, c
     pendres_steps_choose(ctx, &c->pendulum, speed, charts_integrated * tolerance(c, at), &steps);
   if (status == PENDRES_TOLERANCE_UNREACHABLE) return PENDRES_OK;
   for (int i = 0; i < PLACES; i++) lanes[i].steps = steps;
-  /* What is kept does not count, nor end a computation: what this costs does not depend on those
-     before it. */
-  const pendres_cost kept = ctx->cost;
-  const double most = ctx->most_slopes;
-  pendres_cost was, now;
-  pendres_context_cost(ctx, &was);
-  ctx->most_slopes = INFINITY;
+  const pendres_uncounted work = pendres_uncounted_begin(ctx);
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, PLACES, lanes, after_one, NULL);
-  pendres_context_cost(ctx, &now);
-  ctx->most_slopes = most;
-  ctx->cost = kept;
-  ctx->cost.rhs_evaluations -= now.rhs_evaluations - was.rhs_evaluations;
-  ctx->cost.steps -= now.steps - was.steps;
+  pendres_uncounted_end(ctx, &work);
   *known = status == PENDRES_OK;
   return status;
 }

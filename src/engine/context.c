@@ -119,6 +119,26 @@ double pendres_context_slopes(const pendres_context *ctx)
   return slopes;
 }
 
+pendres_uncounted pendres_uncounted_begin(pendres_context *ctx)
+{
+  pendres_uncounted work = {.most_slopes = ctx->most_slopes};
+  pendres_context_cost(ctx, &work.before);
+  ctx->most_slopes = INFINITY;
+  return work;
+}
+
+void pendres_uncounted_end(pendres_context *ctx, const pendres_uncounted *work)
+{
+  pendres_cost now;
+  pendres_context_cost(ctx, &now);
+  ctx->most_slopes = work->most_slopes;
+  ctx->cost.pendulum_periods -= now.pendulum_periods - work->before.pendulum_periods;
+  ctx->cost.rhs_evaluations -= now.rhs_evaluations - work->before.rhs_evaluations;
+  ctx->cost.steps -= now.steps - work->before.steps;
+  ctx->cost.newton_steps -= now.newton_steps - work->before.newton_steps;
+  ctx->cost.settled_pendulums -= now.settled_pendulums - work->before.settled_pendulums;
+}
+
 void pendres_context_cost_reset(pendres_context *ctx)
 {
   pendres_cost now;

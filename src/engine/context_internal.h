@@ -58,6 +58,19 @@ struct pendres_context {
  */
 double pendres_context_slopes(const pendres_context *ctx);
 
+/*
+ * Work between begin and end does not count, nor is it bounded by most_slopes: that of finding out
+ * what a context keeps, as steps and charts, so that the cost of a computation does not depend on
+ * those before it.
+ */
+typedef struct pendres_uncounted {
+  pendres_cost before;
+  double most_slopes;
+} pendres_uncounted;
+
+pendres_uncounted pendres_uncounted_begin(pendres_context *ctx);
+void pendres_uncounted_end(pendres_context *ctx, const pendres_uncounted *work);
+
 /* Record why something failed, and return the status. */
 pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
                                     const char *format, ...)

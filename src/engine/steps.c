@@ -223,8 +223,7 @@ static void look(void *arg, int step, const pendres_rows *rows)
 }
 
 /* All probes over one period, with the points on the way. A cell is probed once, by the first of
-   the context's computations that needs it: what they cost is not counted, so that the cost of a
-   computation does not depend on those before it. */
+   the context's computations that needs it. */
 static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *s)
 {
   pendres_block *b;
@@ -232,20 +231,14 @@ static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *
     ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, s->steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(b);
-  const double slopes = pendres_block_evaluations(b), steps = pendres_block_steps(b);
-  const double most = ctx->most_slopes;
-  const pendres_cost before = ctx->cost;
-  ctx->most_slopes = INFINITY;
+  const pendres_uncounted work = pendres_uncounted_begin(ctx);
   for (s->first = 0; s->first < PROBES && status == PENDRES_OK; s->first += capacity) {
     s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
     pendres_block_resize(b, s->lanes);
     for (size_t i = 0; i < s->lanes; i++) load_probe(b, i, (int)(s->first + i), of);
     status = pendres_block_period_sampled(b, look, s);
   }
-  ctx->most_slopes = most;
-  ctx->cost = before;
-  ctx->cost.rhs_evaluations -= pendres_block_evaluations(b) - slopes;
-  ctx->cost.steps -= pendres_block_steps(b) - steps;
+  pendres_uncounted_end(ctx, &work);
   return status;
 }
 

@@ -16,7 +16,6 @@
 #include "engine/steps.h"
 #include "engine/team.h"
 #include "model/model.h"
-#include "orbits/numbers.h"
 
 pendres_replica pendres_replica_at(double y, double w)
 {

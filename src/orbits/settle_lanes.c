@@ -9,7 +9,6 @@
 #include "base/angles.h"
 #include "engine/charts.h"
 #include "engine/context_internal.h"
-#include "engine/coordinates.h"
 #include "engine/room.h"
 #include "engine/steps.h"
 #include "engine/team.h"
@@ -314,10 +313,11 @@ static pendres_status run_some(pendres_context *ctx, size_t first, size_t count,
 
 /* Integrate n lanes with the numbers `which` until visit ends them. */
 static pendres_status integrate(pendres_context *ctx, size_t n, const size_t *which,
-                                pendres_strobe_lane *lanes,
-                                pendres_strobe_visit *visit, void *arg)
+                                pendres_strobe_lane *lanes, pendres_strobe_visit *visit, void *arg)
 {
-  const size_t share = pendres_team_share(ctx, n), parts = share > 0 ? (n + share - 1) / share : 1;
+  const size_t share = pendres_team_share(ctx, n);
+  if (n <= share) return pendres_strobe_run_some(ctx, n, which, lanes, visit, arg);
+  const size_t parts = (n + share - 1) / share;
   pendres_room room = pendres_room_open(ctx, "pendulums");
   size_t *dealt = pendres_room_take(&room, n, sizeof *dealt);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);

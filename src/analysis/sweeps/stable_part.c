@@ -122,8 +122,9 @@ static pendres_status born(pendres_context *ctx, const pendres_bifurcation *at, 
   pendres_status status = pendres_branch_switch(ctx, at, &start);
   if (status == PENDRES_OK) {
     const double there = pendres_parameter_get(at->parameter, &start.pendulum);
-    *lost = limit >= at->value ? there > at->value : there < at->value;
-    status = *lost ? follow(ctx, &start, at->parameter, limit, out) : PENDRES_NOT_FOUND;
+    const int towards = limit >= at->value ? there > at->value : there < at->value;
+    status = towards ? follow(ctx, &start, at->parameter, limit, out) : PENDRES_NOT_FOUND;
+    *lost = towards;
   }
   if (status == PENDRES_OK && pendres_part_last(out) == NULL) status = PENDRES_NOT_FOUND;
   if (status != PENDRES_OK) pendres_part_free(out);
