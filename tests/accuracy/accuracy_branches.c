@@ -22,7 +22,11 @@
 
 static const double two_pi = 6.28318530717958647693;
 
-enum { POINTS = 6, BIFURCATIONS = 6, HOW = 700 };
+enum {
+  POINTS = 6, BIFURCATIONS = 6, HOW = 700,
+  MOST_POINTS = 60,      /* of a branch, each way */
+  MOST_POINTS_WEAK = 600 /* over a narrow resonance, along which orbits count by their ratio */
+};
 
 /* A point, or a bifurcation, and what is true of it. */
 typedef struct place {
@@ -340,7 +344,8 @@ static void compute_one(accuracy_random *r, int (*draw)(accuracy_random *r, item
   pendres_orbit start;
   pendres_branch *b = NULL;
   const pendres_branch_options options = {
-    .parameter = t->parameter, .low = t->low, .high = t->high, .most_points = 60};
+    .parameter = t->parameter, .low = t->low, .high = t->high,
+    .most_points = draw == draw_weak ? MOST_POINTS_WEAK : MOST_POINTS};
   if (ctx != NULL &&
       pendres_orbit_find(ctx, 1, &t->guess, PENDRES_ORBIT_PLAIN, &start, &outcome) ==
         PENDRES_OK &&
