@@ -14,14 +14,18 @@ import re
 import sys
 import textwrap
 
-import h5py
+try:
+    import h5py
 
-import curves
-import fits
-import maps
-import outer
-import validation
-from style import Run, plt
+    import curves
+    import fits
+    import maps
+    import outer
+    import validation
+    from style import Run, plt
+except ModuleNotFoundError as missing:
+    sys.exit(f"plot.py: {sys.executable} has no {missing.name}. On Debian `make deps-plots` installs "
+             "what pictures need for /usr/bin/python3; elsewhere `pip install h5py matplotlib`.")
 
 DRAWERS = {  # by the root attribute `scene`
     "free_oscillation": curves.draw_free_oscillation,

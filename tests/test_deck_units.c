@@ -43,7 +43,7 @@ static double factor_of(const deck *d, const char *name, const char *units)
   return si.factor;
 }
 
-/* The resonator of 1.2 MHz, 1e-12 kg, 1e14 N/m^3 and Q = 5000, told in three ways. */
+/* The resonator of 1.2 MHz, 1e-12 kg, 1e14 N/m^3 and Q = 5000, told in four ways. */
 static void resonator(void **state)
 {
   static const char *const told[] = {
@@ -56,6 +56,10 @@ static void resonator(void **state)
     OF_LENGTH SWEEP "&units natural_frequency=1.2d6 /\n&pendulum force='polynomial'\n"
     " force_coefficients='56.848921350274725 N/m', 0, '1e14 kg/m^2/s2' damping='240Hz'\n"
     " drive_amplitude='.6948nN' /\n",
+    /* what stands in print: N/m with a superscript; the damping as a force at a velocity */
+    OF_LENGTH SWEEP "&units natural_frequency=1.2d6 mass='1e-12 kg' /\n"
+    "&pendulum force='polynomial' force_coefficients=1, 0, '1e14 N/m\302\263' damping='1.5079644737231006 nN s/m'\n"
+    " drive_amplitude='694.8pN' /\n",
   };
   const double rate = 2 * PI * 1.2e6, k = 1e-12 * rate * rate, length = sqrt(k / 1e14);
   (void)state;
@@ -319,7 +323,7 @@ static void conversions(void **state)
     { "cm.s-1", "m/s", 1, 0.01, 0 },      { "Hz", "rad/s", 1, 2 * PI, 1e-15 },
     { "deg", "rad", 180, PI, 1e-15 },     { "eV", "J", 1, 1.602176634e-19, 3e-35 },
     { "k\342\204\246", "ohm", 1, 1e3, 0 }, { "\316\274V", "V", 1, 1e-6, 0 },
-    { "kOhm", "ohm", 1, 1e3, 0 },
+    { "kOhm", "ohm", 1, 1e3, 0 },         { "N\302\267m\342\201\273\302\263", "N m-3", 3, 3, 0 },
     { "V/A", "ohm", 1, 1, 0 },            { "Hz", "1/s", 1, 2 * PI, 1e-15 },
   };
   static const char *const none[] = { "Kg", "m^0", "N/", "2 m", "m s -1", "xHz", "mm^", "m^-" };

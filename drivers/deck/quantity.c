@@ -166,6 +166,14 @@ static deck_si si_of_quantity(const deck *d, quantity q, int told)
   }
 }
 
+/* A damping by the force that it makes at a velocity: kg/s, N m s, and of a junction 1/ohm. */
+static deck_si si_of_drag(const deck *d)
+{
+  const scales s = scales_of(d, !isnan(d->units.critical_current));
+  const char *per = strcmp(s.v, "V") == 0 ? "V-1" : strcmp(s.x, "rad") == 0 ? "s rad-1" : "s m-1";
+  return si(s.force / s.velocity, s.f, per);
+}
+
 /* What a deck sweeps, also while it is read and its axes have no values yet. */
 static deck_axis_id swept_of(const deck *d)
 {
@@ -226,7 +234,7 @@ deck_si deck_si_prefixed(const deck_si *si, double value)
 
 /* ---- numbers with units in decks ----------------------------------------------------------- */
 
-enum { TEXT = 64 };
+enum { TEXT = SI_TEXT };
 
 /* Bytes of a number at the start of a text. */
 static size_t number_length(const char *t)
@@ -385,7 +393,8 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
   if (b->no_scales) return 0;
   if (strcmp(p.unit, "Q") == 0 && q == RATE) return read_quality(b, v, name, *out, out);
   if (!parse_unit(b, v, name, p.unit, &from)) return 0;
-  const deck_si seen = si_of_name(b->d, key->name, q, 1), plain = si_of_name(b->d, key->name, q, 0);
+  const deck_si seen = si_of_name(b->d, key->name, q, 1);
+  const deck_si plain = q == RATE ? si_of_drag(b->d) : si_of_name(b->d, key->name, q, 0);
   const deck_si *in = &seen;
   const int of_clock = strstr(seen.units, "Hz") != NULL;
   if (seen.units[0] == '\0') return refuse_any(b, v, name);

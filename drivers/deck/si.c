@@ -104,10 +104,35 @@ static int read_power(const char **text)
   return power <= HIGHEST ? sign * power : 0;
 }
 
-int si_parse(const char *text, si_unit *out, char bad[SI_SYMBOL])
+/* What has a place in print has one on the keyboard: superscripts and the dot between symbols. */
+static void type(const char *text, char *out, size_t room)
 {
+  static const struct { const char *printed; char typed; } characters[] = {
+    { "\302\271", '1' }, { "\302\262", '2' }, { "\302\263", '3' }, { "\342\201\264", '4' },
+    { "\342\201\265", '5' }, { "\342\201\266", '6' }, { "\342\201\273", '-' },
+    { "\302\267", '.' }, { "\342\213\205", '.' },
+  };
+  size_t n = 0;
+  while (*text != '\0' && n + 1 < room) {
+    size_t k = 0, length = 1;
+    while (k < sizeof characters / sizeof *characters &&
+           strncmp(text, characters[k].printed, strlen(characters[k].printed)) != 0)
+      k++;
+    const int known = k < sizeof characters / sizeof *characters;
+    if (known) length = strlen(characters[k].printed);
+    out[n++] = known ? characters[k].typed : *text;
+    text += length;
+  }
+  out[n] = '\0';
+}
+
+int si_parse(const char *printed, si_unit *out, char bad[SI_SYMBOL])
+{
+  char typed[SI_TEXT];
+  const char *text = typed;
   int divides = 0;
   *out = (si_unit){ .factor = 1.0 };
+  type(printed, typed, sizeof typed);
   for (text += strspn(text, " "); *text != '\0'; text += strspn(text, " ")) {
     const char *start = text;
     si_unit unit = { .factor = 1.0 };

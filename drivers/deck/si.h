@@ -22,11 +22,12 @@ typedef struct si_unit {
   int power[SI_BASES];
 } si_unit;
 
-enum { SI_SYMBOL = 24 };
+enum { SI_SYMBOL = 24, SI_TEXT = 64 };
 
 /*
- * Read products and quotients of symbols with prefixes and powers: blanks, '*' or '.' multiply, '/'
- * divides by the next symbol. Returns 1, or 0 with the part that is no unit in `bad`.
+ * Read products and quotients of symbols with prefixes and powers, less than SI_TEXT bytes: blanks,
+ * '*' or '.' multiply, '/' divides by the next symbol; powers as in m^3, m3 and m³. Returns 1, or 0
+ * with the part that is no unit in `bad`.
  */
 int si_parse(const char *text, si_unit *out, char bad[SI_SYMBOL]);
 

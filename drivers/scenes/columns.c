@@ -325,6 +325,7 @@ void scene_columns_print(FILE *out, const scene_table *t, size_t lines, size_t c
                          const scene_cell *cells, const char *(*instead)(const void *row))
 {
   const size_t step = t->n > lines + lines / 5 ? t->n / lines + 1 : 1;
+  size_t shown = 0;
   for (size_t k = 0; k < count; k++) fputs(cells[k].heading, out);
   fputc('\n', out);
   for (size_t i = 0; i < t->n; i++) {
@@ -334,7 +335,9 @@ void scene_columns_print(FILE *out, const scene_table *t, size_t lines, size_t c
       print_cell(out, field(t, i, cells[k].value), &cells[k]);
     if (words != NULL) fputs(words, out);
     fputc('\n', out);
+    shown++;
   }
+  if (shown < t->n) fprintf(out, "(%zu of %zu rows; the file has all)\n", shown, t->n);
 }
 
 /* ---- records that come from elsewhere ---- */

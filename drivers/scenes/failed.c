@@ -57,9 +57,12 @@ static int too_long(const pendres_pendulum *p, double runs, int charted, char *w
   const double steps =
     settling + runs * steps_per_time * periods * 2.0 * PENDRES_PI / frequency;
   if (settling <= most_settling && steps <= most) return 0;
-  snprintf(words, size, "damping %g, drive_frequency %g ask for some %.1e steps of the integrator, "
-           "more than %.0e", p->damping, p->drive_frequency, steps,
-           settling > most_settling ? most_settling : most);
+  const int n = snprintf(words, size, "damping %g, drive_frequency %g ask for some %.1e steps of "
+                         "the integrator, more than %.0e", p->damping, p->drive_frequency, steps,
+                         settling > most_settling ? most_settling : most);
+  if (frequency > far_above && n > 0 && (size_t)n < size)
+    snprintf(words + n, size - (size_t)n, "; the drive has %.0e times the natural frequency",
+             frequency);
   return 1;
 }
 
@@ -71,7 +74,7 @@ int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, 
 int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double runs, char *words,
                             size_t size)
 {
-  char why[140];
+  char why[200];
   const int charted =
     strcmp(d->precision.method, "block_fixed") == 0 && d->precision.steps_per_period == 0;
   if (d->precision.period_budget > 0 || p->damping == 0.0) return 0;

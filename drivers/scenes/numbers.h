@@ -40,6 +40,9 @@ enum { LINES_RUNS_A_POINT = 5 };
    took 17 s at most at a damping of 1e-6, and six minutes at a drive of 0.2. */
 static const double charted_drive = 0.02, charted_share = 0.1;
 
+/* A drive of so many natural frequencies is rather a slip: mHz for MHz. */
+static const double far_above = 1e4;
+
 /* The spacing of branches that are not written: it may be sparse. */
 static const double lines_sparse = 0.1;
 

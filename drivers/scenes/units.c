@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Rows of a table: of a longer one every second, third, ... and the last. */
 enum { MOST_PRINTED = 20 };
 
 void scene_mark_si(scene_run *run, const char *group, const char *name, const deck_si *si)
@@ -33,31 +34,60 @@ void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors
 
 /* ---- behind the table ---------------------------------------------------------------------- */
 
-/* A result or a coordinate: n values, and how they are printed. */
+/* A result or a coordinate: n values of all that it has, and how they are printed. */
 typedef struct shown {
   char name[DECK_NAME];
   char word[MOST_PRINTED][DECK_NAME]; /* behind a value, that says what a mere number does not */
-  size_t n;
+  size_t n, all;
   double value[MOST_PRINTED], error[MOST_PRINTED]; /* in the unit that is printed */
   int has_error;
   char units[DECK_UNITS];
 } shown;
 
+/* How many rows of so many are printed, and the place of the i-th of them. */
+static size_t printed(size_t all)
+{
+  const size_t step = (all - 1) / (MOST_PRINTED - 1) + 1;
+  return all <= MOST_PRINTED ? all : (all - 2) / step + 2;
+}
+
+static size_t place(size_t all, size_t i)
+{
+  return i + 1 == printed(all) ? all - 1 : i * ((all - 1) / (MOST_PRINTED - 1) + 1);
+}
+
+/* A line of `all` numbers of a result, which has `lines` of them. */
+typedef struct line_of {
+  size_t all, line, lines;
+} line_of;
+
+/* Those that are printed. */
+static void read_printed(scene_run *run, const char *name, const line_of *of, double *out)
+{
+  const size_t n = of->all * of->lines;
+  double *whole = calloc(n, sizeof *whole);
+  if (whole == NULL) scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %s", name);
+  else if (scene_going(run))
+    scene_stored(run, pendres_store_read(run->store, "", name, PENDRES_STORE_DOUBLE, whole, n));
+  for (size_t i = 0; whole != NULL && i < printed(of->all); i++)
+    out[i] = whole[of->line * of->all + place(of->all, i)];
+  free(whole);
+}
+
 /* Its values in SI, with the prefix that the largest of them, or of their errors, takes; without a
    unit as they are. */
-static void read_shown(scene_run *run, const char *name, size_t n, shown *out)
+static void read_shown(scene_run *run, const char *name, const line_of *of, shown *out)
 {
   char error_name[DECK_NAME + 8];
   deck_si si = { .factor = 1.0 };
   double most = 0.0;
-  *out = (shown){ .n = n };
+  const size_t n = printed(of->all);
+  *out = (shown){ .n = n, .all = of->all };
   (void)snprintf(out->name, sizeof out->name, "%.63s", name);
   (void)snprintf(error_name, sizeof error_name, "%.64s_error", name);
-  scene_stored(run, pendres_store_read(run->store, "", name, PENDRES_STORE_DOUBLE, out->value, n));
+  read_printed(run, name, of, out->value);
   out->has_error = scene_going(run) && pendres_store_has(run->store, "", error_name);
-  if (out->has_error)
-    scene_stored(run, pendres_store_read(run->store, "", error_name, PENDRES_STORE_DOUBLE,
-                                         out->error, n));
+  if (out->has_error) read_printed(run, error_name, of, out->error);
   if (!deck_si_of(run->deck, name, &si)) return;
   for (size_t i = 0; i < n; i++)
     if (isfinite(out->value[i])) most = fmax(most, fabs(si.factor * out->value[i]));
@@ -89,17 +119,17 @@ static void print_value(FILE *out, const shown *s, size_t i, int width)
   else fputs(text, out);
 }
 
-/* The n codes `along`_`what`, if there are any. */
-static int read_codes(scene_run *run, const char *along, const char *what, size_t n, char *name,
+/* The codes `along`_`what`, if there are any. */
+static int read_codes(scene_run *run, const shown *along, const char *what, char *name,
                       double *code)
 {
   uint64_t sizes[PENDRES_STORE_RANK];
   int rank = 0;
-  (void)snprintf(name, 2 * DECK_NAME, "%s_%s", along, what);
+  (void)snprintf(name, 2 * DECK_NAME, "%s_%s", along->name, what);
   if (!scene_going(run) || !pendres_store_has(run->store, "", name)) return 0;
   scene_stored(run, pendres_store_shape(run->store, "", name, &rank, sizes));
-  if (!scene_going(run) || rank != 1 || sizes[0] != n) return 0;
-  scene_stored(run, pendres_store_read(run->store, "", name, PENDRES_STORE_DOUBLE, code, n));
+  if (!scene_going(run) || rank != 1 || sizes[0] != along->all) return 0;
+  read_printed(run, name, &(line_of){along->all, 0, 1}, code);
   return scene_going(run);
 }
 
@@ -111,7 +141,7 @@ static void read_words(scene_run *run, shown *along)
   double code[MOST_PRINTED], turns[MOST_PRINTED];
   for (size_t k = 0; k < sizeof codes / sizeof *codes; k++) {
     char *meanings = NULL;
-    if (!read_codes(run, along->name, codes[k], along->n, name, code)) continue;
+    if (!read_codes(run, along, codes[k], name, code)) continue;
     if (pendres_store_read_attribute_text(run->store, "", name, "flag_meanings", &meanings) !=
         PENDRES_OK)
       continue;
@@ -124,35 +154,46 @@ static void read_words(scene_run *run, shown *along)
     free(meanings);
     return;
   }
-  if (!read_codes(run, along->name, "winding", along->n, name, turns) ||
-      !read_codes(run, along->name, "period", along->n, name, code))
+  if (!read_codes(run, along, "winding", name, turns) ||
+      !read_codes(run, along, "period", name, code))
     return;
   for (size_t i = 0; i < along->n; i++)
     (void)snprintf(along->word[i], DECK_NAME, code[i] == 1.0 ? "%g" : "%g/%g", turns[i], code[i]);
 }
 
-/* Whether it is a number of this rank with few values that has a unit, or a dimension; of rank 1,
-   over that dimension unless it is NULL. */
-static int is_wanted(scene_run *run, const char *name, int rank, const char *over, size_t *n)
+/* Whether the dimension number `which` of a result has this name. */
+static int lies_over(scene_run *run, const char *name, int which, const char *over)
+{
+  char *along = NULL;
+  int same = 0;
+  scene_stored(run, pendres_store_dimension_of(run->store, "", name, which, &along));
+  same = along != NULL && strcmp(along, over) == 0;
+  free(along);
+  return same;
+}
+
+static int shape_of(scene_run *run, const char *name, uint64_t *sizes)
 {
   const size_t length = strlen(name);
+  int rank = 0;
+  if (length > 6 && strcmp(name + length - 6, "_error") == 0) return -1;
+  scene_stored(run, pendres_store_shape(run->store, "", name, &rank, sizes));
+  return scene_going(run) ? rank : -1;
+}
+
+/* How many lines over a dimension a result with a unit has: one, two where it was swept up and
+   down, none where it lies over something else. */
+static size_t lines_over(scene_run *run, const char *name, const shown *along)
+{
   uint64_t sizes[PENDRES_STORE_RANK];
-  char *along = NULL;
   deck_si si;
-  int found = 0, wanted = 0;
-  const int is_error = length > 6 && strcmp(name + length - 6, "_error") == 0;
-  if (is_error || !scene_going(run)) return 0;
-  scene_stored(run, pendres_store_shape(run->store, "", name, &found, sizes));
-  if (!scene_going(run) || found != rank || sizes[0] == 0 || sizes[0] > MOST_PRINTED) return 0;
-  *n = (size_t)sizes[0];
-  if (rank == 0) return deck_si_of(run->deck, name, &si);
-  scene_stored(run, pendres_store_dimension_of(run->store, "", name, 0, &along));
-  if (along != NULL && over == NULL) wanted = strcmp(along, name) == 0;
-  else if (along != NULL)
-    wanted = strcmp(along, over) == 0 && strcmp(name, over) != 0 &&
-             deck_si_of(run->deck, name, &si);
-  free(along);
-  return wanted;
+  const int rank = shape_of(run, name, sizes);
+  if (rank < 1 || rank > 2 || !deck_si_of(run->deck, name, &si) ||
+      strcmp(name, along->name) == 0 || sizes[rank - 1] != along->all ||
+      !lies_over(run, name, rank - 1, along->name))
+    return 0;
+  if (rank == 1) return 1;
+  return sizes[0] == 2 && lies_over(run, name, 0, "direction") ? 2 : 0;
 }
 
 /* The next number of the root from *at on; NULL: there are no more. To be freed. */
@@ -173,12 +214,13 @@ static char *next_number(scene_run *run, uint64_t *at)
 
 static void tell_scalars(scene_run *run)
 {
+  uint64_t sizes[PENDRES_STORE_RANK];
   char *name = NULL;
+  deck_si si;
   shown s;
-  size_t n = 0;
   for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name)) {
-    if (!is_wanted(run, name, 0, NULL, &n)) continue;
-    read_shown(run, name, 1, &s);
+    if (shape_of(run, name, sizes) != 0 || !deck_si_of(run->deck, name, &si)) continue;
+    read_shown(run, name, &(line_of){1, 0, 1}, &s);
     if (isnan(s.value[0]) || (s.value[0] == 0.0 && !s.has_error)) continue; /* it is not there */
     fprintf(run->table, "%-26s ", name);
     print_value(run->table, &s, 0, 0);
@@ -207,42 +249,73 @@ static void tell_columns(scene_run *run, const shown *along, const shown *column
   }
 }
 
-/* What is held fixed is told without a dimension. */
+/* What is held fixed is told without a dimension, and zeros need no column. */
 static int varies(const shown *s)
 {
   int varied = 0;
-  for (size_t i = 0; i < s->n; i++) varied |= s->value[i] != s->value[0] || s->error[i] != 0.0;
+  for (size_t i = 0; i < s->n; i++) {
+    const double error = s->has_error ? s->error[i] + s->error[0] : 0.0;
+    varied |= fabs(s->value[i] - s->value[0]) > error || (error != 0.0 && s->value[i] != 0.0);
+  }
   return varied;
+}
+
+enum { COLUMNS = 3 };
+
+/* Results over a dimension, COLUMNS at a time. */
+typedef struct told {
+  shown along, column[COLUMNS];
+  int columns, tables;
+} told;
+
+static void tell(scene_run *run, told *t)
+{
+  if (t->columns > 0) t->tables++;
+  tell_columns(run, &t->along, t->column, t->columns);
+  t->columns = 0;
+}
+
+static void add_lines(scene_run *run, told *t, const char *name)
+{
+  static const char *const ways[] = {" up", " down"};
+  const size_t lines = lines_over(run, name, &t->along);
+  for (size_t k = 0; k < lines; k++) {
+    shown *s = &t->column[t->columns];
+    const size_t length = strlen(name);
+    read_shown(run, name, &(line_of){t->along.all, k, lines}, s);
+    if (lines == 2 && length + 6 < sizeof s->name)
+      (void)snprintf(s->name + length, sizeof s->name - length, "%s", ways[k]);
+    if (t->along.n == 1 || varies(s)) t->columns++;
+    if (t->columns == COLUMNS) tell(run, t);
+  }
 }
 
 static void tell_dimension(scene_run *run, const char *dimension, size_t n)
 {
-  enum { COLUMNS = 3 };
-  shown along, column[COLUMNS];
-  int columns = 0;
+  told t = {.columns = 0};
   char *name = NULL;
-  size_t same = 0;
-  read_shown(run, dimension, n, &along);
-  read_words(run, &along);
-  for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name)) {
-    if (!is_wanted(run, name, 1, dimension, &same)) continue;
-    read_shown(run, name, n, &column[columns]);
-    if (n == 1 || varies(&column[columns])) columns++;
-    if (columns < COLUMNS) continue;
-    tell_columns(run, &along, column, columns);
-    columns = 0;
+  read_shown(run, dimension, &(line_of){n, 0, 1}, &t.along);
+  if (n > MOST_PRINTED && t.along.units[0] == '\0') { /* points, samples: numbers of a list */
+    fprintf(run->table, "(%zu rows over %s are in the file)\n", n, dimension);
+    return;
   }
-  tell_columns(run, &along, column, columns);
+  read_words(run, &t.along);
+  for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name))
+    add_lines(run, &t, name);
+  tell(run, &t);
+  if (t.tables > 0 && t.along.n < n)
+    fprintf(run->table, "(%zu of %zu rows; the file has all)\n", t.along.n, n);
 }
 
 void scene_tell_units(scene_run *run)
 {
+  uint64_t sizes[PENDRES_STORE_RANK];
   char *name = NULL;
-  size_t n = 0;
   /* The table of a fit has its own column for them. */
   if (!deck_has_units(run->deck) || !scene_prints(run) || run->deck->kind == DECK_FIT) return;
   fputs("\nin SI:\n", run->table);
   tell_scalars(run);
   for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name))
-    if (is_wanted(run, name, 1, NULL, &n)) tell_dimension(run, name, n);
+    if (shape_of(run, name, sizes) == 1 && sizes[0] > 0 && lies_over(run, name, 0, name))
+      tell_dimension(run, name, (size_t)sizes[0]);
 }
