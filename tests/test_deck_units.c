@@ -58,7 +58,8 @@ static void resonator(void **state)
     " drive_amplitude='.6948nN' /\n",
     /* what stands in print: N/m with a superscript; the damping as a force at a velocity */
     OF_LENGTH SWEEP "&units natural_frequency=1.2d6 mass='1e-12 kg' /\n"
-    "&pendulum force='polynomial' force_coefficients=1, 0, '1e14 N/m\302\263' damping='1.5079644737231006 nN s/m'\n"
+    "&pendulum force='polynomial' force_coefficients=1, 0, '1e14 N/m\302\263'\n"
+    " damping='1.5079644737231006 nN s/m'\n"
     " drive_amplitude='694.8pN' /\n",
   };
   const double rate = 2 * PI * 1.2e6, k = 1e-12 * rate * rate, length = sqrt(k / 1e14);

@@ -412,7 +412,9 @@ void deck_reference(FILE *out);
 
 /**
  * A deck of that kind that runs, with a comment on every key: those that must be given have a
- * value, the others stand there with their defaults as comments. PENDRES_INVALID_ARGUMENT as above.
+ * value, the others stand there with their defaults as comments. Instead of a kind the name of a
+ * laboratory's oscillator, "resonator", "junction" or "two_wells": ten lines in SI.
+ * PENDRES_INVALID_ARGUMENT as above.
  */
 pendres_status deck_init(const char *kind, FILE *out, char *why, size_t size);
 

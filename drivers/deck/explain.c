@@ -248,6 +248,8 @@ static pendres_status unknown_word(const char *word, int only_kinds, char *why, 
   for (int k = 0; k < DECK_KIND_COUNT; k++) deck_suggest(&s, deck_kind_name((deck_kind)k));
   for (size_t i = 0; i < deck_table_size && !only_kinds; i++)
     if (deck_table[i].scenes != 0) deck_suggest(&s, deck_table[i].name);
+  for (size_t k = 0; only_kinds && deck_starter_get(k) != NULL; k++)
+    deck_suggest(&s, deck_starter_get(k)->name);
   if (s.best == NULL && !only_kinds) s.best = deck_synonym(word, 0);
   snprintf(why, size, "'%.60s' is no kind of scene%s%s; --list names the kinds", word,
            only_kinds ? "" : ", group, key, result or subject of a page",
@@ -306,7 +308,12 @@ static void init_key(FILE *out, const deck_key *key, int kind)
 pendres_status deck_init(const char *word, FILE *out, char *why, size_t size)
 {
   const int kind = find_kind(word);
+  const deck_starter *starter = deck_starter_find(word);
   const char *group = NULL;
+  if (starter != NULL) {
+    fprintf(out, "! %s: resonance DECK\n%s", starter->words, starter->text);
+    return PENDRES_OK;
+  }
   if (kind < 0) return unknown_word(word, 1, why, size);
   fprintf(out, "! %s: %s.\n! Keys that are comments have the values that stand there by default.\n",
           deck_kind_name((deck_kind)kind), deck_kind_of((deck_kind)kind)->words);

@@ -209,6 +209,13 @@ void deck_outer_try(deck_builder *b);
 /* units.c: brings defaults into the pendulum's units, in which it checks the tolerance. */
 void deck_check_units(deck_builder *b);
 
+/* Decks that a laboratory begins with; NULL: no more, or none of that name. */
+typedef struct deck_starter {
+  const char *name, *words, *text;
+} deck_starter;
+const deck_starter *deck_starter_get(size_t k);
+const deck_starter *deck_starter_find(const char *name);
+
 /* suggest.c: the candidate nearest to a misspelt word, or NULL if none is near. */
 typedef struct deck_suggestion {
   const char *word;

@@ -255,7 +255,7 @@ static int varies(const shown *s)
   int varied = 0;
   for (size_t i = 0; i < s->n; i++) {
     const double error = s->has_error ? s->error[i] + s->error[0] : 0.0;
-    varied |= fabs(s->value[i] - s->value[0]) > error || (error != 0.0 && s->value[i] != 0.0);
+    varied |= fabs(s->value[i] - s->value[0]) > error || (error > 0.0 && fabs(s->value[i]) > error);
   }
   return varied;
 }
