@@ -69,7 +69,10 @@ static pendres_attractors *create_sets(size_t sets)
     return NULL;
   }
   set->sets = sets;
-  for (size_t i = 0; i < sets; i++) set->units[i] = (pendres_units){1.0, 1.0};
+  for (size_t i = 0; i < sets; i++) {
+    set->units[i] = (pendres_units){1.0, 1.0};
+    set->attractor_sets[i].rotations = 1;
+  }
   return set;
 }
 

@@ -22,8 +22,9 @@ void pendres_attractor_set_clear(pendres_attractor_set *c)
   free(c->ellipse);
   free(c->owner);
   for (size_t i = 0; i < c->covers; i++) free(c->cover[i]);
+  for (size_t i = 0; i < c->annuli; i++) free(c->annulus[i]);
   *c = (pendres_attractor_set){.pendulum = c->pendulum, .effort = c->effort,
-                               .any_well = c->any_well};
+                               .any_well = c->any_well, .rotations = c->rotations};
 }
 
 const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
@@ -81,11 +82,11 @@ static void label_all(pendres_attractor_set *c)
 {
   pendres_label_states states = {.count = 0};
   for (size_t i = 0; i < c->count; i++)
-    if (c->attractors[i].label != PENDRES_LABEL_CHAOTIC)
+    if (pendres_attractor_closes(&c->attractors[i]))
       pendres_label_note(&states, &c->attractors[i].orbit);
   for (size_t i = 0; i < c->count; i++) {
     pendres_attractor *a = &c->attractors[i];
-    if (a->label != PENDRES_LABEL_CHAOTIC) a->label = pendres_label_of(&states, NULL, &a->orbit);
+    if (pendres_attractor_closes(a)) a->label = pendres_label_of(&states, NULL, &a->orbit);
   }
 }
 
@@ -107,6 +108,8 @@ pendres_status pendres_attractor_set_order(pendres_context *ctx, pendres_attract
   }
   for (size_t t = 0; t < c->ellipses; t++) c->owner[t] = moved[c->owner[t]];
   for (size_t i = 0; i < c->covers; i++) c->cover[i]->attractor = moved[c->cover[i]->attractor];
+  for (size_t i = 0; i < c->annuli; i++)
+    c->annulus[i]->attractor = moved[c->annulus[i]->attractor];
   if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
   pendres_attractor_set_compare_images(c);
@@ -226,7 +229,8 @@ static double key_of(const pendres_attractor_set *c, int attractor, int k, doubl
   static const double rounding[KEYS] = {orbit_same_amplitude, orbit_same_point, 0.0};
   const pendres_attractor *a = &c->attractors[attractor];
   const pendres_cover *cover = cover_of(c, attractor);
-  const double orbit[KEYS] = {a->orbit.amplitude, a->orbit.x, a->orbit.v};
+  const int closes = pendres_attractor_closes(a);
+  const double orbit[KEYS] = {closes ? a->orbit.amplitude : a->drift, a->orbit.x, a->orbit.v};
   const double chaos[KEYS] = {cover != NULL ? cover->mean_w : 0.0,
                               cover != NULL ? cover->mean_y : 0.0, a->lyapunov};
   const double key = cover != NULL ? chaos[k] : orbit[k];
@@ -254,7 +258,9 @@ int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order)
   placed *p = malloc((c->count + 1) * sizeof *p);
   if (p == NULL) return -1;
   for (size_t i = 0; i < c->count; i++)
-    p[i] = (placed){.group = cover_of(c, (int)i) != NULL, .number = (int)i};
+    p[i] = (placed){.group = cover_of(c, (int)i) != NULL               ? 1
+                             : pendres_attractor_closes(&c->attractors[i]) ? 0 : 2,
+                    .number = (int)i};
   for (int k = 0; k < KEYS; k++) {
     for (size_t i = 0; i < c->count; i++) p[i].key = key_of(c, p[i].number, k, &same);
     qsort(p, c->count, sizeof *p, by_group_and_key);
@@ -323,7 +329,7 @@ void pendres_attractor_set_compare_images(pendres_attractor_set *c)
   for (size_t i = 0; i < c->count; i++)
     for (size_t j = i + 1; j < c->count; j++) {
       pendres_attractor *a = &c->attractors[i], *b = &c->attractors[j];
-      if (a->label == PENDRES_LABEL_CHAOTIC || b->label == PENDRES_LABEL_CHAOTIC) continue;
+      if (!pendres_attractor_closes(a) || !pendres_attractor_closes(b)) continue;
       if (pendres_attractor_set_are_images(&a->orbit, &b->orbit)) compare(a, b);
     }
 }

@@ -12,11 +12,13 @@
 #include <pendres/attractor.h>
 
 #include "engine/strobe_run.h"
+#include "orbits/annulus.h"
 #include "orbits/escape.h"
 #include "orbits/trapping_ellipse.h"
 
 enum {
   PENDRES_MOST_COVERS = 4,   /* chaotic attractors of a parameter set */
+  PENDRES_MOST_ANNULI = 2,   /* rotations without a lock: one each way */
   PENDRES_COVER_CELLS = 128, /* a side */
   PENDRES_MOST_GUESSES = 8   /* orbits that are searched for at a time in a parameter set */
 };
@@ -59,6 +61,9 @@ typedef struct pendres_attractor_set {
   int *owner; /* attractor of each ellipse */
   size_t covers;
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
+  size_t annuli;
+  pendres_annulus *annulus[PENDRES_MOST_ANNULI]; /* of rotations without a lock; owned */
+  int rotations;    /* whether these are looked for */
   int grows;        /* the force is linear, and all motions grow without bound */
   pendres_escape_beside beside; /* from where on they do beside a spring */
   double transient; /* mean lifetime of transient chaos, in drive periods; 0: none was found */
@@ -70,6 +75,12 @@ typedef struct pendres_initial_guess {
   double y, w;
   int period, winding; /* of the orbit it is thought to be near */
 } pendres_initial_guess;
+
+/* Whether an attractor is a closed orbit: neither chaos nor a rotation without a lock. */
+static inline int pendres_attractor_closes(const pendres_attractor *a)
+{
+  return a->orbit.period > 0;
+}
 
 void pendres_attractor_set_clear(pendres_attractor_set *c);
 

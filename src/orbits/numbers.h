@@ -343,4 +343,37 @@ static const double well_near = 1e-3;
 /* So far from a well its rims are looked for in equal parts, beyond in parts that grow. */
 static const double free_near = 1.0;
 
+/* ---- rotations without a lock ---- */
+
+enum {
+  ANNULUS_TURNS = 8,       /* of a pendulum that may be on one */
+  ANNULUS_LONGEST = 2000,  /* periods in which pendulums come to the curve, at most */
+  ANNULUS_STROBES = 8,     /* from then on, that are its points */
+  ANNULUS_POINTS = 64,     /* at least */
+  ANNULUS_RETURNS = 256,   /* periods in which an edge comes in, at most; a power of 2 */
+  ANNULUS_MEAN = 2048,     /* periods of the first mean, ... */
+  ANNULUS_LONGEST_MEAN = 32768 /* ... and of the last */
+};
+
+/* Pendulums have come to the curve where what separated them has fallen by exp(-this). */
+static const double annulus_faded = 25.0;
+
+/* Angles between its points: less is not needed, more leaves it undetermined. */
+static const double annulus_points_apart = 1e-3, annulus_widest_gap = 0.2;
+
+/* The first annulus, relative to the largest velocity: that thin, all motions in it are on a curve;
+   the last one is no wider than this. */
+static const double annulus_thin = 1e-4, annulus_far = 8.0;
+
+/* Images of neighbours on an edge are closer than this in angle; what an edge departs from its
+   chords by leaves room within the annulus, and this share of its width on either side does. */
+static const double annulus_step = 0.3, annulus_inside = 0.25, annulus_margin = 0.05;
+
+/* Edges are moved by such factors. */
+static const double annulus_first_factor = 8.0, annulus_least_factor = 1.05;
+
+/* A mean that is known to this is taken; it rounds to that much, and is computed with so many times
+   the steps to see what they do. */
+static const double annulus_mean = 1e-7, annulus_rounding = 1e-13, annulus_finer = 1.4;
+
 #endif

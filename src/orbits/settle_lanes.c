@@ -164,6 +164,26 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
   return 1;
 }
 
+/* Whether a lane is between the edges of a rotation. */
+static int rotates(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
+                   const pendres_strobe_lane *lane)
+{
+  for (size_t k = 0; k < c->annuli; k++) {
+    double slope;
+    const double room = pendres_annulus_room(c->annulus[k], lane->y, lane->w, &slope);
+    if (!(room > 0.0)) continue;
+    const int attractor = c->annulus[k]->attractor;
+    const double off = fabs(slope) * sqrt(lane->off.yy) + sqrt(lane->off.ww);
+    const double before = pendres_settle_error_ratio(lane->worst);
+    l->outcome[i] = (pendres_outcome){.label = c->attractors[attractor].label,
+                                      .attractor = attractor,
+                                      .settling_periods = lane->period};
+    judge(l, i, lane->period > 0 && lane->added == 0.0 ? NAN : fmax(before, surely * off / room));
+    return 1;
+  }
+  return 0;
+}
+
 /* ---- escapes ---- */
 
 /* A state, and the largest variance of the error on the way to it. */
@@ -244,7 +264,8 @@ static int look_outside(const pendres_settle_labelling *l, size_t i,
 static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
 {
   const pendres_settle_labelling *l = arg;
-  return trapped(l, i, &l->attractor_sets[set_of(l, i)], lane) || look_outside(l, i, lane);
+  const pendres_attractor_set *c = &l->attractor_sets[set_of(l, i)];
+  return trapped(l, i, c, lane) || rotates(l, i, c, lane) || look_outside(l, i, lane);
 }
 
 /* ---- by charts ---- */
@@ -417,7 +438,8 @@ static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
       judge(l, i, 0.0);
       continue;
     }
-    if (trapped(l, i, c, &lanes[i]) || spent(l, set, &lanes[i])) continue;
+    if (trapped(l, i, c, &lanes[i]) || rotates(l, i, c, &lanes[i]) || spent(l, set, &lanes[i]))
+      continue;
     *covers |= c->covers > 0;
     *open |= pendres_escape_possible(&c->pendulum);
     which[left++] = i;

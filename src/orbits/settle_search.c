@@ -7,6 +7,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
+#include "orbits/annulus_find.h"
 #include "orbits/chaos.h"
 #include "orbits/recurrence.h"
 
@@ -95,7 +96,29 @@ static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres
 {
   for (size_t k = watched; k < c->covers; k++)
     if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return 0;
+  for (size_t k = 0; k < c->annuli; k++) {
+    double slope;
+    if (pendres_annulus_room(c->annulus[k], lane->y, lane->w, &slope) > 0.0) return 0;
+  }
   return pendres_attractor_set_ellipse(c, lane->y, lane->w) == NULL;
+}
+
+/* Look for rotations among the lost lanes, set by set. */
+static pendres_status add_rotations(pendres_context *ctx, lost_lanes *l,
+                                    pendres_attractor_set *attractor_sets)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
+    pendres_attractor_set *c = &attractor_sets[l->set[first]];
+    size_t n = 0;
+    int found = 0;
+    for (last = first; last < l->count && l->set[last] == l->set[first]; last++)
+      if (searched(l, last) && nowhere(c, l->watched[l->set[last]], &l->lanes[last]))
+        l->suspects[n++] = &l->lanes[last];
+    status = pendres_annulus_find(ctx, c, n, l->suspects, &found);
+    l->found[l->set[first]] |= (unsigned char)found;
+  }
+  return status;
 }
 
 /*
@@ -203,6 +226,7 @@ pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
     for (size_t i = 0; i < l.count; i++) left += (size_t)searched(&l, i);
     if (status != PENDRES_OK || left == 0) break;
     status = add_recurrences(ctx, &l, attractor_sets);
+    if (status == PENDRES_OK && round % 2 == 0) status = add_rotations(ctx, &l, attractor_sets);
     if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, attractor_sets);
   }
   const int again_timed = from->wanted != PENDRES_SETTLE_NOTHING;
