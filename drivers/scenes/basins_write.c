@@ -72,11 +72,9 @@ void basins_define(basins *b)
   const scene_table table = state_table("", "v", 0, NULL);
   const scene_variables of = variables_of(b);
   memcpy(b->column, of_states, sizeof of_states);
-  /* The first two columns have a value for that. */
-  if (may_escape(b)) {
-    b->column[0].names = scene_fate_names;
-    b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
-  }
+  /* The first two columns have values for what is on no attractor. */
+  b->column[0].names = scene_settled_names(&b->pendulum);
+  if (may_escape(b)) b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
   scene_dimension(b->run, "", DECK_AXIS_X);
   scene_dimension(b->run, "", DECK_AXIS_V);
   scene_columns_define(b->run, &table, &of);
@@ -117,12 +115,14 @@ typedef struct row {
   pendres_attractor of;
   double basin_fraction, basin_fraction_error;
   size_t basin_states, basin_wells;
-  double period, winding; /* of the orbit; NaN for chaos, which has none */
+  double period, winding; /* of the orbit; NaN where it does not close */
+  double mean_velocity, mean_velocity_error;
 } row;
 
+static const scene_column of_label =
+  {SCENE_TYPED(SCENE_FLAG, "attractor_label", row, of.label, "kind of attractor")};
+
 static const scene_column of_attractors[] = {
-  {SCENE_TYPED(SCENE_FLAG, "attractor_label", row, of.label, "kind of attractor"),
-   .names = scene_label_names},
   {SCENE_TYPED(SCENE_NUMBER, "attractor_period", row, of.orbit.period,
                "drive periods until the orbit closes; 0: it does not")},
   {SCENE_TYPED(SCENE_NUMBER, "attractor_winding", row, of.orbit.winding,
@@ -131,7 +131,8 @@ static const scene_column of_attractors[] = {
   {SCENE_AS("attractor_v", row, of.orbit.v, "velocity at drive phase 0", "1")},
   {SCENE_AS("attractor_lyapunov", row, of.lyapunov, "largest Lyapunov exponent per unit time",
             "1")},
-  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of chaos", "1")},
+  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of what does not close",
+            "1")},
   {SCENE_TYPED(SCENE_PLAIN, "attractor_watched_periods", row, of.watched_periods,
                "drive periods that chaos was watched for without ending, all walkers together")},
   {SCENE_TYPED(SCENE_PLAIN, "attractor_escape_rate_bound", row, of.escape_rate_bound,
@@ -139,6 +140,11 @@ static const scene_column of_attractors[] = {
   {SCENE_AS("basin_fraction", row, basin_fraction, "share of the window's area", "1"),
    .comment = "each state stands for what is nearest to it: ends of a range count half; plain "
               "counts are basin_states"},
+};
+
+/* Where the pendulum may rotate for ever. */
+static const scene_column of_rotations[] = {
+  {SCENE_AS("attractor_mean_velocity", row, mean_velocity, "mean velocity", "1")},
 };
 
 static const scene_column of_wells[] = {
@@ -154,7 +160,11 @@ static void make_rows(basins *b, const double *fraction, const double *error, ro
   for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
     const pendres_attractor *a = pendres_attractors_get(b->set, i);
     const int closed = a->orbit.period > 0;
+    const double turned = closed ? (double)a->orbit.winding / a->orbit.period : a->drift;
     rows[i] = (row){.number = i, .of = *a,
+                    .mean_velocity = turned * b->pendulum.drive_frequency,
+                    .mean_velocity_error =
+                      closed ? 0.0 : a->drift_error * b->pendulum.drive_frequency,
                     .basin_fraction = fraction[i], .basin_fraction_error = error[i],
                     .basin_states = states[i], .basin_wells = basins_wells_of(b, (int)i),
                     .period = closed ? a->orbit.period : NAN,
@@ -168,7 +178,11 @@ static void write_attractors(basins *b, size_t n, const row *rows)
   const scene_table orbits = {.dimensions = {"attractor"}, .prefix = "attractor",
                               SCENE_ROWS(rows, n)};
   scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
+  scene_column label = of_label;
+  label.names = scene_settled_names(&b->pendulum);
+  scene_columns_write(b->run, &table, 1, &label);
   SCENE_WRITE(b->run, &table, of_attractors);
+  if (scene_may_rotate(&b->pendulum)) SCENE_WRITE(b->run, &table, of_rotations);
   scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
   SCENE_WRITE(b->run, &table, of_wells);
   basins_write_wells(b);
@@ -315,11 +329,14 @@ static const scene_cell cells[] = {
   SCENE_CELL(row, basin_fraction_error, "", "%.0e"),
 };
 
-/* How long chaos was watched. */
-static void print_chaos(FILE *out, size_t n, const row *rows)
+/* How fast rotations are, and how long chaos was watched. */
+static void print_open(FILE *out, size_t n, const row *rows)
 {
   for (size_t i = 0; i < n; i++)
-    if (rows[i].of.label == PENDRES_LABEL_CHAOTIC)
+    if (isnan(rows[i].period) && rows[i].of.label != PENDRES_LABEL_CHAOTIC)
+      fprintf(out, "%2zu rotates with the mean velocity %.10g +- %.0e\n", i, rows[i].mean_velocity,
+              rows[i].mean_velocity_error);
+    else if (rows[i].of.label == PENDRES_LABEL_CHAOTIC)
       fprintf(out, "%2zu was watched for %.3g drive periods: chaos that ends at a rate above %.1e "
                    "would have been seen to\n",
               i, rows[i].of.watched_periods, rows[i].of.escape_rate_bound);
@@ -350,7 +367,7 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, size
   if (s->escaped > 0)
     fprintf(out, "%-13s%83s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
             s->escape_fraction_error);
-  print_chaos(out, n, rows);
+  print_open(out, n, rows);
   fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,
           s->uncertain_states);
   if (b->d->basins.refine)

@@ -46,7 +46,7 @@ static const orbit_found nothing = {
 static void keep_orbit(const pendres_attractor *a, orbit_found *out)
 {
   out->of = *a;
-  out->closed = a->label != PENDRES_LABEL_CHAOTIC;
+  out->closed = a->orbit.period > 0;
 }
 
 static int is_named(const orbit_work *w)
@@ -120,7 +120,7 @@ static int check_found(const scene_points *p, const void *row)
 
 /* ---- the trajectory ------------------------------------------------------------------------ */
 
-/* From the deck's start or, on the chaotic attractor, from a point of that. */
+/* From the deck's start or, on an attractor that does not close, from a point of that. */
 static pendres_status begin_trajectory(const orbit_work *w, pendres_context *ctx, orbit_way *way)
 {
   const pendres_orbit *o = &w->found.of.orbit;
@@ -197,7 +197,7 @@ static pendres_status sample(const scene_some *some)
   memcpy(&r->way, &w->way, sizeof r->way);
   if (w->transient && f->of.label == PENDRES_LABEL_ESCAPE)
     return sample_escape(w, some->ctx, some->first, &r->way, &out);
-  if (w->transient || f->of.label == PENDRES_LABEL_CHAOTIC)
+  if (w->transient || scene_orbit_open(f))
     return sample_trajectory(w, some->ctx, some->first, &r->way, &out);
   if (f->closed) return pendres_orbit_record(some->ctx, &f->of.orbit, &stretch, &out);
   no_samples((size_t)periods * (size_t)w->d->orbit.samples, &out);

@@ -17,6 +17,12 @@ typedef struct orbit_found {
   int uncertain;                 /* nonzero: errors that the start amplifies may have chosen it */
 } orbit_found;
 
+/* Whether it goes on for ever without closing: chaos, or a rotation without a lock. */
+static inline int scene_orbit_open(const orbit_found *f)
+{
+  return !f->closed && f->of.drift == f->of.drift;
+}
+
 /* How far the record is, if a trajectory is recorded. */
 typedef struct orbit_way {
   pendres_recording recording;

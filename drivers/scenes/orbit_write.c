@@ -47,7 +47,7 @@ static int is_shown(const orbit_work *w, const pendres_orbit_quantity *q)
 static void put_quantities(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
-  const int there = f->closed || f->of.label == PENDRES_LABEL_CHAOTIC;
+  const int there = f->closed || scene_orbit_open(f);
   const pendres_orbit_quantity *q;
   for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
     const scene_column column = SCALAR(q->name, q->long_name, q->units);
@@ -64,7 +64,7 @@ static void put_scalars(scene_run *run, const orbit_work *w)
   const struct {
     scene_column column;
     double value, error;
-    enum { CLOSED, CHAOTIC, ALWAYS } of; /* closed orbits alone, chaos too, whatever there is */
+    enum { CLOSED, OPEN, ALWAYS } of; /* closed orbits alone, what does not close too, whatever */
   } scalars[] = {
     { SCALAR("period", "drive periods until the orbit closes", "1"), o->period, 0.0, CLOSED },
     { SCALAR("winding", "whole turns until the orbit closes", "1"), o->winding, 0.0, CLOSED },
@@ -74,19 +74,19 @@ static void put_scalars(scene_run *run, const orbit_work *w)
       waited, 0.0, ALWAYS },
     { SCALAR("lyapunov_exponent", "largest Lyapunov exponent per unit time", "1"), f->of.lyapunov,
       f->of.lyapunov_error, ALWAYS },
-    { SCALAR("drift", "mean whole turns a drive period, of chaos", "1"), f->of.drift,
-      f->of.drift_error, CHAOTIC },
+    { SCALAR("drift", "mean whole turns a drive period, of what does not close", "1"), f->of.drift,
+      f->of.drift_error, OPEN },
     { SCALAR("watched_periods",
              "drive periods that chaos was watched for without ending, all walkers", "1"),
-      f->of.watched_periods, 0.0, CHAOTIC },
+      f->of.watched_periods, 0.0, OPEN },
     { SCALAR("escape_rate_bound",
              "largest rate of ending, a drive period, that is not excluded at 95 %", "1"),
-      f->of.escape_rate_bound, 0.0, CHAOTIC },
+      f->of.escape_rate_bound, 0.0, OPEN },
   };
   put_quantities(run, w);
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
     const int there = f->closed || scalars[i].of == ALWAYS ||
-                      (scalars[i].of == CHAOTIC && f->of.label == PENDRES_LABEL_CHAOTIC);
+                      (scalars[i].of == OPEN && scene_orbit_open(f));
     put_scalar(run, &scalars[i].column, there ? scalars[i].value : NAN, scalars[i].error);
   }
 }
@@ -118,7 +118,7 @@ static void put_label(scene_run *run, const orbit_work *w)
   const scene_table table = {SCENE_ROWS(&of, 1)};
   const scene_column label = {SCENE_TYPED(SCENE_FLAG, "label", verdict, label,
                                           "kind of attractor"),
-    .names = pendres_pendulum_leaves(&w->pendulum) ? scene_fate_names : scene_label_names};
+    .names = scene_settled_names(&w->pendulum)};
   run->failed_points = failed != SCENE_FAILURE_NONE;
   if (run->failed_points > 0)
     scene_failure_tell(run, (scene_failure)failed, late->words, "orbit");
@@ -231,6 +231,10 @@ void scene_orbit_tabulate(FILE *out, const orbit_work *w)
             "watched for", f->of.watched_periods, f->of.escape_rate_bound, "drift", f->of.drift,
             f->of.drift_error, "mean loop area", o->loop_area, o->loop_area_error,
             "mean amplitude", o->amplitude, o->amplitude_error);
+  else if (scene_orbit_open(f))
+    fprintf(out, "%-26s %.13g +- %.0e\n%-26s %.13g +- %.0e\n", "drift", f->of.drift,
+            f->of.drift_error, "mean velocity", f->of.drift * w->pendulum.drive_frequency,
+            f->of.drift_error * w->pendulum.drive_frequency);
   tabulate_dimensions(out, w);
   if (!f->closed) return;
   fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
