@@ -131,6 +131,7 @@ static void models(void **state)
   assert_false(pendres_pendulum_symmetric(NULL));
   assert_true(pendres_units_of(NULL).length == 1.0 && pendres_units_of(NULL).time == 1.0);
   assert_false(pendres_pendulum_leaves(NULL));
+  assert_false(pendres_pendulum_rotates(NULL));
   INVALID(pendres_reference_advance(NULL, &y, &w, NULL, 1));
   INVALID(pendres_reference_advance(&good, NULL, &w, NULL, 1));
   INVALID(pendres_reference_advance(&good, &y, NULL, NULL, 1));

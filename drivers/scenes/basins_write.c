@@ -182,7 +182,7 @@ static void write_attractors(basins *b, size_t n, const row *rows)
   label.names = scene_settled_names(&b->pendulum);
   scene_columns_write(b->run, &table, 1, &label);
   SCENE_WRITE(b->run, &table, of_attractors);
-  if (scene_may_rotate(&b->pendulum)) SCENE_WRITE(b->run, &table, of_rotations);
+  if (pendres_pendulum_rotates(&b->pendulum)) SCENE_WRITE(b->run, &table, of_rotations);
   scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
   SCENE_WRITE(b->run, &table, of_wells);
   basins_write_wells(b);

@@ -41,14 +41,9 @@ const char *scene_label_names(int value)
   return value < PENDRES_LABEL_ESCAPE ? scene_fate_names(value) : NULL;
 }
 
-int scene_may_rotate(const pendres_pendulum *p)
-{
-  return p->torque != 0.0 && pendres_model_of(p->force)->angle;
-}
-
 scene_names scene_settled_names(const pendres_pendulum *p)
 {
-  if (scene_may_rotate(p)) return scene_motion_names;
+  if (pendres_pendulum_rotates(p)) return scene_motion_names;
   return pendres_pendulum_leaves(p) ? scene_fate_names : scene_label_names;
 }
 

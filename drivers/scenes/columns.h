@@ -128,8 +128,6 @@ void scene_columns_write_rows(scene_run *run, const scene_table *table, size_t f
 const char *scene_label_names(int value); /* of attractors */
 const char *scene_fate_names(int value);  /* of pendulums, which may escape, ... */
 const char *scene_motion_names(int value); /* ... or rotate without a lock to the drive */
-/* Whether there may be rotations that are locked to no drive. */
-int scene_may_rotate(const pendres_pendulum *p);
 /* Of what pendulums with these parameters settle on. */
 scene_names scene_settled_names(const pendres_pendulum *p);
 const char *scene_doubt_names(int value); /* "no", "yes" */

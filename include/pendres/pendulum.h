@@ -150,6 +150,11 @@ int pendres_pendulum_symmetric(const pendres_pendulum *p);
     its own has no `outward`. */
 int pendres_pendulum_leaves(const pendres_pendulum *p);
 
+/** 1 if p may rotate for ever without closing after whole drive periods: an angle under the
+    pendulum's force, with a torque or both drives. A drive alone keeps up only rotations that are
+    locked to it. 0 otherwise, and if p is NULL. */
+int pendres_pendulum_rotates(const pendres_pendulum *p);
+
 /**
  * Check parameters. On failure *why (if not NULL) becomes a static sentence that says what is wrong
  * with them. Returns PENDRES_OK or PENDRES_INVALID_ARGUMENT.

@@ -292,6 +292,12 @@ static double far_out(const pendres_pendulum *p, double side)
   return models[p->force]->outward(p->force_coefficients, side, need) * (1.0 + 1e-9);
 }
 
+int pendres_pendulum_rotates(const pendres_pendulum *p)
+{
+  return p != NULL && p->force == PENDRES_FORCE_PENDULUM &&
+         (p->torque != 0.0 || (p->drive_amplitude != 0.0 && p->parametric_amplitude != 0.0));
+}
+
 int pendres_pendulum_leaves(const pendres_pendulum *p)
 {
   if (p == NULL || (unsigned)p->force >= PENDRES_FORCE_COUNT) return 0;

@@ -343,8 +343,7 @@ pendres_status pendres_annulus_find(pendres_context *ctx, pendres_attractor_set 
   pendres_status status = PENDRES_OK;
   const pendres_pendulum *p = &c->pendulum;
   *found = 0;
-  if (!c->rotations || p->torque == 0.0 || pendres_model_of(p->force)->period == 0.0)
-    return status; /* friction stops what no torque drives, but for locks */
+  if (!c->rotations || !pendres_pendulum_rotates(p)) return status;
   for (int way = -1; way <= 1; way += 2) {
     const pendres_strobe_lane *suspect = NULL;
     int new = 0;

@@ -25,8 +25,7 @@ typedef pendres_lyapunov_job job;
 int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 {
   const int driven = p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0;
-  const int pushed = p->torque != 0.0 || p->drive_amplitude != 0.0;
-  return pendres_model_kind(p) == PENDRES_MODEL_PENDULUM && driven && pushed;
+  return driven && pendres_pendulum_rotates(p);
 }
 
 /* ---- coming back --------------------------------------------------------------------------- */
