@@ -37,8 +37,8 @@
 #   for more than the baseline, so what was built here runs anywhere.
 # - Everything is hidden unless a public header says otherwise: each header in include/pendres
 #   has `#pragma GCC visibility push(default)` after its includes and `pop` at its end.
-# - drivers/*.c and drivers/*/*.c except main.c make libdriver.a, and so do validation/*.c,
-#   what the program is measured against. They see the public headers alone.
+# - drivers/*.c and drivers/*/*.c except main.c make libdriver.a, and so do validation/*.c and
+#   tests/oracle/*.c, what the program is measured against. They see the public headers alone.
 # - tests/test_NAME.c are programs of their own, tests/NAME_check.sh scripts; both count.
 #   They run at the top of the tree, with RESONANCE naming the program to try.
 
@@ -173,7 +173,7 @@ LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c src/*/*/*
 RANKS := $(if $(filter-out 0,$(MPI)),mpi,serial)
 OTHER_RANKS := $(filter-out %_$(RANKS).c,$(wildcard drivers/farm/ranks_*.c))
 DRIVER_SOURCES := $(filter-out drivers/main.c $(OTHER_RANKS),$(wildcard drivers/*.c drivers/*/*.c)) \
-                  $(wildcard validation/*.c)
+                  $(wildcard validation/*.c tests/oracle/*.c)
 HEADERS := $(wildcard include/pendres/*.h)
 OBJ := $(BUILD)/obj
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(OBJ)/%.o) \
@@ -227,7 +227,7 @@ $(BUILD)/flags: ;
 # refused.
 ifneq ($(BUILDING),)
 SOURCES_SUM := $(shell cat $(sort $(HEADERS) $(wildcard src/*/*.[ch] src/*/*/*.[ch] \
-                 drivers/*.[ch] drivers/*/*.[ch] validation/*.[ch])) | cksum)
+                 drivers/*.[ch] drivers/*/*.[ch] validation/*.[ch] tests/oracle/*.[ch])) | cksum)
 ifneq ($(SOURCES_SUM),$(strip $(file <$(BUILD)/sources)))
 $(file >$(BUILD)/sources,$(SOURCES_SUM))
 endif
@@ -254,13 +254,13 @@ $(OBJ)/drivers/%.o: drivers/%.c $(BUILD)/flags
 	$(call COMPILE,-Idrivers $(THREADS) $(RANKS_CFLAGS))
 
 $(OBJ)/validation/%.o: validation/%.c $(BUILD)/flags
-	$(call COMPILE,-Idrivers -I. $(THREADS))
+	$(call COMPILE,-Idrivers -Itests -I. $(THREADS))
 
 $(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc -Idrivers -Itests -I. $(OPENMP),$(TERSE))
 
 $(OBJ)/bench/%.o: bench/%.c $(BUILD)/flags
-	$(call COMPILE,-Isrc -Idrivers -Ibench $(OPENMP),$(TERSE))
+	$(call COMPILE,-Isrc -Idrivers -Itests -Ibench $(OPENMP),$(TERSE))
 
 # Sanitizers watch the kernels of the plainest instruction set, which is the same source and which
 # the tests of kernels run beside the others. The others stay as they are released: watched, they

@@ -22,7 +22,7 @@
 #include <immintrin.h>
 #endif
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 #include <pendres/strobe.h>
 
 #include "engine/compat.h"
@@ -152,9 +152,9 @@ typedef struct ensemble {
 static void make_reference(ensemble *e)
 {
   for (size_t i = 0; i < MEMBERS; i++) {
-    pendres_reference_image image;
+    reference_image image;
     const long double y = (long double)start(i, MEMBERS) - 1.57079632679489661923132169163975L;
-    need_ok(pendres_reference_map(&pendulum, y, 0.0L, PERIODS, &image), "the reference");
+    need_ok(reference_map(&pendulum, y, 0.0L, PERIODS, &image), "the reference");
     e->x[i] = (double)(image.y + 6.28318530717958647692528676655901L * image.turns) + half_pi;
     e->v[i] = (double)image.v;
     e->counts[i] = 1;

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 #include <pendres/store.h>
 
 #include "langevin_fixture.h"

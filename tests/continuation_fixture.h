@@ -7,7 +7,7 @@
 
 #include <pendres/attractor.h>
 #include <pendres/continuation.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "check.h"
 

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 /* From (y, v) at drive phase 0, `periods` drive periods on: angle end_y + 2 pi turns.
    growth: largest entry of the monodromy matrix, by which errors of the start grow. */
@@ -165,7 +165,7 @@ static const golden_state golden_states[] = {
 };
 
 /* Closed orbits and their measures. */
-static const pendres_reference_cycle golden_orbits[] = {
+static const reference_cycle golden_orbits[] = {
   { /* SA */
     .damping = 0.06, .drive_amplitude = 0.2,
     .drive_frequency = 0.7,
@@ -602,7 +602,7 @@ static const pendres_reference_cycle golden_orbits[] = {
 
 /* Largest loop area over the drive frequency along a branch; not the edge where the
    branch of an ensemble changes. */
-static const pendres_reference_cycle golden_resonances[] = {
+static const reference_cycle golden_resonances[] = {
   { /* single */
     .damping = 0.24, .drive_amplitude = 0.2,
     .drive_frequency = 0.944172100077126768495L,
@@ -798,7 +798,7 @@ static const pendres_reference_cycle golden_resonances[] = {
 };
 
 /* Folds: the drive frequency at which a branch ends, Floquet multiplier +1. */
-static const pendres_reference_cycle golden_folds[] = {
+static const reference_cycle golden_folds[] = {
   { /* SA ends */
     .damping = 0.06, .drive_amplitude = 0.2,
     .drive_frequency = 0.829181874810109014774L,
@@ -1011,7 +1011,7 @@ static const pendres_reference_cycle golden_folds[] = {
 
 /* Large-amplitude branches of small damping do not fold: below these drive frequencies
    the symmetric orbit is unstable, and a stable pair of mirror images takes over. */
-static const pendres_reference_cycle golden_symmetry_breakings[] = {
+static const reference_cycle golden_symmetry_breakings[] = {
   { /* LA */
     .damping = 0.06, .drive_amplitude = 0.2,
     .drive_frequency = 0.553510822391448111814L,
@@ -1063,7 +1063,7 @@ static const pendres_reference_cycle golden_symmetry_breakings[] = {
 };
 
 /* Cusps: damping and drive frequency at which both folds meet. */
-static const pendres_reference_cycle golden_cusps[] = {
+static const reference_cycle golden_cusps[] = {
   { /* both folds meet */
     .damping = 0.0989761474893977546459L, .drive_amplitude = 0.1,
     .drive_frequency = 0.915627534184212599796L,

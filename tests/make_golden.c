@@ -17,13 +17,13 @@
  * their points 2e-17), 1e-19 (frequencies of resonances and folds), 3e-19 (frequencies and
  * dampings of cusps and symmetry breakings; points and measures of cusps 2e-16), 3e-15 (slopes).
  */
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-typedef pendres_reference_cycle cycle;
+typedef reference_cycle cycle;
 
 static void need(pendres_status status, const char *what)
 {
@@ -109,7 +109,7 @@ static const start states[] = {
   { 0.5, 1.35, 2.0 / 3.0, 0.2, 0.0, "Baker and Gollub, running" },
 };
 
-static long double growth(const pendres_reference_image *image)
+static long double growth(const reference_image *image)
 {
   long double largest = 0.0L;
   for (int i = 0; i < 4; i++)
@@ -128,8 +128,8 @@ static void print_states(void)
     const start *s = &states[i];
     const pendres_pendulum p = { s->damping, s->drive_amplitude, s->drive_frequency, 0.0 };
     for (long periods = 10; periods <= 100; periods *= 10) {
-      pendres_reference_image image;
-      need(pendres_reference_map(&p, s->y, s->v, periods, &image), s->comment);
+      reference_image image;
+      need(reference_map(&p, s->y, s->v, periods, &image), s->comment);
       printf("  { /* %s */\n    { ", s->comment);
       print_double("damping", p.damping);
       printf(", ");
@@ -193,23 +193,23 @@ static void settle(const settled *s, cycle *out)
   const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
   long double y = f->y, v = f->v;
   long turns = 0;
-  need(pendres_reference_advance(&p, &y, &v, &turns, 500), f->comment);
+  need(reference_advance(&p, &y, &v, &turns, 500), f->comment);
   const long before = turns;
   const long double from = y;
   long double end_y = y, end_v = v;
-  need(pendres_reference_advance(&p, &end_y, &end_v, &turns, s->period), f->comment);
+  need(reference_advance(&p, &end_y, &end_v, &turns, s->period), f->comment);
   const long winding = turns - before + lroundl((end_y - from) / 6.28L);
   if (labs(winding) != s->winding) {
     fprintf(stderr, "make_golden: %s: winding %ld\n", f->comment, winding);
     exit(1);
   }
-  need(pendres_reference_orbit(&p, y, v, s->period, winding, out), f->comment);
+  need(reference_orbit(&p, y, v, s->period, winding, out), f->comment);
 }
 
 static void print_orbits(void)
 {
   printf("/* Closed orbits and their measures. */\n"
-         "static const pendres_reference_cycle golden_orbits[] = {\n");
+         "static const reference_cycle golden_orbits[] = {\n");
   for (size_t i = 0; i < sizeof orbits / sizeof orbits[0]; i++) {
     cycle c;
     settle(&orbits[i], &c);
@@ -239,14 +239,14 @@ static void print_resonances(void)
 {
   printf("/* Largest loop area over the drive frequency along a branch; not the edge where the\n"
          "   branch of an ensemble changes. */\n"
-         "static const pendres_reference_cycle golden_resonances[] = {\n");
+         "static const reference_cycle golden_resonances[] = {\n");
   for (size_t i = 0; i < sizeof peaks / sizeof peaks[0]; i++) {
     const start *f = &peaks[i].from;
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
     settle(&peaks[i], &c);
-    need(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
-                                &(pendres_reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
+    need(reference_find(REFERENCE_RESONANCE, &p,
+                                &(reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
                                 &c), f->comment);
     print_cycle(f->comment, &c);
   }
@@ -264,7 +264,7 @@ static void follow(const settled *s, double step, cycle *at)
                                  (double)at->drive_frequency + step, 0.0 };
     cycle next;
     const pendres_status status =
-        pendres_reference_orbit(&p, at->y + step * at->state_slope[0],
+        reference_orbit(&p, at->y + step * at->state_slope[0],
                                 at->v + step * at->state_slope[1], 1, 0, &next);
     if (status != PENDRES_OK || hypotl(next.y - at->y, next.v - at->v) > 0.15L ||
         next.multiplier_re[0] > 1.0L)
@@ -297,14 +297,14 @@ static const struct {
 static void print_folds(void)
 {
   printf("/* Folds: the drive frequency at which a branch ends, Floquet multiplier +1. */\n"
-         "static const pendres_reference_cycle golden_folds[] = {\n");
+         "static const reference_cycle golden_folds[] = {\n");
   for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
     const start *f = &ends[i].from.from;
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
     follow(&ends[i].from, ends[i].step, &c);
-    need(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
-                                &(pendres_reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
+    need(reference_find(REFERENCE_FOLD, &p,
+                                &(reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
                                 &c), ends[i].comment);
     print_cycle(ends[i].comment, &c);
   }
@@ -321,14 +321,14 @@ static void print_symmetry_breakings(void)
 {
   printf("/* Large-amplitude branches of small damping do not fold: below these drive frequencies\n"
          "   the symmetric orbit is unstable, and a stable pair of mirror images takes over. */\n"
-         "static const pendres_reference_cycle golden_symmetry_breakings[] = {\n");
+         "static const reference_cycle golden_symmetry_breakings[] = {\n");
   for (size_t i = 0; i < sizeof symmetric / sizeof symmetric[0]; i++) {
     const start *f = &symmetric[i].from;
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
     follow(&symmetric[i], -0.01, &c);
-    need(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
-                                &(pendres_reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
+    need(reference_find(REFERENCE_SYMMETRY_BREAKING, &p,
+                                &(reference_guess){c.drive_frequency, c.y, c.v, 0.0L},
                                 &c), f->comment);
     print_cycle(f->comment, &c);
   }
@@ -342,13 +342,13 @@ static void print_cusps(void)
     { 0.164, 0.2, 0.855, 0.7, 0.7, "both folds meet" },
   };
   printf("/* Cusps: damping and drive frequency at which both folds meet. */\n"
-         "static const pendres_reference_cycle golden_cusps[] = {\n");
+         "static const reference_cycle golden_cusps[] = {\n");
   for (size_t i = 0; i < sizeof near / sizeof near[0]; i++) {
     const start *f = &near[i];
     const pendres_pendulum p = { f->damping, f->drive_amplitude, f->drive_frequency, 0.0 };
     cycle c;
-    need(pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
-                                &(pendres_reference_guess){f->drive_frequency, f->y, f->v,
+    need(reference_find(REFERENCE_CUSP, &p,
+                                &(reference_guess){f->drive_frequency, f->y, f->v,
                                                            f->damping},
                                 &c), f->comment);
     print_cycle(f->comment, &c);
@@ -380,8 +380,8 @@ static void print_shares(void)
       long double y = x - 1.57079632679489661923132169163975144L, v = 0.0L;
       long turns = 0;
       cycle c;
-      need(pendres_reference_advance(&p, &y, &v, &turns, 60), "share");
-      need(pendres_reference_orbit(&p, y, v, 1, 0, &c), "share");
+      need(reference_advance(&p, &y, &v, &turns, 60), "share");
+      need(reference_orbit(&p, y, v, 1, 0, &c), "share");
       if (hypotl(c.multiplier_re[0], c.multiplier_im[0]) > 1.0L ||
           hypotl(c.y - y, c.v - v) > 0.1L) {
         fprintf(stderr, "make_golden: member %d has not settled\n", k);
@@ -413,7 +413,7 @@ int main(void)
          " * of a 64 bit significand are given; how many are right is said in make_golden.c.\n"
          " */\n"
          "#ifndef GOLDEN_H\n#define GOLDEN_H\n\n#include <math.h>\n\n"
-         "#include <pendres/reference.h>\n\n");
+         "#include "oracle/reference.h"\n\n");
   print_states();
   print_orbits();
   print_resonances();

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include <pendres/phase_diagram.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "check.h"
 

@@ -7,10 +7,10 @@
 #include <float.h>
 #include <string.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "golden.h"
-#include "reference/taylor.h"
+#include "oracle/taylor.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 

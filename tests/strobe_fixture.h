@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "golden.h"
 

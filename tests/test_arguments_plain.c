@@ -109,8 +109,8 @@ static void models(void **state)
   pendres_harmonic harmonic;
   pendres_rotation rotation;
   pendres_rotation_onset onset;
-  pendres_reference_image image;
-  pendres_reference_cycle cycle;
+  reference_image image;
+  reference_cycle cycle;
   const char *why = NULL;
   (void)state;
   INVALID(pendres_pendulum_check(NULL, &why));
@@ -132,40 +132,40 @@ static void models(void **state)
   assert_true(pendres_units_of(NULL).length == 1.0 && pendres_units_of(NULL).time == 1.0);
   assert_false(pendres_pendulum_leaves(NULL));
   assert_false(pendres_pendulum_rotates(NULL));
-  INVALID(pendres_reference_advance(NULL, &y, &w, NULL, 1));
-  INVALID(pendres_reference_advance(&good, NULL, &w, NULL, 1));
-  INVALID(pendres_reference_advance(&good, &y, NULL, NULL, 1));
-  INVALID(pendres_reference_advance(&good, &y, &w, NULL, -1));
-  INVALID(pendres_reference_map(NULL, y, w, 1, &image));
-  INVALID(pendres_reference_map(&good, y, w, 1, NULL));
-  INVALID(pendres_reference_orbit(NULL, y, w, 1, 0, &cycle));
-  INVALID(pendres_reference_orbit(&good, y, w, 0, 0, &cycle));
-  assert_int_not_equal(pendres_reference_orbit(&good, y, w, 1, LONG_MIN, &cycle), PENDRES_OK);
-  INVALID(pendres_reference_orbit(&good, y, w, 1, 0, NULL));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, NULL,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, &cycle));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &good,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, NULL));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_FOLD, NULL,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, &cycle));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_FOLD, &good,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, NULL));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, NULL,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, &cycle));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &good,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.0L}, NULL));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_CUSP, NULL,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.1L}, &cycle));
-  INVALID(pendres_reference_find(PENDRES_REFERENCE_CUSP, &good,
-                                 &(pendres_reference_guess){0.8L, y, w, 0.1L}, NULL));
+  INVALID(reference_advance(NULL, &y, &w, NULL, 1));
+  INVALID(reference_advance(&good, NULL, &w, NULL, 1));
+  INVALID(reference_advance(&good, &y, NULL, NULL, 1));
+  INVALID(reference_advance(&good, &y, &w, NULL, -1));
+  INVALID(reference_map(NULL, y, w, 1, &image));
+  INVALID(reference_map(&good, y, w, 1, NULL));
+  INVALID(reference_orbit(NULL, y, w, 1, 0, &cycle));
+  INVALID(reference_orbit(&good, y, w, 0, 0, &cycle));
+  assert_int_not_equal(reference_orbit(&good, y, w, 1, LONG_MIN, &cycle), PENDRES_OK);
+  INVALID(reference_orbit(&good, y, w, 1, 0, NULL));
+  INVALID(reference_find(REFERENCE_RESONANCE, NULL,
+                                 &(reference_guess){0.8L, y, w, 0.0L}, &cycle));
+  INVALID(reference_find(REFERENCE_RESONANCE, &good,
+                                 &(reference_guess){0.8L, y, w, 0.0L}, NULL));
+  INVALID(reference_find(REFERENCE_FOLD, NULL,
+                                 &(reference_guess){0.8L, y, w, 0.0L}, &cycle));
+  INVALID(reference_find(REFERENCE_FOLD, &good,
+                                 &(reference_guess){0.8L, y, w, 0.0L}, NULL));
+  INVALID(reference_find(REFERENCE_SYMMETRY_BREAKING, NULL,
+                                 &(reference_guess){0.8L, y, w, 0.0L}, &cycle));
+  INVALID(reference_find(REFERENCE_SYMMETRY_BREAKING, &good,
+                                 &(reference_guess){0.8L, y, w, 0.0L}, NULL));
+  INVALID(reference_find(REFERENCE_CUSP, NULL,
+                                 &(reference_guess){0.8L, y, w, 0.1L}, &cycle));
+  INVALID(reference_find(REFERENCE_CUSP, &good,
+                                 &(reference_guess){0.8L, y, w, 0.1L}, NULL));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     INVALID(pendres_pendulum_check(&bad_pendulums[i], NULL));
     INVALID(pendres_harmonic_find(&bad_pendulums[i], &harmonic));
     INVALID(pendres_rotation_find(&bad_pendulums[i], &rotation, &why));
     if (i > 4) continue; /* the reference knows no temperature */
-    INVALID(pendres_reference_advance(&bad_pendulums[i], &y, &w, NULL, 1));
-    INVALID(pendres_reference_map(&bad_pendulums[i], y, w, 1, &image));
-    INVALID(pendres_reference_orbit(&bad_pendulums[i], y, w, 1, 0, &cycle));
+    INVALID(reference_advance(&bad_pendulums[i], &y, &w, NULL, 1));
+    INVALID(reference_map(&bad_pendulums[i], y, w, 1, &image));
+    INVALID(reference_orbit(&bad_pendulums[i], y, w, 1, 0, &cycle));
   }
   for (size_t i = 0; i < COUNT(bad_numbers); i++) {
     const double b = bad_numbers[i];
@@ -176,18 +176,18 @@ static void models(void **state)
     assert_true(isnan(pendres_free_frequency(b)));
     pendres_free_get(b, &free_one);
     assert_true(isnan(free_one.frequency_error));
-    INVALID(pendres_reference_advance(&good, &far, &w, NULL, 1));
-    INVALID(pendres_reference_map(&good, b, w, 1, &image));
-    INVALID(pendres_reference_orbit(&good, b, w, 1, 0, &cycle));
+    INVALID(reference_advance(&good, &far, &w, NULL, 1));
+    INVALID(reference_map(&good, b, w, 1, &image));
+    INVALID(reference_orbit(&good, b, w, 1, 0, &cycle));
     if (b > 0.0 && isfinite(b)) continue; /* such a frequency is found out on the way */
-    INVALID(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &good,
-                                   &(pendres_reference_guess){b, y, w, 0.0L}, &cycle));
-    INVALID(pendres_reference_find(PENDRES_REFERENCE_FOLD, &good,
-                                   &(pendres_reference_guess){b, y, w, 0.0L}, &cycle));
-    INVALID(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &good,
-                                   &(pendres_reference_guess){b, y, w, 0.0L}, &cycle));
-    INVALID(pendres_reference_find(PENDRES_REFERENCE_CUSP, &good,
-                                   &(pendres_reference_guess){b, y, w, 0.1L}, &cycle));
+    INVALID(reference_find(REFERENCE_RESONANCE, &good,
+                                   &(reference_guess){b, y, w, 0.0L}, &cycle));
+    INVALID(reference_find(REFERENCE_FOLD, &good,
+                                   &(reference_guess){b, y, w, 0.0L}, &cycle));
+    INVALID(reference_find(REFERENCE_SYMMETRY_BREAKING, &good,
+                                   &(reference_guess){b, y, w, 0.0L}, &cycle));
+    INVALID(reference_find(REFERENCE_CUSP, &good,
+                                   &(reference_guess){b, y, w, 0.1L}, &cycle));
   }
   assert_int_equal(wrong, 0);
 }

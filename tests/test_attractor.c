@@ -238,7 +238,7 @@ static void known_attractors(void **state)
 /* Just beyond a fold pendulums linger at its ghost, but only they, and they are not guessed. */
 static void ghost_of_a_fold(void **state)
 {
-  const pendres_reference_cycle *fold = &golden_folds[0];
+  const reference_cycle *fold = &golden_folds[0];
   pendres_cost cost;
   static const double beyond[] = {1e-3, 1e-4, 1e-5};
   for (int k = 0; k < 3; k++) {

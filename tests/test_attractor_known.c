@@ -119,12 +119,12 @@ static double reference_exponent(const pendres_pendulum *p, long periods, double
   enum { PARTS = 20 };
   long double y = 0.3L, v = 0.1L;
   double u[2] = {1.0, 0.0}, part[PARTS], mean = 0.0, squares = 0.0;
-  check_ok(pendres_reference_advance(p, &y, &v, NULL, 50));
+  check_ok(reference_advance(p, &y, &v, NULL, 50));
   for (int i = 0; i < PARTS; i++) {
     part[i] = 0.0;
     for (long k = 0; k < periods / PARTS; k++) {
-      pendres_reference_image m;
-      check_ok(pendres_reference_map(p, y, v, 1, &m));
+      reference_image m;
+      check_ok(reference_map(p, y, v, 1, &m));
       const double a = (double)m.monodromy[0][0] * u[0] + (double)m.monodromy[0][1] * u[1];
       const double b = (double)m.monodromy[1][0] * u[0] + (double)m.monodromy[1][1] * u[1];
       const double length = hypot(a, b);

@@ -4,7 +4,7 @@
  */
 #include "basin_fixture.h"
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "analysis/basins/uncertainty.h"
 
@@ -158,7 +158,7 @@ static void against_the_reference(void **state)
     const size_t k = (size_t)(next_random(&z) * N * N);
     long double y = (long double)p.x[k / N] - (long double)(0.5 * pi), v = p.v[k % N];
     long turns = 0;
-    check_ok(pendres_reference_advance(&fig7, &y, &v, &turns, 100));
+    check_ok(reference_advance(&fig7, &y, &v, &turns, 100));
     /* exp(-0.06 * 800) = 1e-21: what is left is the error of the orbit itself. */
     const pendres_orbit *o = &pendres_attractors_get(p.set, (size_t)p.state[k].attractor)->orbit;
     double dx = (double)y + 0.5 * pi - o->x;

@@ -4,7 +4,7 @@
  */
 #include "basin_fixture.h"
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 /* ---- refinement ---- */
 

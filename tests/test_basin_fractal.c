@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 /*
  * The pendulum of Daza, Wagemakers, Sanjuán and Yorke, Scientific Reports 5 (2015) 16579: damping
@@ -61,9 +61,9 @@ static int fate_by_reference(double x, double v)
 {
   long double y = (long double)x - (long double)(0.5 * pi), w = v;
   long turns = 0, before = 0;
-  check_ok(pendres_reference_advance(&wada, &y, &w, &turns, 120));
+  check_ok(reference_advance(&wada, &y, &w, &turns, 120));
   before = turns;
-  check_ok(pendres_reference_advance(&wada, &y, &w, &turns, 20));
+  check_ok(reference_advance(&wada, &y, &w, &turns, 20));
   return turns - before > 10 ? 1 : turns - before < -10 ? -1 : 0;
 }
 

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "analysis/basins/uncertainty.h"
 #include "engine/context_internal.h"
@@ -378,7 +378,7 @@ static void wells_by_reference(void **state)
     long double y = (long double)x[i] - 1.57079632679489661923132169163975144L, w = v[i];
     long turns = 0;
     if (!outcome[i].certain) continue;
-    check_ok(pendres_reference_advance(&p, &y, &w, &turns, PERIODS));
+    check_ok(reference_advance(&p, &y, &w, &turns, PERIODS));
     assert_int_equal(outcome[i].well, turns);
     compared++;
   }

@@ -8,7 +8,7 @@
 
 #include <pendres/attractor.h>
 #include <pendres/boundary.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "analysis/basins/boundary_grow.h"
 #include "check.h"
@@ -48,9 +48,9 @@ static void saddle_matches_reference(void **state)
 {
   fixture *f = *state;
   const pendres_orbit *s = &f->saddle;
-  pendres_reference_cycle want;
+  reference_cycle want;
   assert_int_equal(pendres_attractors_count(f->found), 2);
-  check_ok(pendres_reference_orbit(&s->pendulum, s->x - half_pi, s->v, 1, 0, &want));
+  check_ok(reference_orbit(&s->pendulum, s->x - half_pi, s->v, 1, 0, &want));
   check_near(s->x - half_pi, (double)want.y, 2.0 * s->x_error);
   check_near(s->v, (double)want.v, 2.0 * s->v_error);
   check_near(s->multiplier_re[0], (double)want.multiplier_re[0], 2.0 * s->multiplier_error);

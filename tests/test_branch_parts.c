@@ -4,7 +4,7 @@
  * whether a point of it is stable. And errors of their points are not those of larger orbits.
  */
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "context_fixture.h"
 
@@ -106,8 +106,8 @@ static void errors_of_small_orbits_are_small(void **state)
   assert_true(pendres_branch_count(b) > 10);
   for (size_t i = 0; i < pendres_branch_count(b); i++) {
     const pendres_orbit *o = &pendres_branch_get(b, i)->orbit;
-    pendres_reference_cycle c;
-    check_ok(pendres_reference_orbit(&o->pendulum, o->x, o->v, 1, 0, &c));
+    reference_cycle c;
+    check_ok(reference_orbit(&o->pendulum, o->x, o->v, 1, 0, &c));
     check_near(o->amplitude, (double)c.amplitude, o->amplitude_error);
     assert_true(o->amplitude_error < 1e-7 * o->amplitude);
   }

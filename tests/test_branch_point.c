@@ -220,9 +220,9 @@ static double squares_at(pendres_context *ctx, const pendres_branch *b,
   check_ok(pendres_branch_cross(ctx, b, f->value - off, MOST, orbit, &n));
   for (size_t i = 0; i < n && i < MOST; i++) {
     if (hypot(orbit[i].x - f->orbit.x, orbit[i].v - f->orbit.v) > 0.05) continue;
-    pendres_reference_cycle c;
+    reference_cycle c;
     check_ok(
-      pendres_reference_orbit(&orbit[i].pendulum, orbit[i].x, orbit[i].v, 1, 0, &c));
+      reference_orbit(&orbit[i].pendulum, orbit[i].x, orbit[i].v, 1, 0, &c));
     const double excess = (double)(c.multiplier_re[0] - 1.0L);
     sum += excess * excess;
     used++;

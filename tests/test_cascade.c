@@ -6,7 +6,7 @@
 
 #include <pendres/attractor.h>
 #include <pendres/cascade.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 #include <pendres/strobe.h>
 
 #include "analysis/sweeps/stable_part.h"
@@ -29,9 +29,9 @@ static pendres_orbit orbit_at(pendres_context *ctx, const pendres_pendulum *p)
 /* The multiplier furthest from 0 of the orbit near a point, by the reference. */
 static double multiplier(pendres_pendulum p, double drive, double x, double v, int period)
 {
-  pendres_reference_cycle c;
+  reference_cycle c;
   p.drive_amplitude = drive;
-  check_ok(pendres_reference_orbit(&p, x - 0.5 * 3.14159265358979323846L, v, period, 0, &c));
+  check_ok(reference_orbit(&p, x - 0.5 * 3.14159265358979323846L, v, period, 0, &c));
   return (double)c.multiplier_re[0];
 }
 

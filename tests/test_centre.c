@@ -172,10 +172,10 @@ static const pendres_bifurcation *breaking_of(const pendres_branch *b)
 /* The larger multiplier, less 1, of an orbit of period 1, by the reference. */
 static double excess(const pendres_bifurcation *at, double drive)
 {
-  pendres_reference_cycle c;
+  reference_cycle c;
   pendres_pendulum p = at->orbit.pendulum;
   p.drive_amplitude = drive;
-  check_ok(pendres_reference_orbit(&p, at->orbit.x, at->orbit.v, 1, 0, &c));
+  check_ok(reference_orbit(&p, at->orbit.x, at->orbit.v, 1, 0, &c));
   return (double)(c.multiplier_re[0] - 1.0L);
 }
 

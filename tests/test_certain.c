@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "engine/context_internal.h"
 #include "engine/steps.h"
@@ -40,7 +40,7 @@ static int true_attractor(const pendres_pendulum *p, double x, double v,
   long double y = (long double)x - half_pi, w = v;
   long turns = 0;
   for (int k = 0; k < 300; k++) {
-    check_ok(pendres_reference_advance(p, &y, &w, &turns, 1));
+    check_ok(reference_advance(p, &y, &w, &turns, 1));
     for (size_t i = 0; i < pendres_attractors_count(set); i++) {
       const pendres_orbit *o = &pendres_attractors_get(set, i)->orbit;
       const double dy = (double)(y + half_pi) - o->x;
@@ -77,10 +77,10 @@ static void growth(void **state)
       pendres_strobe_lane lane = {.pendulum = &fractal, .y = start[i][0] - 0.5 * pi,
                                   .w = start[i][1] / fractal.drive_frequency,
                                   .added = 1e-300, .off = {.yy = 1.0, .ww = 1.0}};
-      pendres_reference_image image;
+      reference_image image;
       check_ok(pendres_steps_choose(ctx, &fractal, 1.0, 1e-7, &lane.steps));
       check_ok(pendres_strobe_run(ctx, 1, &lane, enough, &(watched){periods}));
-      check_ok(pendres_reference_map(&fractal, (long double)start[i][0] - half_pi, start[i][1],
+      check_ok(reference_map(&fractal, (long double)start[i][0] - half_pi, start[i][1],
                                      periods, &image));
       const double omega = fractal.drive_frequency;
       double grown = 0.0;

@@ -95,9 +95,9 @@ static void branch_crosses_at_three_orbits(void **state)
   check_ok(pendres_branch_cross(ctx, b, 0.8, 4, there, &found));
   assert_int_equal(found, 3);
   for (size_t i = 0; i < 3; i++) {
-    pendres_reference_cycle want;
+    reference_cycle want;
     assert_int_equal(there[i].stable, i != 1);
-    check_ok(pendres_reference_orbit(&there[i].pendulum, there[i].x - half_pi, there[i].v, 1, 0,
+    check_ok(reference_orbit(&there[i].pendulum, there[i].x - half_pi, there[i].v, 1, 0,
                                      &want));
     check_near(there[i].amplitude, (double)want.amplitude, there[i].amplitude_error);
     check_near(there[i].multiplier_re[0], (double)want.multiplier_re[0],
@@ -138,8 +138,8 @@ static void rounding_grows_within_a_period(void **state)
   assert_true(n >= 5);
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit *o = &pendres_branch_get(b, i)->orbit;
-    pendres_reference_cycle want;
-    check_ok(pendres_reference_orbit(&o->pendulum, o->x - half_pi, o->v, 1, 0, &want));
+    reference_cycle want;
+    check_ok(reference_orbit(&o->pendulum, o->x - half_pi, o->v, 1, 0, &want));
     check_near(o->phase_lag, (double)want.phase_lag, o->phase_lag_error);
     check_near(o->amplitude, (double)want.amplitude, o->amplitude_error);
     check_near(o->loop_area, (double)want.loop_area, o->loop_area_error);
@@ -202,9 +202,9 @@ static void symmetry_breaks_and_period_doubles(void **state)
   assert_int_equal(pendres_branch_bifurcation_count(b), 1);
   const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, 0);
   assert_int_equal(at->kind, PENDRES_SYMMETRY_BREAKING);
-  pendres_reference_cycle want;
-  check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &la.pendulum,
-                                  &(pendres_reference_guess){at->value, at->orbit.x - half_pi,
+  reference_cycle want;
+  check_ok(reference_find(REFERENCE_SYMMETRY_BREAKING, &la.pendulum,
+                                  &(reference_guess){at->value, at->orbit.x - half_pi,
                                                              at->orbit.v, 0.0L},
                                   &want));
   check_near(at->value, (double)want.drive_frequency, fair * at->value_error);
@@ -230,7 +230,7 @@ static void symmetry_breaks_and_period_doubles(void **state)
   check_near(first->value, last->value, first->value_error + last->value_error);
   pendres_pendulum p = la.pendulum;
   p.drive_frequency = first->value;
-  check_ok(pendres_reference_orbit(&p, first->orbit.x - half_pi, first->orbit.v, 1, 0, &want));
+  check_ok(reference_orbit(&p, first->orbit.x - half_pi, first->orbit.v, 1, 0, &want));
   /* d multiplier / d frequency is some hundreds here. */
   check_near((double)want.multiplier_re[0], -1.0, 1e-6);
   pendres_orbit doubled;
@@ -303,9 +303,9 @@ static void running_orbits_make_an_isola(void **state)
     folds++;
     low = fmin(low, f->value);
     high = fmax(high, f->value);
-    pendres_reference_image want;
+    reference_image want;
     const long double y = f->orbit.x - half_pi, v = f->orbit.v;
-    check_ok(pendres_reference_map(&f->orbit.pendulum, y, v, 1, &want));
+    check_ok(reference_map(&f->orbit.pendulum, y, v, 1, &want));
     /* It closes, but for a turn, and det(M - I) = 0; both to the tolerance times the derivatives,
        which are below 100. */
     const double turn = fabs((double)(want.y - y)) / (2.0 * pi);
@@ -355,9 +355,9 @@ static void ensemble_finds_the_branch_born_away(void **state)
   assert_int_equal(pendres_branch_bifurcation_get(away, 0)->kind, PENDRES_SYMMETRY_BREAKING);
   const pendres_bifurcation *f = pendres_branch_bifurcation_get(away, 1);
   assert_int_equal(f->kind, PENDRES_FOLD);
-  pendres_reference_cycle want;
-  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &f->orbit.pendulum,
-                                  &(pendres_reference_guess){f->value, f->orbit.x - half_pi,
+  reference_cycle want;
+  check_ok(reference_find(REFERENCE_FOLD, &f->orbit.pendulum,
+                                  &(reference_guess){f->value, f->orbit.x - half_pi,
                                                              f->orbit.v, 0.0L},
                                   &want));
   check_near(f->value, (double)want.drive_frequency, fair * f->value_error);
@@ -380,7 +380,7 @@ static void branches_start_at_folds(void **state)
   pendres_curve *c = NULL;
   pendres_branch *b = NULL;
   pendres_bifurcation at[4];
-  pendres_reference_cycle want;
+  reference_cycle want;
   size_t found = 0;
   check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
   check_ok(pendres_curve_follow(ctx, &fold, &wide, &c));
@@ -391,8 +391,8 @@ static void branches_start_at_folds(void **state)
   const pendres_bifurcation *end = pendres_branch_bifurcation_get(b, 0);
   const pendres_bifurcation *again = pendres_branch_bifurcation_get(b, 1);
   assert_int_equal(end->kind, PENDRES_SYMMETRY_BREAKING);
-  check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &end->orbit.pendulum,
-                                  &(pendres_reference_guess){end->value, end->orbit.x - half_pi,
+  check_ok(reference_find(REFERENCE_SYMMETRY_BREAKING, &end->orbit.pendulum,
+                                  &(reference_guess){end->value, end->orbit.x - half_pi,
                                                              end->orbit.v, 0.0L},
                                   &want));
   check_near(end->value, (double)want.drive_frequency, fair * end->value_error);

@@ -17,12 +17,12 @@ static void a_fold_is_not_known_better_than_its_point(void **state)
   pendres_orbit near;
   pendres_status outcome;
   pendres_fold fold;
-  pendres_reference_cycle want;
+  reference_cycle want;
   check_ok(pendres_orbit_find(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &near, &outcome));
   check_ok(outcome);
   check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
-  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &near.pendulum,
-                                  &(pendres_reference_guess){fold.value, fold.orbit.x - half_pi,
+  check_ok(reference_find(REFERENCE_FOLD, &near.pendulum,
+                                  &(reference_guess){fold.value, fold.orbit.x - half_pi,
                                                              fold.orbit.v, 0.0L},
                                   &want));
   check_near(fold.value, (double)want.drive_frequency, fair * fold.value_error);
@@ -43,11 +43,11 @@ static void folds_match_reference(void **state)
     const pendres_orbit near =
       orbit_of(ctx, cases[i].damping, cases[i].drive, cases[i].frequency, cases[i].which);
     pendres_fold fold;
-    pendres_reference_cycle want;
+    reference_cycle want;
     check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
     assert_int_equal(fold.kind, PENDRES_FOLD);
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &near.pendulum,
-                                    &(pendres_reference_guess){fold.value, fold.orbit.x - half_pi,
+    check_ok(reference_find(REFERENCE_FOLD, &near.pendulum,
+                                    &(reference_guess){fold.value, fold.orbit.x - half_pi,
                                                                fold.orbit.v, 0.0L},
                                     &want));
     const pendres_orbit *o = &fold.orbit;
@@ -107,11 +107,11 @@ static void cusps_match_reference(void **state)
       orbit_of(ctx, cases[i].damping, cases[i].drive, cases[i].frequency, 0);
     pendres_fold fold;
     pendres_cusp cusp;
-    pendres_reference_cycle want;
+    reference_cycle want;
     check_ok(pendres_fold_find(ctx, &near, PENDRES_DRIVE_FREQUENCY, &fold));
     check_ok(pendres_cusp_find(ctx, &fold, PENDRES_DAMPING, &cusp));
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_CUSP, &near.pendulum,
-                                    &(pendres_reference_guess){cusp.value[0],
+    check_ok(reference_find(REFERENCE_CUSP, &near.pendulum,
+                                    &(reference_guess){cusp.value[0],
                                                                cusp.orbit.x - half_pi, cusp.orbit.v,
                                                                cusp.value[1]},
                                     &want));
@@ -186,9 +186,9 @@ static void fold_curve_passes_the_cusp(void **state)
     check_ok(pendres_curve_cross(ctx, c, dampings[i], 4, at, &found));
     assert_int_equal(found, expected[i]);
     for (size_t k = 0; k < found; k++) {
-      pendres_reference_cycle want;
-      check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &at[k].orbit.pendulum,
-                                      &(pendres_reference_guess){at[k].value,
+      reference_cycle want;
+      check_ok(reference_find(REFERENCE_FOLD, &at[k].orbit.pendulum,
+                                      &(reference_guess){at[k].value,
                                                                  at[k].orbit.x - half_pi,
                                                                  at[k].orbit.v, 0.0L},
                                       &want));
@@ -225,9 +225,9 @@ static void a_turn_of_a_curve_has_both_sides(void **state)
     const double apart = at[1].value - at[0].value;
     check_relative(apart * apart, 13.68 * (above[i] - 0.12228751823), 0.02);
     for (int k = 0; k < 2; k++) {
-      pendres_reference_cycle want;
-      check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &at[k].orbit.pendulum,
-                                      &(pendres_reference_guess){at[k].value,
+      reference_cycle want;
+      check_ok(reference_find(REFERENCE_FOLD, &at[k].orbit.pendulum,
+                                      &(reference_guess){at[k].value,
                                                                  at[k].orbit.x - half_pi,
                                                                  at[k].orbit.v, 0.0L},
                                       &want));
@@ -260,9 +260,9 @@ static void symmetry_breakings_follow_parameters(void **state)
   assert_true(n >= 3);
   for (size_t i = 0; i < n; i += n - 1) {
     const pendres_curve_point *p = pendres_curve_get(c, i);
-    pendres_reference_cycle want;
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p->orbit.pendulum,
-                                    &(pendres_reference_guess){p->value[0], p->orbit.x - half_pi,
+    reference_cycle want;
+    check_ok(reference_find(REFERENCE_SYMMETRY_BREAKING, &p->orbit.pendulum,
+                                    &(reference_guess){p->value[0], p->orbit.x - half_pi,
                                                                p->orbit.v, 0.0L},
                                     &want));
     check_near(p->value[0], (double)want.drive_frequency, 2e-8);
@@ -313,9 +313,9 @@ static void backbone_lags_by_a_quarter(void **state)
   pendres_status outcome[4];
   check_ok(pendres_backbone_find(ctx, 4, p, o, error, outcome));
   for (int i = 0; i < 3; i++) {
-    pendres_reference_cycle want;
+    reference_cycle want;
     assert_int_equal(outcome[i], PENDRES_OK);
-    check_ok(pendres_reference_orbit(&o[i].pendulum, o[i].x - half_pi, o[i].v, 1, 0, &want));
+    check_ok(reference_orbit(&o[i].pendulum, o[i].x - half_pi, o[i].v, 1, 0, &want));
     /* The lag falls off pi/2 by at most its slope, here below 20, times the frequency's error. */
     check_near((double)want.phase_lag, half_pi, 20.0 * error[i] + o[i].phase_lag_error);
   }
@@ -350,11 +350,11 @@ static void backbone_of_any_force(void **state)
   }
   check_ok(pendres_backbone_find(ctx, 2 * COUNT, one, o, error, outcome));
   for (size_t i = 0; i < 2 * COUNT; i++) {
-    pendres_reference_cycle want;
+    reference_cycle want;
     const double origin = one[i].force == PENDRES_FORCE_PENDULUM ? half_pi : 0.0;
     check_ok(outcome[i]);
     assert_true(error[i] <= 1e-9);
-    check_ok(pendres_reference_orbit(&o[i].pendulum, o[i].x - origin, o[i].v, 1, 0, &want));
+    check_ok(reference_orbit(&o[i].pendulum, o[i].x - origin, o[i].v, 1, 0, &want));
     /* The slope of the lag is below 20 at these dampings; the claims of x are not those of lags. */
     check_near((double)want.phase_lag, half_pi, 20.0 * error[i] + o[i].phase_lag_error);
     check_near((double)want.loop_area, o[i].loop_area, 2.0 * o[i].loop_area_error);

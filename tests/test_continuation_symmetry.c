@@ -10,7 +10,7 @@
 
 #include <pendres/attractor.h>
 #include <pendres/continuation.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "branch_fixture.h"
 #include "continuation/branch.h"
@@ -56,9 +56,9 @@ static const pendres_bifurcation *the(const pendres_branch *b, pendres_special k
 /* Larger multiplier, less 1, of the period-3 orbit at a frequency, by the reference. */
 static double excess(pendres_pendulum p, double frequency, double x, double v)
 {
-  pendres_reference_cycle c;
+  reference_cycle c;
   p.drive_frequency = frequency;
-  check_ok(pendres_reference_orbit(&p, x - half_pi, v, 3, 0, &c));
+  check_ok(reference_orbit(&p, x - half_pi, v, 3, 0, &c));
   return (double)(c.multiplier_re[0] - 1.0L);
 }
 
@@ -183,9 +183,9 @@ static void orbits_next_to_a_fold_know_their_errors(void **state)
     pendres_branch *b = followed(ctx, &start, 0.668, 0.68);
     for (size_t k = 0; k < pendres_branch_count(b); k++) {
       const pendres_orbit *o = &pendres_branch_get(b, k)->orbit;
-      pendres_reference_cycle c;
+      reference_cycle c;
       if (pendres_branch_get(b, k)->bifurcation >= 0) continue;
-      if (pendres_reference_orbit(&o->pendulum, o->x - half_pi, o->v, 3, 0, &c) != PENDRES_OK ||
+      if (reference_orbit(&o->pendulum, o->x - half_pi, o->v, 3, 0, &c) != PENDRES_OK ||
           fabs((double)c.y - (o->x - half_pi)) > 1e-3)
         continue; /* right at the fold the reference finds none, or the other */
       check_near(o->x - half_pi, (double)c.y, 2.0 * o->x_error);
@@ -255,9 +255,9 @@ static void what_cancels_by_right(void **state)
     pendres_branch *b = followed(ctx, &la, 0.45, 0.79);
     const pendres_bifurcation *at = the(b, PENDRES_SYMMETRY_BREAKING);
     if (k == 0) {
-      pendres_reference_cycle want;
-      check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
-                                      &(pendres_reference_guess){at->value, at->orbit.x - half_pi,
+      reference_cycle want;
+      check_ok(reference_find(REFERENCE_SYMMETRY_BREAKING, &p,
+                                      &(reference_guess){at->value, at->orbit.x - half_pi,
                                                                  at->orbit.v, 0.0L},
                                       &want));
       check_near(at->value, (double)want.drive_frequency, at->value_error);

@@ -11,7 +11,7 @@
 
 #include <pendres/cascade.h>
 #include <pendres/hysteresis.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "context_fixture.h"
 
@@ -139,7 +139,7 @@ static void chaos_ends_where_doublings_accumulate(void **state)
    the fold of these is the end, and the doubling comes after it. */
 static void chaos_ends_in_a_window(void **state)
 {
-  pendres_reference_cycle cycle;
+  reference_cycle cycle;
   pendres_hysteresis *h = from_to(*state, 0.643, 0.6423);
   const pendres_orbit *o = &pendres_hysteresis_get(h, 1)->attractor.orbit;
   assert_int_equal(pendres_hysteresis_jump_count(h), 2);
@@ -152,13 +152,13 @@ static void chaos_ends_in_a_window(void **state)
   for (int k = 0; k <= 40; k++) {
     p.drive_frequency = j->value + (o->pendulum.drive_frequency - j->value) *
                                      (k < 40 ? pow(0.6, k) : 0.0) - 1e-9;
-    check_ok(pendres_reference_orbit(&p, y, v, 3, o->winding * 3 / o->period, &cycle));
+    check_ok(reference_orbit(&p, y, v, 3, o->winding * 3 / o->period, &cycle));
     y = cycle.y;
     v = cycle.v;
   }
   p.drive_frequency = j->value + 1e-9;
   const pendres_status beyond =
-    pendres_reference_orbit(&p, y, v, 3, o->winding * 3 / o->period, &cycle);
+    reference_orbit(&p, y, v, 3, o->winding * 3 / o->period, &cycle);
   assert_true(beyond != PENDRES_OK || fabs((double)(cycle.y - y)) > 0.01);
   pendres_hysteresis_free(h);
 }

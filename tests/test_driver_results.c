@@ -6,7 +6,7 @@
 #include "same_results.h"
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 #include <pendres/store.h>
 
 static void test_run(void **state)
@@ -70,7 +70,7 @@ static void test_orbit(void **state)
   enum { N = 4 * 256 };
   const pendres_pendulum p = { 0.12, 0.2, 6.28318530717958647693 / 8, 0.0 };
   const double half_pi = 1.57079632679489661923;
-  pendres_reference_cycle cycle;
+  reference_cycle cycle;
   double x[N], v[N], x_error[N], v_error[N];
   (void)state;
   check_code(RUN("-q", "orbit.nml"), DONE);
@@ -78,7 +78,7 @@ static void test_orbit(void **state)
   read_all("orbit.h5", "v", v, N);
   read_all("orbit.h5", "x_error", x_error, N);
   read_all("orbit.h5", "v_error", v_error, N);
-  check_ok(pendres_reference_orbit(&p, x[0] - half_pi, v[0], 1, 0, &cycle));
+  check_ok(reference_orbit(&p, x[0] - half_pi, v[0], 1, 0, &cycle));
   for (int k = 0; k < N; k += 256) {
     check_near(x[k], (double)cycle.y + half_pi, 10.0 * x_error[k]);
     check_near(v[k], (double)cycle.v, 10.0 * v_error[k]);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "engine/context_internal.h"
 #include "engine/block.h"
@@ -39,8 +39,8 @@ static void example(size_t i, pendres_pendulum *p, double *y, double *v)
 static void expected(const pendres_pendulum *p, double y, double v, double rows[MOST_ROWS])
 {
   const long double omega = p->drive_frequency, w = v / omega;
-  pendres_reference_image to;
-  check_ok(pendres_reference_map(p, y, v, 1, &to));
+  reference_image to;
+  check_ok(reference_map(p, y, v, 1, &to));
   const long double angle = to.y + 6.283185307179586476925287L * (long double)to.turns;
   rows[0] = (double)angle;
   rows[1] = (double)(to.v / omega);
@@ -302,7 +302,7 @@ static void test_methods_against_reference(void **state)
       for (size_t i = 0; i < LANES; i++) {
         long double y = start[i], w = speed[i];
         long turns = 0;
-        check_ok(pendres_reference_advance(&p[i], &y, &w, &turns, 5));
+        check_ok(reference_advance(&p[i], &y, &w, &turns, 5));
         const double angle = (double)(y + 6.283185307179586476925287L * (long double)turns);
         const double off = fmax(fabs(x[i] - half_pi - angle), fabs(v[i] - (double)w));
         check_near(off, 0.0, 1e4 * tolerance);

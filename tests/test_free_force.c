@@ -164,7 +164,7 @@ static void check_comes_back(pendres_pendulum p, double amplitude, double most_f
   long double y = (long double)s.high - origin, v = 0.0L;
   const long double start = y;
   p.drive_frequency = s.frequency;
-  check_ok(pendres_reference_advance(&p, &y, &v, NULL, 1));
+  check_ok(reference_advance(&p, &y, &v, NULL, 1));
   /* A velocity by the time that is missed, which grows at the rate of the force there; and
      the rounding of the turning point, by which the period of another swing is meant. */
   const double period = (4.0 * half_pi) / s.frequency;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "engine/tables.h"
 #include "golden.h"
@@ -31,7 +31,7 @@ static pendres_orbit *golden_refined(pendres_context *ctx, size_t *count)
   pendres_status *outcome = calloc(n, sizeof *outcome);
   assert_true(guess != NULL && orbit != NULL && outcome != NULL);
   for (size_t i = 0; i < n; i++) {
-    const pendres_reference_cycle *g = &golden_orbits[i];
+    const reference_cycle *g = &golden_orbits[i];
     guess[i] = (pendres_orbit_guess){
       .pendulum = {.damping = (double)g->damping, .drive_amplitude = (double)g->drive_amplitude,
                    .drive_frequency = (double)g->drive_frequency},
@@ -53,7 +53,7 @@ static double nearest_turn(double x, double to)
 }
 
 /* Strobe point and loop area against the reference, within ten times what is claimed. */
-static void check_point(const pendres_orbit *o, const pendres_reference_cycle *g)
+static void check_point(const pendres_orbit *o, const reference_cycle *g)
 {
   const double x = (double)g->y + half_pi;
   check_near(nearest_turn(o->x, x), x, 10.0 * o->x_error);
@@ -74,7 +74,7 @@ static void honest_against_reference(void **state)
     size_t n = 0;
     pendres_orbit *orbit = golden_refined(ctx, &n);
     for (size_t i = 0; i < n; i++) {
-      const pendres_reference_cycle *g = &golden_orbits[i];
+      const reference_cycle *g = &golden_orbits[i];
       const pendres_orbit *o = &orbit[i];
       check_point(o, g);
       check_near(o->dissipation, (double)g->dissipation, 10.0 * o->dissipation_error);
@@ -104,7 +104,7 @@ static void honest_on_a_lattice(void **state)
   static const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10};
   enum { SIDE = 7, FOUND = sizeof found / sizeof found[0], ALL = SIDE * SIDE + FOUND };
   pendres_orbit_guess guess[ALL];
-  pendres_reference_cycle exact[ALL];
+  reference_cycle exact[ALL];
   pendres_orbit orbit[ALL];
   pendres_status outcome[ALL];
   (void)state;
@@ -117,8 +117,8 @@ static void honest_on_a_lattice(void **state)
                              .drive_amplitude = found[i - SIDE * SIDE][1],
                              .drive_frequency = found[i - SIDE * SIDE][2]};
     long double y = 0.0L, v = 0.0L;
-    check_ok(pendres_reference_advance(&p, &y, &v, NULL, 100));
-    check_ok(pendres_reference_orbit(&p, y, v, 1, 0, &exact[i]));
+    check_ok(reference_advance(&p, &y, &v, NULL, 100));
+    check_ok(reference_orbit(&p, y, v, 1, 0, &exact[i]));
     guess[i] = (pendres_orbit_guess){.pendulum = p, .x = (double)exact[i].y + half_pi + 1e-3,
                                      .v = (double)exact[i].v, .period = 1};
   }
@@ -126,7 +126,7 @@ static void honest_on_a_lattice(void **state)
     pendres_context *ctx = context_with(tolerances[t]);
     check_ok(pendres_orbit_find(ctx, ALL, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome));
     for (int i = 0; i < ALL; i++) {
-      const pendres_reference_cycle *e = &exact[i];
+      const reference_cycle *e = &exact[i];
       const pendres_orbit *o = &orbit[i];
       check_near(o->x, (double)e->y + half_pi, 10.0 * o->x_error);
       check_near(o->v, (double)e->v, 10.0 * o->v_error);
@@ -245,8 +245,8 @@ enum { TOLERANCES = 4 };
 /* The orbits next to a fold by each tolerance, guessed at g, against the exact one (NULL: gone). */
 static void check_next_to_fold(pendres_context *const ctx[TOLERANCES],
                                const pendres_orbit_guess *g,
-                               const pendres_reference_cycle *fold,
-                               const pendres_reference_cycle *exact)
+                               const reference_cycle *fold,
+                               const reference_cycle *exact)
 {
   for (int t = 0; t < TOLERANCES; t++) {
     pendres_orbit o;
@@ -276,17 +276,17 @@ static void no_ghosts(void **state)
   (void)state;
   for (int t = 0; t < TOLERANCES; t++) ctx[t] = context_with(tolerances[t]);
   for (size_t k = 0; k < sizeof golden_folds / sizeof golden_folds[0]; k += 3) {
-    const pendres_reference_cycle *fold = &golden_folds[k];
+    const reference_cycle *fold = &golden_folds[k];
     for (double off = 1e-3; off > 0.5e-12; off *= 0.1)
       for (int side = -1; side <= 1; side += 2) {
         pendres_orbit_guess g = {.x = (double)fold->y + half_pi, .v = (double)fold->v, .period = 1,
                                  .pendulum = {.damping = (double)fold->damping,
                                               .drive_amplitude = (double)fold->drive_amplitude}};
         g.pendulum.drive_frequency = (double)(fold->drive_frequency + side * (long double)off);
-        pendres_reference_cycle exact;
+        reference_cycle exact;
         int there = 0;
         for (int i = -4; i <= 4 && !there; i++)
-          there = pendres_reference_orbit(&g.pendulum, fold->y + i * sqrtl(off), fold->v, 1, 0,
+          there = reference_orbit(&g.pendulum, fold->y + i * sqrtl(off), fold->v, 1, 0,
                                           &exact) == PENDRES_OK &&
                   hypotl(exact.y - fold->y, exact.v - fold->v) < 0.3L;
         if (there) g.x = (double)exact.y + half_pi + 0.1 * sqrt(off), g.v = (double)exact.v;
@@ -342,10 +342,10 @@ static void honest_with_few_steps(void **state)
     const pendres_orbit_guess *g = &cases[i].guess;
     pendres_orbit o;
     pendres_status outcome;
-    pendres_reference_cycle e;
+    reference_cycle e;
     check_ok(pendres_orbit_find(ctx, 1, g, cases[i].want, &o, &outcome));
     check_ok(outcome);
-    check_ok(pendres_reference_orbit(&g->pendulum, o.x - half_pi, o.v, g->period, g->winding, &e));
+    check_ok(reference_orbit(&g->pendulum, o.x - half_pi, o.v, g->period, g->winding, &e));
     check_near(nearest_turn(o.x, (double)e.y + half_pi), (double)e.y + half_pi, o.x_error);
     check_near(o.v, (double)e.v, o.v_error);
     check_near(o.loop_area, (double)e.loop_area, o.loop_area_error);
@@ -372,15 +372,15 @@ static void samples_know_their_error(void **state)
     pendres_context *ctx = context_with(tolerances[t]);
     pendres_orbit o;
     pendres_status outcome;
-    pendres_reference_cycle e;
+    reference_cycle e;
     double x[4], v[4], error[2] = {NAN, NAN};
     check_ok(pendres_orbit_find(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
-    check_ok(pendres_reference_orbit(&g.pendulum, o.x - half_pi, o.v, 4, 0, &e));
+    check_ok(reference_orbit(&g.pendulum, o.x - half_pi, o.v, 4, 0, &e));
     check_ok(pendres_orbit_sample(ctx, &o, 1, x, v, error));
     assert_true(error[0] <= tolerances[t] && error[1] <= tolerances[t]);
     for (int k = 0; k < 4; k++) {
       long double y = e.y, w = e.v;
-      check_ok(pendres_reference_advance(&g.pendulum, &y, &w, NULL, k));
+      check_ok(reference_advance(&g.pendulum, &y, &w, NULL, k));
       check_near(nearest_turn(x[k], (double)y + half_pi), (double)y + half_pi, error[0]);
       check_near(v[k], (double)w, error[1]);
     }

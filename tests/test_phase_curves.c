@@ -82,14 +82,14 @@ static void curves_tell_what_members_miss(void **state)
     const pendres_bifurcation *at = pendres_branch_bifurcation_get(b, (size_t)i);
     const pendres_pendulum *p = &at->orbit.pendulum;
     const long double y = at->orbit.x - 1.57079632679489661923L, v = at->orbit.v;
-    pendres_reference_cycle want;
+    reference_cycle want;
     assert_int_equal(at->kind, i == 0 ? PENDRES_SYMMETRY_BREAKING : PENDRES_FOLD);
     check_near(at->value, i == 0 ? 0.41063921 : 0.43198651, 5e-9);
-    if (i == 0) check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, p,
-                                                &(pendres_reference_guess){at->value, y, v, 0.0L},
+    if (i == 0) check_ok(reference_find(REFERENCE_SYMMETRY_BREAKING, p,
+                                                &(reference_guess){at->value, y, v, 0.0L},
                                                 &want));
-    else check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, p,
-                                         &(pendres_reference_guess){at->value, y, v, 0.0L}, &want));
+    else check_ok(reference_find(REFERENCE_FOLD, p,
+                                         &(reference_guess){at->value, y, v, 0.0L}, &want));
     check_near(at->value, (double)want.drive_frequency, 10.0 * at->value_error);
     assert_true(at->value_error <= 1e-9);
   }

@@ -7,7 +7,7 @@
  */
 #include "reference_fixture.h"
 
-static long double growth(const pendres_reference_image *image)
+static long double growth(const reference_image *image)
 {
   return fmaxl(fmaxl(fabsl(image->monodromy[0][0]), fabsl(image->monodromy[0][1])),
                fmaxl(fabsl(image->monodromy[1][0]), fabsl(image->monodromy[1][1])));
@@ -47,8 +47,8 @@ static void test_free_oscillation(void **state)
       long double quarter = 0.0L;
       amplitude(0.0L, k, k1, &quarter);
       const long double phi = amplitude(time + quarter, k, k1, &quarter);
-      pendres_reference_image image;
-      check_ok(pendres_reference_map(&p, amplitudes[i], 0.0L, periods, &image));
+      reference_image image;
+      check_ok(reference_map(&p, amplitudes[i], 0.0L, periods, &image));
       /* The closed form knows its time to a rounding error, and so the state. */
       const long double tolerance =
           4.0L * epsilon() * (1.0L + time) * fmaxl(1.0L, growth(&image)) * amplitudes[i];
@@ -69,7 +69,7 @@ static void test_long_energy(void **state)
   (void)state;
   const pendres_pendulum p = make(0.0, 0.0, 0.78539816339744828);
   long double y = 1.0L, v = 0.0L;
-  check_ok(pendres_reference_advance(&p, &y, &v, NULL, 1000));
+  check_ok(reference_advance(&p, &y, &v, NULL, 1000));
   const long double s = sinl(0.5L * y), s0 = sinl(0.5L);
   /* 30000 steps, each with a rounding of its increment, a sixth of the state or less, to
      either side: 170/6. One of the same sign each period would be seen. */
@@ -86,7 +86,7 @@ static void test_free_rotation(void **state)
     long double quarter = 0.0L, y = 0.0L, v = start;
     long turns = 7;
     const long double phi = amplitude(0.5L * start * time, k, k1, &quarter);
-    check_ok(pendres_reference_advance(&p, &y, &v, &turns, 30));
+    check_ok(reference_advance(&p, &y, &v, &turns, 30));
     /* Both sides know the time to a rounding error; a growing shift of phase in the
        wrong 2 pi, or a lost turn, would be far larger. */
     const long double tolerance = 16.0L * epsilon() * fabsl(start) * time;
@@ -107,8 +107,8 @@ static void test_linear_response(void **state)
       const long double w = p.drive_frequency, stiffness = 1.0L - w * w;
       const long double friction = p.damping * w, response = hypotl(stiffness, friction);
       const long double lag = atan2l(friction, stiffness), size = force / response;
-      pendres_reference_cycle c;
-      check_ok(pendres_reference_orbit(&p, 0.0L, 0.0L, 1, 0, &c));
+      reference_cycle c;
+      check_ok(reference_orbit(&p, 0.0L, 0.0L, 1, 0, &c));
       /* sin y = y - y^3/6 softens the spring by size^2/8, which shifts the response by at
          most that over |response| relative; and rounding, which a weak response lets add up. */
       const long double slack =
@@ -140,8 +140,8 @@ static void test_liouville(void **state)
   for (size_t i = 0; i < COUNT(golden_states); i++) {
     const golden_state *g = &golden_states[i];
     if (g->periods != 10) continue;
-    pendres_reference_image m;
-    check_ok(pendres_reference_map(&g->pendulum, g->y, g->v, 3, &m));
+    reference_image m;
+    check_ok(reference_map(&g->pendulum, g->y, g->v, 3, &m));
     const long double want =
         expl(-g->pendulum.damping * 6.0L * pi / g->pendulum.drive_frequency);
     const long double a = m.monodromy[0][0] * m.monodromy[1][1];
@@ -158,12 +158,12 @@ static void moved_end(int which, long double by, long double end[2])
   long double y = 0.7L, v = -0.4L;
   long turns = 0;
   pendres_pendulum p = make(0.125, 0.25, 0.8125);
-  if (which == PENDRES_REFERENCE_BY_Y) y += by;
-  else if (which == PENDRES_REFERENCE_BY_V) v += by;
-  else if (which == PENDRES_REFERENCE_BY_FREQUENCY) p.drive_frequency += (double)by;
-  else if (which == PENDRES_REFERENCE_BY_DAMPING) p.damping += (double)by;
+  if (which == REFERENCE_BY_Y) y += by;
+  else if (which == REFERENCE_BY_V) v += by;
+  else if (which == REFERENCE_BY_FREQUENCY) p.drive_frequency += (double)by;
+  else if (which == REFERENCE_BY_DAMPING) p.damping += (double)by;
   else p.drive_amplitude += (double)by;
-  check_ok(pendres_reference_advance(&p, &y, &v, &turns, 3));
+  check_ok(reference_advance(&p, &y, &v, &turns, 3));
   end[0] = y + 2.0L * pi * (long double)turns;
   end[1] = v;
 }
@@ -172,9 +172,9 @@ static void test_derivatives(void **state)
 {
   (void)state;
   const pendres_pendulum p = make(0.125, 0.25, 0.8125);
-  pendres_reference_image m;
-  check_ok(pendres_reference_map(&p, 0.7L, -0.4L, 3, &m));
-  for (int which = 0; which < PENDRES_REFERENCE_COLUMNS; which++) {
+  reference_image m;
+  check_ok(reference_map(&p, 0.7L, -0.4L, 3, &m));
+  for (int which = 0; which < REFERENCE_COLUMNS; which++) {
     /* A power of two: parameters that are doubles move by exactly this. */
     const long double h = 0x1p-11L, weight[3] = { 45.0L, -9.0L, 1.0L };
     long double difference[2] = { 0.0L, 0.0L }, want[2];
@@ -187,8 +187,8 @@ static void test_derivatives(void **state)
     }
     for (int j = 0; j < 2; j++)
       want[j] = which < 2 ? m.monodromy[j][which]
-                : which == PENDRES_REFERENCE_BY_FREQUENCY ? m.by_frequency[j]
-                : which == PENDRES_REFERENCE_BY_DAMPING ? m.by_damping[j] : m.by_amplitude[j];
+                : which == REFERENCE_BY_FREQUENCY ? m.by_frequency[j]
+                : which == REFERENCE_BY_DAMPING ? m.by_damping[j] : m.by_amplitude[j];
     /* h^6/140 = 1e-22 times a seventh derivative, at most about the seventh power of the phase
        23 that a change of frequency acts on, 3e9; rounding eps/h. */
     const long double tolerance = 1e-12L + 100.0L * epsilon() / h;
@@ -200,13 +200,13 @@ static void test_derivatives(void **state)
 /* End of one period with given order and number of steps. */
 static long double fixed_end(int order, int steps)
 {
-  const pendres_reference_model model = { .damping = 0.125L, .drive_amplitude = 0.25L,
+  const reference_model model = { .damping = 0.125L, .drive_amplitude = 0.25L,
                                           .drive_frequency = 0.8125L, .sine = 1, .turns = 1 };
-  pendres_reference_run run;
-  pendres_reference_taylor_init(&run, &model, 0.7L, -0.4L);
+  reference_run run;
+  reference_taylor_init(&run, &model, 0.7L, -0.4L);
   if (order > 0) run.order = order;
   run.steps = steps;
-  check_ok(pendres_reference_taylor_advance(&run, 1));
+  check_ok(reference_taylor_advance(&run, 1));
   return run.y.hi;
 }
 
@@ -222,11 +222,11 @@ static void test_order(void **state)
     check_long(log2l(fabsl(coarse / fine)), (long double)order, 0.3L);
   }
   /* Far more steps than needed, and no choice of steps: the same to rounding. */
-  check_long(fixed_end(PENDRES_REFERENCE_ORDER, 100), exact, 20.0L * epsilon());
-  check_long(fixed_end(PENDRES_REFERENCE_ORDER * 2 / 3, 150), exact, 20.0L * epsilon());
+  check_long(fixed_end(REFERENCE_ORDER, 100), exact, 20.0L * epsilon());
+  check_long(fixed_end(REFERENCE_ORDER * 2 / 3, 150), exact, 20.0L * epsilon());
   /* Sums in two words do not mind many steps; in one, 200000 roundings of up to half a unit
      make a run of some tens (22 when it was tried). */
-  check_long(fixed_end(PENDRES_REFERENCE_ORDER / 2, 200000), exact, 4.0L * epsilon());
+  check_long(fixed_end(REFERENCE_ORDER / 2, 200000), exact, 4.0L * epsilon());
 }
 
 static void test_mirror(void **state)
@@ -236,21 +236,21 @@ static void test_mirror(void **state)
   const pendres_pendulum p = make(0.12, 0.2, 0.8), turned = make(0.12, -0.2, 0.8);
   long double y = 1.1L, v = 0.9L, turned_y = -1.1L, turned_v = -0.9L;
   long turns = 0, turned_turns = 0;
-  check_ok(pendres_reference_advance(&p, &y, &v, &turns, 20));
-  check_ok(pendres_reference_advance(&turned, &turned_y, &turned_v, &turned_turns, 20));
+  check_ok(reference_advance(&p, &y, &v, &turns, 20));
+  check_ok(reference_advance(&turned, &turned_y, &turned_v, &turned_turns, 20));
   check_long(turned_y, -y, 0.0L);
   check_long(turned_v, -v, 0.0L);
   assert_int_equal(turned_turns, -turns);
   /* An orbit of mirror symmetry is at minus its start half a period later, where the mirror
      image of the equation takes over. */
-  const pendres_reference_cycle *c = &golden_orbits[7];
-  const pendres_reference_model model = { .damping = c->damping,
+  const reference_cycle *c = &golden_orbits[7];
+  const reference_model model = { .damping = c->damping,
                                           .drive_amplitude = c->drive_amplitude,
                                           .drive_frequency = c->drive_frequency,
                                           .sine = 1, .turns = 1 };
-  pendres_reference_run run;
-  pendres_reference_taylor_init(&run, &model, c->y, c->v);
-  check_ok(pendres_reference_taylor_advance_half(&run));
+  reference_run run;
+  reference_taylor_init(&run, &model, c->y, c->v);
+  check_ok(reference_taylor_advance_half(&run));
   check_long(run.y.hi, -c->y, 20.0L * golden_epsilon());
   check_long(run.v.hi, -c->v, 20.0L * golden_epsilon());
 }
@@ -261,10 +261,10 @@ static void test_wrap(void **state)
   const pendres_pendulum p = make(0.12, 0.2, 0.8);
   long double y = 1.0L, v = 0.5L, far_y = 1.0L + 2.0L * pi * 1000.0L, far_v = 0.5L;
   long turns = 0, far_turns = 0;
-  check_ok(pendres_reference_advance(&p, &y, &v, &turns, 0));
+  check_ok(reference_advance(&p, &y, &v, &turns, 0));
   check_long(y, 1.0L, 0.0L);
-  check_ok(pendres_reference_advance(&p, &y, &v, &turns, 3));
-  check_ok(pendres_reference_advance(&p, &far_y, &far_v, &far_turns, 3));
+  check_ok(reference_advance(&p, &y, &v, &turns, 3));
+  check_ok(reference_advance(&p, &far_y, &far_v, &far_turns, 3));
   assert_int_equal(far_turns - turns, 1000);
   /* The far start is known to half a unit of its last place, times a growth of about 1. */
   check_long(far_y, y, 4.0L * 8192.0L * epsilon());
@@ -280,7 +280,7 @@ static void test_golden_states(void **state)
     const golden_state *g = &golden_states[i];
     long double y = g->y, v = g->v;
     long turns = 0;
-    check_ok(pendres_reference_advance(&g->pendulum, &y, &v, &turns, g->periods));
+    check_ok(reference_advance(&g->pendulum, &y, &v, &turns, g->periods));
     /* Roundings of some 50 steps a period, amplified at most as the start is. */
     const long double unit = golden_epsilon() * fmaxl(1.0L, g->growth) *
                              (1.0L + 0.1L * (long double)g->periods);
@@ -296,50 +296,50 @@ static void test_arguments(void **state)
   const pendres_pendulum p = make(0.12, 0.2, 0.8), bad = make(-0.1, 0.2, 0.8);
   long double y = 1.0L, v = 2.0L;
   long turns = 5;
-  pendres_reference_image image = { .y = 42.0L };
-  pendres_reference_cycle c = { .y = 42.0L };
+  reference_image image = { .y = 42.0L };
+  reference_cycle c = { .y = 42.0L };
   const pendres_status invalid = PENDRES_INVALID_ARGUMENT;
-  assert_int_equal(pendres_reference_advance(&bad, &y, &v, &turns, 1), invalid);
-  assert_int_equal(pendres_reference_advance(NULL, &y, &v, &turns, 1), invalid);
-  assert_int_equal(pendres_reference_advance(&p, NULL, &v, &turns, 1), invalid);
-  assert_int_equal(pendres_reference_advance(&p, &y, NULL, &turns, 1), invalid);
-  assert_int_equal(pendres_reference_advance(&p, &y, &v, &turns, -1), invalid);
+  assert_int_equal(reference_advance(&bad, &y, &v, &turns, 1), invalid);
+  assert_int_equal(reference_advance(NULL, &y, &v, &turns, 1), invalid);
+  assert_int_equal(reference_advance(&p, NULL, &v, &turns, 1), invalid);
+  assert_int_equal(reference_advance(&p, &y, NULL, &turns, 1), invalid);
+  assert_int_equal(reference_advance(&p, &y, &v, &turns, -1), invalid);
   long double nan = (long double)NAN, far = 1e10L, fast = 1e300L;
-  assert_int_equal(pendres_reference_advance(&p, &nan, &v, &turns, 1), invalid);
-  assert_int_equal(pendres_reference_advance(&p, &far, &v, &turns, 1), invalid);
-  assert_int_equal(pendres_reference_advance(&p, &y, &nan, &turns, 1), invalid);
-  assert_int_equal(pendres_reference_advance(&p, &y, &fast, &turns, 1),
+  assert_int_equal(reference_advance(&p, &nan, &v, &turns, 1), invalid);
+  assert_int_equal(reference_advance(&p, &far, &v, &turns, 1), invalid);
+  assert_int_equal(reference_advance(&p, &y, &nan, &turns, 1), invalid);
+  assert_int_equal(reference_advance(&p, &y, &fast, &turns, 1),
                    PENDRES_INTEGRATION_FAILED);
   check_long(y, 1.0L, 0.0L);
   check_long(v, 2.0L, 0.0L);
   check_long(far, 1e10L, 0.0L);
   assert_int_equal(turns, 5);
-  assert_int_equal(pendres_reference_map(&p, 1.0L, 0.0L, 1, NULL), invalid);
-  assert_int_equal(pendres_reference_map(&bad, 1.0L, 0.0L, 1, &image), invalid);
-  assert_int_equal(pendres_reference_orbit(&p, 1.0L, 0.0L, 0, 0, &c), invalid);
-  assert_int_equal(pendres_reference_orbit(&bad, 1.0L, 0.0L, 1, 0, &c), invalid);
-  assert_int_equal(pendres_reference_orbit(&p, 1.0L, nan, 1, 0, &c), invalid);
-  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
-                                          &(pendres_reference_guess){-1.0L, 1.0L, 0.0L, 0.0L},
+  assert_int_equal(reference_map(&p, 1.0L, 0.0L, 1, NULL), invalid);
+  assert_int_equal(reference_map(&bad, 1.0L, 0.0L, 1, &image), invalid);
+  assert_int_equal(reference_orbit(&p, 1.0L, 0.0L, 0, 0, &c), invalid);
+  assert_int_equal(reference_orbit(&bad, 1.0L, 0.0L, 1, 0, &c), invalid);
+  assert_int_equal(reference_orbit(&p, 1.0L, nan, 1, 0, &c), invalid);
+  assert_int_equal(reference_find(REFERENCE_RESONANCE, &p,
+                                          &(reference_guess){-1.0L, 1.0L, 0.0L, 0.0L},
                                           &c), invalid);
-  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, NULL,
-                                          &(pendres_reference_guess){1.0L, 1.0L, 0.0L, 0.0L},
+  assert_int_equal(reference_find(REFERENCE_RESONANCE, NULL,
+                                          &(reference_guess){1.0L, 1.0L, 0.0L, 0.0L},
                                           &c), invalid);
-  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
-                                          &(pendres_reference_guess){nan, 1.0L, 0.0L, 0.0L},
+  assert_int_equal(reference_find(REFERENCE_FOLD, &p,
+                                          &(reference_guess){nan, 1.0L, 0.0L, 0.0L},
                                           &c), invalid);
-  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
-                                          &(pendres_reference_guess){0.0L, 1.0L, 0.0L, 0.0L},
+  assert_int_equal(reference_find(REFERENCE_SYMMETRY_BREAKING, &p,
+                                          &(reference_guess){0.0L, 1.0L, 0.0L, 0.0L},
                                           &c), invalid);
-  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
-                                          &(pendres_reference_guess){1.0L, 1.0L, 0.0L, -0.1L},
+  assert_int_equal(reference_find(REFERENCE_CUSP, &p,
+                                          &(reference_guess){1.0L, 1.0L, 0.0L, -0.1L},
                                           &c), invalid);
   /* Nothing closes with a turn a period at so weak a drive; no branch, no fold. */
-  assert_int_equal(pendres_reference_orbit(&p, 0.5L, 0.1L, 1, 1, &c), PENDRES_NOT_CONVERGED);
+  assert_int_equal(reference_orbit(&p, 0.5L, 0.1L, 1, 1, &c), PENDRES_NOT_CONVERGED);
   /* Every state of a free undamped pendulum at rest in time: M - I is singular. */
   const pendres_pendulum still = make(0.0, 0.0, 1.0);
-  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_FOLD, &still,
-                                          &(pendres_reference_guess){1.0L, 0.5L, 0.0L, 0.0L},
+  assert_int_equal(reference_find(REFERENCE_FOLD, &still,
+                                          &(reference_guess){1.0L, 0.5L, 0.0L, 0.0L},
                                           &c), PENDRES_NOT_CONVERGED);
   check_long(image.y, 42.0L, 0.0L);
   check_long(c.y, 42.0L, 0.0L);

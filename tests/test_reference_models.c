@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "context_fixture.h"
 #include "oracle.h"
@@ -53,9 +53,9 @@ static void maps(void **state)
   for (size_t i = 0; i < COUNT(cases); i++) {
     const pendres_pendulum *p = &cases[i].p;
     long double s[ORACLE_SIZE], end[2][ORACLE_SIZE];
-    pendres_reference_image image;
+    reference_image image;
     oracle_end(p, cases[i].y, cases[i].v, s);
-    check_ok(pendres_reference_map(p, cases[i].y, cases[i].v, 2, &image));
+    check_ok(reference_map(p, cases[i].y, cases[i].v, 2, &image));
     const int turns = p->force == PENDRES_FORCE_PENDULUM;
     assert_true(turns || image.turns == 0);
     const double size = (double)fmaxl(1.0L, fmaxl(fabsl(s[2]), fabsl(s[4])));
@@ -91,12 +91,12 @@ static void orbits(void **state)
   for (size_t i = 0; i < COUNT(cases); i++) {
     const double origin = pendres_model_of(cases[i].p.force)->origin;
     pendres_attractors *set = NULL;
-    pendres_reference_cycle c;
+    reference_cycle c;
     check_ok(pendres_attractors_find(ctx, &cases[i].p, 0, NULL, NULL, &set));
     for (size_t k = 0; k < pendres_attractors_count(set); k++) {
       const pendres_orbit *o = &pendres_attractors_get(set, k)->orbit;
       if (!isfinite(o->x) || o->amplitude < 1e-3) continue;
-      check_ok(pendres_reference_orbit(&cases[i].p, o->x - origin, o->v, o->period, o->winding,
+      check_ok(reference_orbit(&cases[i].p, o->x - origin, o->v, o->period, o->winding,
                                        &c));
       const double size = fmax(1.0, fabs((double)c.dissipation));
       assert_true(c.energy_residual < 1e-15L * size && c.closure < 1e-16L * size);
@@ -118,13 +118,13 @@ static void folds(void **state)
   pendres_context *ctx = context_with(NULL);
   pendres_attractors *set = NULL;
   pendres_fold fold;
-  pendres_reference_cycle c;
+  reference_cycle c;
   (void)state;
   check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
   check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, PENDRES_DRIVE_FREQUENCY,
                              &fold));
-  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
-                                  &(pendres_reference_guess){fold.value, fold.orbit.x, fold.orbit.v,
+  check_ok(reference_find(REFERENCE_FOLD, &p,
+                                  &(reference_guess){fold.value, fold.orbit.x, fold.orbit.v,
                                                              0.0L},
                                   &c));
   check_near(fold.value, (double)c.drive_frequency, fold.value_error + 1e-15);
@@ -134,9 +134,9 @@ static void folds(void **state)
   check_near((double)c.drive_frequency,
              oracle_bifurcation(&o, &o.omega, 1, 0, 1, (double)c.y, (double)c.v, &left), 1e-14);
   /* A coordinate without a period has no winding, and no image of a tilted pendulum. */
-  assert_int_equal(pendres_reference_orbit(&p, 0.1L, 0.0L, 1, 1, &c), PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &cases[0].p,
-                                          &(pendres_reference_guess){1.0L, 0.1L, 0.0L, 0.0L}, &c),
+  assert_int_equal(reference_orbit(&p, 0.1L, 0.0L, 1, 1, &c), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(reference_find(REFERENCE_SYMMETRY_BREAKING, &cases[0].p,
+                                          &(reference_guess){1.0L, 0.1L, 0.0L, 0.0L}, &c),
                    PENDRES_INVALID_ARGUMENT);
   pendres_attractors_free(set);
   pendres_context_free(ctx);

@@ -6,7 +6,7 @@
 /* ---- Orbits --------------------------------------------------------------------------------- */
 
 /* How much an orbit's point moves when the map is off by one unit. */
-static long double sensitivity(const pendres_reference_cycle *c)
+static long double sensitivity(const reference_cycle *c)
 {
   const long double away = hypotl(c->multiplier_re[0] - 1.0L, c->multiplier_im[0]) *
                            hypotl(c->multiplier_re[1] - 1.0L, c->multiplier_im[1]);
@@ -15,7 +15,7 @@ static long double sensitivity(const pendres_reference_cycle *c)
   return largest / away;
 }
 
-static void check_cycle(const pendres_reference_cycle *got, const pendres_reference_cycle *want,
+static void check_cycle(const reference_cycle *got, const reference_cycle *want,
                         long double tolerance)
 {
   check_long(got->drive_frequency, want->drive_frequency, tolerance);
@@ -36,11 +36,11 @@ static void test_orbit_measures(void **state)
 {
   (void)state;
   for (size_t i = 0; i < COUNT(golden_orbits); i++) {
-    const pendres_reference_cycle *want = &golden_orbits[i];
+    const reference_cycle *want = &golden_orbits[i];
     const pendres_pendulum p = make((double)want->damping, (double)want->drive_amplitude,
                                     (double)want->drive_frequency);
-    pendres_reference_cycle c;
-    check_ok(pendres_reference_orbit(&p, want->y + 1e-4L, want->v - 1e-4L, want->period,
+    reference_cycle c;
+    check_ok(reference_orbit(&p, want->y + 1e-4L, want->v - 1e-4L, want->period,
                                      want->winding, &c));
     const long double unit = golden_epsilon() * sensitivity(want) * (long double)want->period;
     check_cycle(&c, want, 20.0L * unit);
@@ -71,12 +71,12 @@ static void test_orbit_measures(void **state)
 static void test_coexistence(void **state)
 {
   const pendres_pendulum p = make(0.12, 0.2, 0.78539816339744828);
-  pendres_reference_cycle c[2];
+  reference_cycle c[2];
   (void)state;
   for (int i = 0; i < 2; i++) {
     long double y = i == 0 ? 0.3L : -2.3L, v = 0.0L;
-    check_ok(pendres_reference_advance(&p, &y, &v, NULL, 60));
-    check_ok(pendres_reference_orbit(&p, y, v, 1, 0, &c[i]));
+    check_ok(reference_advance(&p, &y, &v, NULL, 60));
+    check_ok(reference_orbit(&p, y, v, 1, 0, &c[i]));
     assert_true(hypotl(c[i].multiplier_re[0], c[i].multiplier_im[0]) < 1.0L);
   }
   assert_true(c[0].phase_lag < pi / 3.0L && c[1].phase_lag > pi / 2.0L);
@@ -89,14 +89,14 @@ static void test_slopes(void **state)
   const double h = 0x1p-11;
   const long double weight[3] = { 45.0L, -9.0L, 1.0L };
   for (int which = 6; which < 8; which++) {
-    const pendres_reference_cycle *c = &golden_orbits[which];
+    const reference_cycle *c = &golden_orbits[which];
     long double area = 0.0L, y = 0.0L, v = 0.0L;
     for (int i = 1; i <= 3; i++) {
       for (int sign = -1; sign <= 1; sign += 2) {
         const pendres_pendulum p = make((double)c->damping, (double)c->drive_amplitude,
                                         (double)c->drive_frequency + sign * i * h);
-        pendres_reference_cycle beside;
-        check_ok(pendres_reference_orbit(&p, c->y, c->v, 1, 0, &beside));
+        reference_cycle beside;
+        check_ok(reference_orbit(&p, c->y, c->v, 1, 0, &beside));
         const long double factor = sign * weight[i - 1] / (60.0L * (long double)h);
         area += factor * beside.loop_area;
         y += factor * beside.y;
@@ -116,11 +116,11 @@ static void test_slopes(void **state)
 static void test_extremes(void **state)
 {
   (void)state;
-  const pendres_reference_model model = { .drive_frequency = 0.3L, .sine = 1, .turns = 1 };
-  pendres_reference_run run;
-  pendres_reference_taylor_init(&run, &model, 0.4L, 1.2L);
+  const reference_model model = { .drive_frequency = 0.3L, .sine = 1, .turns = 1 };
+  reference_run run;
+  reference_taylor_init(&run, &model, 0.4L, 1.2L);
   run.measures = 1;
-  check_ok(pendres_reference_taylor_advance(&run, 1));
+  check_ok(reference_taylor_advance(&run, 1));
   /* The turning points of the free pendulum of this energy. */
   const long double s = sinl(0.2L);
   const long double turning = 2.0L * asinl(sqrtl(0.36L + s * s));
@@ -134,11 +134,11 @@ static void test_resonances(void **state)
 {
   (void)state;
   for (size_t i = 0; i < COUNT(golden_resonances); i++) {
-    const pendres_reference_cycle *want = &golden_resonances[i];
+    const reference_cycle *want = &golden_resonances[i];
     const pendres_pendulum p = make((double)want->damping, (double)want->drive_amplitude, 1.0);
-    pendres_reference_cycle c;
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
-                                    &(pendres_reference_guess){want->drive_frequency + 2e-4L,
+    reference_cycle c;
+    check_ok(reference_find(REFERENCE_RESONANCE, &p,
+                                    &(reference_guess){want->drive_frequency + 2e-4L,
                                                                want->y, want->v, 0.0L},
                                     &c));
     const long double unit = golden_epsilon() * sensitivity(want);
@@ -149,23 +149,23 @@ static void test_resonances(void **state)
     for (int sign = -1; sign <= 1; sign += 2) {
       const pendres_pendulum beside = make(p.damping, p.drive_amplitude,
                                            (double)c.drive_frequency + sign * 1e-4);
-      pendres_reference_cycle lower;
-      check_ok(pendres_reference_orbit(&beside, c.y, c.v, 1, 0, &lower));
+      reference_cycle lower;
+      check_ok(reference_orbit(&beside, c.y, c.v, 1, 0, &lower));
       assert_true(lower.loop_area < c.loop_area);
     }
   }
 }
 
 /* The two orbits at a distance from a fold; nonzero if there are two next to it. */
-static int twins(const pendres_reference_cycle *fold, long double distance,
-                 pendres_reference_cycle twin[2])
+static int twins(const reference_cycle *fold, long double distance,
+                 reference_cycle twin[2])
 {
   const long double across = hypotl(fold->monodromy[0][1], fold->monodromy[0][0] - 1.0L);
   const pendres_pendulum p = make((double)fold->damping, (double)fold->drive_amplitude,
                                   (double)(fold->drive_frequency + distance));
   for (int i = 0; i < 2; i++) {
     const long double far = (i == 0 ? 0.02L : -0.02L) / across;
-    if (pendres_reference_orbit(&p, fold->y - far * fold->monodromy[0][1],
+    if (reference_orbit(&p, fold->y - far * fold->monodromy[0][1],
                                 fold->v + far * (fold->monodromy[0][0] - 1.0L), 1, 0, &twin[i]))
       return 0;
     if (hypotl(twin[i].y - fold->y, twin[i].v - fold->v) > 0.1L) return 0;
@@ -177,11 +177,11 @@ static void test_folds(void **state)
 {
   (void)state;
   for (size_t i = 0; i < COUNT(golden_folds); i++) {
-    const pendres_reference_cycle *want = &golden_folds[i];
+    const reference_cycle *want = &golden_folds[i];
     const pendres_pendulum p = make((double)want->damping, (double)want->drive_amplitude, 1.0);
-    pendres_reference_cycle c, near[2], far[2];
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
-                                    &(pendres_reference_guess){want->drive_frequency + 1e-6L,
+    reference_cycle c, near[2], far[2];
+    check_ok(reference_find(REFERENCE_FOLD, &p,
+                                    &(reference_guess){want->drive_frequency + 1e-6L,
                                                                want->y + 1e-4L, want->v - 1e-4L,
                                                                0.0L},
                                     &c));
@@ -208,7 +208,7 @@ static void test_fold_places(void **state)
 {
   (void)state;
   for (size_t i = 0; i < COUNT(golden_folds); i++) {
-    const pendres_reference_cycle *c = &golden_folds[i];
+    const reference_cycle *c = &golden_folds[i];
     if ((double)c->damping != 0.13) continue;
     if (c->phase_lag < pi / 3.0L) check_long(c->drive_frequency, 0.8475L, 0.0035L);
     else check_long(c->drive_frequency, 0.745L, 0.01L);
@@ -219,11 +219,11 @@ static void test_symmetry_breakings(void **state)
 {
   (void)state;
   for (size_t i = 0; i < COUNT(golden_symmetry_breakings); i++) {
-    const pendres_reference_cycle *want = &golden_symmetry_breakings[i];
+    const reference_cycle *want = &golden_symmetry_breakings[i];
     const pendres_pendulum p = make((double)want->damping, (double)want->drive_amplitude, 1.0);
-    pendres_reference_cycle c;
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
-                                    &(pendres_reference_guess){want->drive_frequency + 1e-4L,
+    reference_cycle c;
+    check_ok(reference_find(REFERENCE_SYMMETRY_BREAKING, &p,
+                                    &(reference_guess){want->drive_frequency + 1e-4L,
                                                                want->y, want->v, 0.0L},
                                     &c));
     /* Conditioning as for folds. */
@@ -232,8 +232,8 @@ static void test_symmetry_breakings(void **state)
     for (int sign = -1; sign <= 1; sign += 2) {
       const pendres_pendulum beside = make(p.damping, p.drive_amplitude,
                                            (double)c.drive_frequency + sign * 1e-4);
-      pendres_reference_cycle orbit;
-      check_ok(pendres_reference_orbit(&beside, c.y, c.v, 1, 0, &orbit));
+      reference_cycle orbit;
+      check_ok(reference_orbit(&beside, c.y, c.v, 1, 0, &orbit));
       assert_true(sign * (1.0L - orbit.multiplier_re[0]) > 1e-3L);
     }
   }
@@ -243,11 +243,11 @@ static void test_cusps(void **state)
 {
   (void)state;
   for (size_t i = 0; i < COUNT(golden_cusps); i++) {
-    const pendres_reference_cycle *want = &golden_cusps[i];
+    const reference_cycle *want = &golden_cusps[i];
     const pendres_pendulum p = make(1.0, (double)want->drive_amplitude, 1.0);
-    pendres_reference_cycle c;
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
-                                    &(pendres_reference_guess){want->drive_frequency - 1e-4L,
+    reference_cycle c;
+    check_ok(reference_find(REFERENCE_CUSP, &p,
+                                    &(reference_guess){want->drive_frequency - 1e-4L,
                                                                want->y, want->v,
                                                                want->damping + 1e-4L},
                                     &c));
@@ -258,11 +258,11 @@ static void test_cusps(void **state)
     check_near((double)c.damping, i == 0 ? 0.099 : 0.164, 0.0005); /* as read off */
   }
   /* A fold just below the cusp, none above: the folds have met. */
-  const pendres_reference_cycle *cusp = &golden_cusps[1];
+  const reference_cycle *cusp = &golden_cusps[1];
   const pendres_pendulum below = make((double)cusp->damping - 1e-4, 0.2, 1.0);
-  pendres_reference_cycle fold;
-  check_ok(pendres_reference_find(PENDRES_REFERENCE_FOLD, &below,
-                                  &(pendres_reference_guess){cusp->drive_frequency, cusp->y + 0.03L,
+  reference_cycle fold;
+  check_ok(reference_find(REFERENCE_FOLD, &below,
+                                  &(reference_guess){cusp->drive_frequency, cusp->y + 0.03L,
                                                              cusp->v + 0.03L, 0.0L},
                                   &fold));
   check_long(fold.multiplier_re[0], 1.0L, 1e-10L);

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "golden.h"
 
@@ -54,11 +54,11 @@ static void lag_at_a_peak(void **state)
     const pendres_resonance r = find(ctx, 0.2, 0.03);
     const pendres_orbit *o = &r.response.state[0].orbit;
     const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 0.03, .drive_frequency = 1.0};
-    pendres_reference_cycle top;
+    reference_cycle top;
     assert_int_equal(r.peak, PENDRES_PEAK_SMOOTH);
     assert_int_equal(r.response.states, 1);
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &p,
-                                    &(pendres_reference_guess){r.frequency, o->x - PENDRES_PI / 2.0,
+    check_ok(reference_find(REFERENCE_RESONANCE, &p,
+                                    &(reference_guess){r.frequency, o->x - PENDRES_PI / 2.0,
                                                                o->v, 0.0L},
                                     &top));
     check_near(r.response.phase_lag, (double)top.phase_lag, r.response.phase_lag_error);
@@ -68,7 +68,7 @@ static void lag_at_a_peak(void **state)
 }
 
 /* Only the dampings above the cusp have one branch, so that the golden peak is the resonance. */
-static int single_branch(const pendres_reference_cycle *g)
+static int single_branch(const reference_cycle *g)
 {
   return g->damping > (g->drive_amplitude > 0.15L ? 0.164L : 0.099L);
 }
@@ -81,7 +81,7 @@ static void smooth_peaks(void **state)
     pendres_context *ctx = context_with(tolerances[t], 0);
     int seen = 0;
     for (size_t i = 0; i < sizeof golden_resonances / sizeof golden_resonances[0]; i++) {
-      const pendres_reference_cycle *g = &golden_resonances[i];
+      const reference_cycle *g = &golden_resonances[i];
       if (!single_branch(g)) continue;
       const pendres_resonance r = find(ctx, (double)g->damping, (double)g->drive_amplitude);
       assert_int_equal(r.peak, PENDRES_PEAK_SMOOTH);
@@ -108,7 +108,7 @@ static void edges_are_folds(void **state)
     const pendres_resonance r = find(ctx, dampings[k], 0.2);
     double fold = NAN;
     for (size_t i = 0; i < sizeof golden_folds / sizeof golden_folds[0]; i++) {
-      const pendres_reference_cycle *g = &golden_folds[i];
+      const reference_cycle *g = &golden_folds[i];
       /* Of the two folds at a damping, SA ends at the one of higher frequency. */
       if (fabsl(g->damping - dampings[k]) < 1e-12L && fabsl(g->drive_amplitude - 0.2L) < 1e-12L)
         fold = fmax(isnan(fold) ? 0.0 : fold, (double)g->drive_frequency);

@@ -2,7 +2,7 @@
  * test_resonance_kink.c -- resonances where a state loses its mirror symmetry: the mean area goes
  * on there, and its slope jumps.
  *
- * Reference: pendres_reference_, Taylor series in extended precision with no shared code.
+ * Reference: reference_, Taylor series in extended precision with no shared code.
  */
 #include "check.h"
 
@@ -29,14 +29,14 @@ static void loss_of_symmetry(void **state)
   for (int k = 0; k < 2; k++) {
     const pendres_pendulum p = {.damping = dampings[k], .drive_amplitude = 0.5};
     pendres_resonance r;
-    pendres_reference_cycle exact;
+    reference_cycle exact;
     check_ok(pendres_resonance_find_ensemble(ctx, &p, 0.65, 0.72, &e, &r));
     assert_int_equal(r.peak, PENDRES_PEAK_EDGE);
     assert_true(r.complete);
     assert_true(isnan(r.fold_frequency) && isnan(r.fold_frequency_error));
     const pendres_orbit *o = &r.response.state[0].orbit;
-    check_ok(pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &p,
-                                    &(pendres_reference_guess){r.frequency, o->x - 0.5 * PENDRES_PI,
+    check_ok(reference_find(REFERENCE_SYMMETRY_BREAKING, &p,
+                                    &(reference_guess){r.frequency, o->x - 0.5 * PENDRES_PI,
                                                                o->v / r.frequency, 0.0L},
                                     &exact));
     check_near(r.frequency, (double)exact.drive_frequency, r.frequency_error);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "states_fixture.h"
 
@@ -145,7 +145,7 @@ static void one_state(void **state)
   const pendres_ensemble e = pendres_ensemble_default();
   pendres_context *ctx = NULL;
   pendres_response r;
-  pendres_reference_cycle cycle;
+  reference_cycle cycle;
   (void)state;
   check_ok(pendres_context_create(NULL, &ctx));
   check_ok(pendres_response_find(ctx, 1, &p, &e, &r));
@@ -153,7 +153,7 @@ static void one_state(void **state)
   assert_int_equal(r.states, 1);
   assert_int_equal(r.state_members[0], e.members);
   const pendres_orbit *o = &r.state[0].orbit;
-  check_ok(pendres_reference_orbit(&p, o->x - 0.5 * pi, o->v, 1, 0, &cycle));
+  check_ok(reference_orbit(&p, o->x - 0.5 * pi, o->v, 1, 0, &cycle));
   check_near(r.mean_loop_area, (double)cycle.loop_area, 10.0 * r.mean_loop_area_error);
   check_near(r.mean_loop_amplitude, (double)cycle.amplitude, 10.0 * r.mean_loop_amplitude_error);
   check_near(r.mean_amplitude, (double)cycle.amplitude, 10.0 * r.mean_amplitude_error);

@@ -5,7 +5,7 @@
 #include "scene_fixture.h"
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -41,13 +41,13 @@ static void check_closed_orbit(pendres_store *store, const struct fact *f)
   static const char *const names[] = {"loop_area", "amplitude", "mean_power", "lyapunov_exponent"};
   const pendres_pendulum p = {
     .damping = 0.5, .drive_amplitude = f->drive, .drive_frequency = 2.0 / 3.0};
-  pendres_reference_cycle c;
+  reference_cycle c;
   size_t n = 0;
   double *x = scene_values(store, "x", &n), *v = scene_values(store, "v", &n);
   const int winding = (int)scene_scalar(store, "winding");
   assert_int_equal(scene_scalar(store, "period"), f->period);
   assert_int_equal(abs(winding), f->winding);
-  check_ok(pendres_reference_orbit(&p, x[0] - 0.5 * pi, v[0], f->period, winding, &c));
+  check_ok(reference_orbit(&p, x[0] - 0.5 * pi, v[0], f->period, winding, &c));
   const double time = 2.0 * pi * f->period / p.drive_frequency;
   const double want[] = {
     (double)c.loop_area, (double)c.amplitude, (double)c.mean_power,

@@ -5,7 +5,7 @@
 #include "scene_fixture.h"
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "engine/tables.h"
 #include "run.h"
@@ -54,7 +54,7 @@ static double error_of_block_fixed(double *estimate)
   for (int i = 0; i < MEMBERS; i++) {
     long double y = start[i] - half_pi, w = 0.0L;
     long turns = 0;
-    check_ok(pendres_reference_advance(&p[i], &y, &w, &turns, PERIODS));
+    check_ok(reference_advance(&p[i], &y, &w, &turns, PERIODS));
     const long double off = x[i] - half_pi - y - 4.0L * half_pi * (long double)turns;
     most = fmax(most, (double)fmaxl(fabsl(off), fabsl(v[i] - w)));
     *estimate = fmax(*estimate, error[i]);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include <pendres/hysteresis.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "context_fixture.h"
 
@@ -131,10 +131,10 @@ static void a_short_step_and_a_long_one(void **state)
 /* The larger of the reference's multipliers. */
 static double multiplier_at(const pendres_jump *j, const pendres_orbit *near)
 {
-  pendres_reference_cycle c;
+  reference_cycle c;
   pendres_pendulum p = near->pendulum;
   p.drive_amplitude = j->value;
-  check_ok(pendres_reference_orbit(&p, (long double)near->x, (long double)near->v, 1, 0, &c));
+  check_ok(reference_orbit(&p, (long double)near->x, (long double)near->v, 1, 0, &c));
   return (double)c.multiplier_re[0];
 }
 
@@ -199,9 +199,9 @@ static void doublings_of_a_short_branch(void **state)
   }
   const pendres_orbit *o = &pendres_hysteresis_get(h, N - 1)->attractor.orbit;
   pendres_pendulum q = o->pendulum;
-  pendres_reference_cycle c;
+  reference_cycle c;
   q.drive_amplitude = pendres_hysteresis_jump_get(h, 2)->value;
-  check_ok(pendres_reference_orbit(&q, (long double)o->x - 1.57079632679489662L,
+  check_ok(reference_orbit(&q, (long double)o->x - 1.57079632679489662L,
                                    (long double)o->v, o->period, o->winding, &c));
   /* It changes by some thousands a unit of F0, and the value is known to some 1e-11. */
   check_near((double)fminl(c.multiplier_re[0], c.multiplier_re[1]), -1.0, 1e-6);
@@ -303,14 +303,14 @@ static void upright(void **state)
       .damping = cases[i].damping, .drive_frequency = 14.0, .parametric_amplitude = 0.5};
     const pendres_orbit start = orbit_at(*state, &p, up);
     pendres_branch *b = NULL;
-    pendres_reference_image image;
+    reference_image image;
     check_ok(pendres_branch_follow(*state, &start, &range, &b));
     assert_int_equal(pendres_branch_bifurcation_count(b), 1);
     const pendres_bifurcation *held = pendres_branch_bifurcation_get(b, 0);
     /* What scipy leaves; the trace changes by 0.01 from b to b + 1. */
     check_near(held->value, cases[i].b, held->value_error + 2e-11);
     p.parametric_amplitude = held->value;
-    check_ok(pendres_reference_map(&p, 3.14159265358979323846L, 0.0L, 1, &image));
+    check_ok(reference_map(&p, 3.14159265358979323846L, 0.0L, 1, &image));
     const long double trace = image.monodromy[0][0] + image.monodromy[1][1];
     const long double product = expl(-p.damping * 2.0L * 3.14159265358979323846L / 14.0L);
     /* 1 - trace + product = (1 - m)(1 - product/m) falls by some 0.01 from b to b + 1. */

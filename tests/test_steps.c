@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include <pendres/context.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 #include <pendres/strobe.h>
 
 #include "engine/context_internal.h"
@@ -60,9 +60,9 @@ static double error_with(int steps, const pendres_pendulum *p, double speed, uin
   double largest = 0.0;
   for (int i = 0; i < STARTS; i++) {
     double x = 2.0 * pi * next_random(&z) - 0.5 * pi, v = speed * (2.0 * next_random(&z) - 1.0);
-    pendres_reference_image image;
+    reference_image image;
     const long double y = (long double)x - 1.57079632679489661923132169163975L;
-    check_ok(pendres_reference_map(p, y, v, 1, &image));
+    check_ok(reference_map(p, y, v, 1, &image));
     double growth = 0.0;
     for (int k = 0; k < 4; k++)
       growth = fmax(growth, (double)fabsl(image.monodromy[k / 2][k % 2]));

@@ -20,7 +20,7 @@ static void test_far_starts(void **state)
     long double y = x0 - half_pi, w = v;
     long turns = 0;
     check_ok(pendres_strobe_advance(ctx, 1, &p, &x, &v, 3, NULL));
-    check_ok(pendres_reference_advance(&p, &y, &w, &turns, 3));
+    check_ok(reference_advance(&p, &y, &w, &turns, 3));
     check_near(v, (double)w, 1e-12);
     check_near(x, (double)(y + half_pi + two_pi * (long double)turns), 4.7e-10);
   }
@@ -46,7 +46,7 @@ static void test_far_angles(void **state)
     double x = far[i].x, v = 0.3, error, xs[7], vs[7], x_error[7], v_error[7];
     long double y = far[i].y, w = v;
     long turns = far[i].turns;
-    check_ok(pendres_reference_advance(&p, &y, &w, &turns, 3));
+    check_ok(reference_advance(&p, &y, &w, &turns, 3));
     const long double turned = two_pi * (long double)(turns - far[i].turns);
     const double moved = (double)(y - far[i].y + turned);
     const double place = 0.5 * (nextafter(fabs(far[i].x), INFINITY) - fabs(far[i].x));

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -41,7 +41,7 @@ static void test_reference(void **state)
       for (long k = 0; k <= PERIODS; k++) {
         long double y = (long double)cases[c].x - 1.57079632679489661923L, w = cases[c].v;
         long turns = 0;
-        check_ok(pendres_reference_advance(&p, &y, &w, &turns, k));
+        check_ok(reference_advance(&p, &y, &w, &turns, k));
         const double want = (double)(y + 1.57079632679489661923L + 6.28318530717958647693L * turns);
         const size_t i = (size_t)k * SAMPLES;
         /* Within the claim; and the claim, where nothing amplifies, near the goal. */
@@ -77,7 +77,7 @@ static void test_lost_for_good(void **state)
   assert_true(lost < N);
   long double y = (long double)x0 - 1.57079632679489661923L, w = v0;
   for (size_t k = 0; k < N; k += SAMPLES) {
-    if (k > 0) check_ok(pendres_reference_advance(&p, &y, &w, NULL, 1));
+    if (k > 0) check_ok(reference_advance(&p, &y, &w, NULL, 1));
     check_near(v[k], (double)w, v_error[k]);
   }
   pendres_context_free(ctx);

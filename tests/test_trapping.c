@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "orbits/attractor_set.h"
 #include "golden.h"
@@ -85,7 +85,7 @@ static void check_inside(pendres_context *ctx, const pendres_orbit *o,
     v[i] = w * omega;
     if (i >= by_reference) continue;
     long double ry = y, rv = v[i];
-    check_ok(pendres_reference_advance(p, &ry, &rv, NULL, periods * o->period));
+    check_ok(reference_advance(p, &ry, &rv, NULL, periods * o->period));
     check_near(distance_to(o, (double)ry + 0.5 * pi, (double)rv), 0.0, close);
   }
   check_ok(pendres_strobe_advance(ctx, n, p, x, v, periods * o->period, NULL));
@@ -129,11 +129,11 @@ static void metric_contracts(void **state)
   for (size_t k = 0; k < 5; k++) {
     pendres_pendulum p = {
       .damping = 0.06, .drive_amplitude = 0.2, .drive_frequency = frequencies[k]};
-    const pendres_reference_cycle *fold = &golden_folds[0];
-    pendres_reference_cycle c;
+    const reference_cycle *fold = &golden_folds[0];
+    reference_cycle c;
     /* The reference's own branch leads to the orbit: its small state below the fold. */
-    if (pendres_reference_orbit(&p, 0.5L * fold->y, 0.1L, 1, 0, &c) != PENDRES_OK &&
-        pendres_reference_orbit(&p, 0.97L * fold->y, 0.17L, 1, 0, &c) != PENDRES_OK)
+    if (reference_orbit(&p, 0.5L * fold->y, 0.1L, 1, 0, &c) != PENDRES_OK &&
+        reference_orbit(&p, 0.97L * fold->y, 0.17L, 1, 0, &c) != PENDRES_OK)
       continue;
     const pendres_orbit o =
       orbit_near(ctx, &p, (double)c.y + 0.5 * pi, (double)c.v, 1, 0);
@@ -163,7 +163,7 @@ static void metric_contracts(void **state)
 static void near_a_fold(void **state)
 {
   pendres_context *ctx = *state;
-  const pendres_reference_cycle *fold = &golden_folds[0];
+  const reference_cycle *fold = &golden_folds[0];
   double last = 10.0;
   int seen = 0;
   for (double before = 1e-2; before > 1e-7; before /= 10.0) {
@@ -194,7 +194,7 @@ static void near_a_fold(void **state)
  */
 static void short_of_the_saddle(void **state)
 {
-  const pendres_reference_cycle *fold = &golden_folds[0];
+  const reference_cycle *fold = &golden_folds[0];
   pendres_context *ctx = NULL;
   (void)state;
   check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-13}, &ctx));
@@ -203,10 +203,10 @@ static void short_of_the_saddle(void **state)
       .damping = (double)fold->damping,
       .drive_amplitude = (double)fold->drive_amplitude,
       .drive_frequency = (double)(fold->drive_frequency - (long double)before)};
-    pendres_reference_cycle node = {0}, saddle = {0}, one;
+    reference_cycle node = {0}, saddle = {0}, one;
     for (int i = -6; i <= 6; i++) {
       const long double y = fold->y + 0.7L * i * sqrtl(before);
-      if (pendres_reference_orbit(&p, y, fold->v, 1, 0, &one) != PENDRES_OK ||
+      if (reference_orbit(&p, y, fold->v, 1, 0, &one) != PENDRES_OK ||
           fabsl(one.y - fold->y) > 0.5L)
         continue;
       if (one.multiplier_re[0] > 1.0L) saddle = one;
@@ -305,7 +305,7 @@ static void weak_damping(void **state)
       if (i >= BY_REFERENCE) continue;
       long double ry = y, rv = v[i];
       const double before = pendres_trapping_polynomial(&t, y, w);
-      check_ok(pendres_reference_advance(p, &ry, &rv, NULL, 1));
+      check_ok(reference_advance(p, &ry, &rv, NULL, 1));
       assert_true(pendres_trapping_polynomial(&t, (double)ry, (double)rv / p->drive_frequency) <
                   before);
     }

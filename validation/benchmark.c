@@ -9,7 +9,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "system/clock.h"
 #include "validation/exact.h"
@@ -334,9 +334,9 @@ static pendres_status refer_one(const work_unit *w, size_t i, marks *out)
   long double growth[2][2] = { { 1.0L, 0.0L }, { 0.0L, 1.0L } };
   long turns = 0, done = 0;
   for (int m = 0; m < WORK_UNIT_MARKS; m++) {
-    pendres_reference_image to;
+    reference_image to;
     const pendres_status status =
-      pendres_reference_map(&w->pendulum[i], y, v, work_unit_periods[m] - done, &to);
+      reference_map(&w->pendulum[i], y, v, work_unit_periods[m] - done, &to);
     if (status != PENDRES_OK) return status;
     long double product[2][2], largest = 0.0L;
     for (int a = 0; a < 2; a++)

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "validation/exact.h"
 #include "validation/hard_cases.h"
@@ -54,7 +54,7 @@ static pendres_status go(const pendres_attractors *set, const pendres_pendulum *
   pendres_status status = PENDRES_OK;
   *attractor = ellipse_of(set, y, v);
   for (int k = 0; k < MOST_PERIODS && *attractor < 0 && status == PENDRES_OK; k++) {
-    status = pendres_reference_advance(p, &y, &v, NULL, 1);
+    status = reference_advance(p, &y, &v, NULL, 1);
     *attractor = ellipse_of(set, y, v);
   }
   return status;

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include <pendres/free.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "validation/exact.h"
 #include "validation/hard_cases.h"
@@ -55,7 +55,7 @@ static pendres_status error_from_rest(const pendres_pendulum *p, double x0, long
 {
   long double y = (long double)x0 - half_pi_exact, w = 0.0L;
   long turns = 0;
-  const pendres_status status = pendres_reference_advance(p, &y, &w, &turns, periods);
+  const pendres_status status = reference_advance(p, &y, &w, &turns, periods);
   const long double at = y + half_pi_exact * (1.0L + 4.0L * (long double)turns);
   *error = hard_larger((double)fabsl((long double)x - at), (double)fabsl((long double)v - w));
   return status;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "validation/exact.h"
 #include "validation/hard_cases.h"
@@ -60,7 +60,7 @@ static pendres_status follow(hard_sheet *sheet, pendres_context *ctx, int estima
   for (int i = 0; i < STARTS && status == PENDRES_OK; i++) {
     long double y = (long double)x0[i] - half_pi_exact, v = 0.0L;
     long turns = 0;
-    status = pendres_reference_advance(&c->p[i], &y, &v, &turns, PERIODS);
+    status = reference_advance(&c->p[i], &y, &v, &turns, PERIODS);
     y += half_pi_exact * (1.0L + 4.0L * (long double)turns);
     c->error[i] = hard_larger((double)fabsl((long double)c->x[i] - y),
                               (double)fabsl((long double)c->v[i] - v));
@@ -92,7 +92,7 @@ static pendres_status put_advanced(hard_sheet *sheet, const hard_ways *way)
 }
 
 /* Largest difference of a Poincaré point from the reference's orbit next to it. */
-static double point_error(const pendres_reference_cycle *c, double x, double v)
+static double point_error(const reference_cycle *c, double x, double v)
 {
   return hard_larger((double)fabsl((long double)x - half_pi_exact - c->y),
                      (double)fabsl(v - c->v));
@@ -100,7 +100,7 @@ static double point_error(const pendres_reference_cycle *c, double x, double v)
 
 /* An orbit that claims to meet the tolerance against the reference; 0 if it makes no claim. */
 static pendres_status orbit_error(pendres_context *ctx, const pendres_orbit_guess *guess,
-                                  double *error, pendres_reference_cycle *cycle)
+                                  double *error, reference_cycle *cycle)
 {
   pendres_orbit o;
   pendres_status outcome = PENDRES_OK;
@@ -108,7 +108,7 @@ static pendres_status orbit_error(pendres_context *ctx, const pendres_orbit_gues
   pendres_status status = pendres_orbit_find(ctx, 1, guess, PENDRES_ORBIT_PLAIN, &o, &outcome);
   if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED) status = outcome; /* there is one */
   if (status != PENDRES_OK) return status;
-  status = pendres_reference_orbit(&o.pendulum, (long double)o.x - half_pi_exact, o.v, 1, 0, cycle);
+  status = reference_orbit(&o.pendulum, (long double)o.x - half_pi_exact, o.v, 1, 0, cycle);
   if (status != PENDRES_OK || outcome != PENDRES_OK) return status;
   *error = hard_larger(point_error(cycle, o.x, o.v),
                        hard_larger((double)fabsl(o.loop_area - cycle->loop_area),
@@ -130,7 +130,7 @@ static pendres_status put_orbits(hard_sheet *sheet, const hard_ways *way)
                                             .drive_frequency = frequency[i % FREQUENCIES] },
                               .period = 1 };
     pendres_harmonic h;
-    pendres_reference_cycle cycle;
+    reference_cycle cycle;
     double error = 0.0;
     status = pendres_harmonic_find(&g.pendulum, &h);
     if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
@@ -253,14 +253,14 @@ static pendres_status put_strong_drive(hard_sheet *sheet, const hard_ways *way)
   const double a = drive_amplitude / (drive_frequency * hypot(drive_frequency, drive_damping));
   const double lag = atan2(drive_damping, -drive_frequency);
   const pendres_pendulum p = driven_by(drive_amplitude);
-  pendres_reference_cycle c;
+  reference_cycle c;
   reached r;
   pendres_status status =
     both_ways(sheet, way, drive_amplitude, 1.5 * pi + a * cos(lag),
               a * drive_frequency * sin(lag), &r);
   if (status != PENDRES_OK) return status;
   const pendres_orbit o = r.orbit;
-  status = pendres_reference_orbit(&p, (long double)o.x - half_pi_exact, o.v, 1, 0, &c);
+  status = reference_orbit(&p, (long double)o.x - half_pi_exact, o.v, 1, 0, &c);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
   const double off[] = { (double)fabsl(o.amplitude - c.amplitude),
                          (double)fabsl(o.loop_area - c.loop_area),
@@ -299,7 +299,7 @@ static pendres_status put_strong_and_tight(hard_sheet *sheet)
   status = pendres_strobe_advance(ctx, 1, &p, &x, &v, 1, &estimate);
   if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
   pendres_context_free(ctx);
-  if (status == PENDRES_OK) status = pendres_reference_advance(&p, &y, &w, &turns, 1);
+  if (status == PENDRES_OK) status = reference_advance(&p, &y, &w, &turns, 1);
   if (status != PENDRES_OK) return status;
   y += half_pi_exact * (1.0L + 4.0L * (long double)turns);
   const double error =

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "validation/exact.h"
 #include "validation/hard_cases.h"
@@ -41,14 +41,14 @@ static int stride(const hard_sheet *sheet)
 
 /* A fold, or the cusp; the pair of orbits exists at drive frequencies on one side of a fold. */
 typedef struct place {
-  pendres_reference_cycle at;
+  reference_cycle at;
   int exists; /* -1: below, 1: above; 0: the cusp, where one orbit exists on both sides */
 } place;
 
 /* What extended precision finds at a distance: the orbits of the place, if they are there. */
 typedef struct truth {
   pendres_pendulum p;
-  pendres_reference_cycle node, saddle;
+  reference_cycle node, saddle;
   int nodes, saddles;
   double off; /* of the place, in drive frequency */
 } truth;
@@ -59,11 +59,11 @@ static pendres_status find_folds(place folds[2])
   folds[0].exists = -1;
   folds[1].exists = 1;
   const pendres_status status =
-    pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
-                           &(pendres_reference_guess){0.8449L, 0.847L, 0.467L, 0.0L}, &folds[0].at);
+    reference_find(REFERENCE_FOLD, &p,
+                           &(reference_guess){0.8449L, 0.847L, 0.467L, 0.0L}, &folds[0].at);
   return status == PENDRES_OK
-           ? pendres_reference_find(PENDRES_REFERENCE_FOLD, &p,
-                                    &(pendres_reference_guess){0.7535L, 0.321L, 1.608L, 0.0L},
+           ? reference_find(REFERENCE_FOLD, &p,
+                                    &(reference_guess){0.7535L, 0.321L, 1.608L, 0.0L},
                                     &folds[1].at)
            : status;
 }
@@ -72,8 +72,8 @@ static pendres_status find_cusp(place *cusp)
 {
   const pendres_pendulum p = { .drive_amplitude = 0.2, .drive_frequency = 0.86, .damping = 0.16 };
   cusp->exists = 0;
-  return pendres_reference_find(PENDRES_REFERENCE_CUSP, &p,
-                                &(pendres_reference_guess){0.862L, 0.7L, 0.7L, 0.1637L}, &cusp->at);
+  return reference_find(REFERENCE_CUSP, &p,
+                                &(reference_guess){0.862L, 0.7L, 0.7L, 0.1637L}, &cusp->at);
 }
 
 /* Orbits next to a fold or cusp lie on the line along which nothing contracts there. */
@@ -82,7 +82,7 @@ static void look_around(const place *l, int side, double off, truth *t)
   const long double reach = l->exists != 0 ? sqrtl(off) : cbrtl(off);
   const long double along[2] = { l->at.monodromy[0][1], 1.0L - l->at.monodromy[0][0] };
   const long double length = hypotl(along[0], along[1]);
-  pendres_reference_cycle one;
+  reference_cycle one;
   *t = (truth){ .off = off, .p = { .damping = (double)l->at.damping,
                        .drive_amplitude = (double)l->at.drive_amplitude,
                        .drive_frequency =
@@ -90,7 +90,7 @@ static void look_around(const place *l, int side, double off, truth *t)
   if (l->exists != 0 && side != l->exists) return;
   for (int i = -12; i <= 12 && (t->nodes == 0 || (l->exists != 0 && t->saddles == 0)); i++) {
     const long double s = 0.4L * i * reach / length;
-    if (pendres_reference_orbit(&t->p, l->at.y + s * along[0], l->at.v + s * along[1], 1, 0,
+    if (reference_orbit(&t->p, l->at.y + s * along[0], l->at.v + s * along[1], 1, 0,
                                 &one) != PENDRES_OK)
       continue;
     if (hypotl(one.y - l->at.y, one.v - l->at.v) > vicinity) continue;
@@ -209,7 +209,7 @@ static pendres_status error_over_claimed(hard_sheet *sheet, const truth *t, doub
   *ratio = INFINITY;
   if (status == PENDRES_OK && outcome != PENDRES_NOT_CONVERGED) {
     /* Newton's method may have gone to the twin: that is an orbit, too. */
-    const pendres_reference_cycle *e = t->saddles && !o.stable ? &t->saddle : &t->node;
+    const reference_cycle *e = t->saddles && !o.stable ? &t->saddle : &t->node;
     const long double exact_x = e->y + half_pi_exact;
     const struct { long double off; double claim; } measures[] = {
       { o.x - exact_x, o.x_error },

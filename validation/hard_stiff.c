@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "validation/exact.h"
 #include "validation/hard_cases.h"
@@ -62,7 +62,7 @@ static pendres_status measure(hard_sheet *sheet, double damping, pendres_method 
   for (int i = 0; i < n; i++) {
     long double y = again_x[i] - half_pi_exact, w = again_v[i];
     long turns = 0;
-    status = pendres_reference_advance(&p[i], &y, &w, &turns, PERIODS);
+    status = reference_advance(&p[i], &y, &w, &turns, PERIODS);
     if (status != PENDRES_OK) break;
     const long double angle = x[i] - half_pi_exact - 2.0L * pi_exact * (long double)turns;
     const double error =
@@ -134,12 +134,12 @@ static pendres_status add_orbit(hard_sheet *sheet, double damping)
   pendres_outcome outcome[STARTS];
   pendres_attractors *found = NULL;
   pendres_context *ctx = NULL;
-  pendres_reference_cycle exact;
+  reference_cycle exact;
   const int n = set_up(sheet, damping, p, x, v);
   pendres_status status =
     hard_context(sheet, &(pendres_options){ .tolerance = tolerance }, &ctx);
   if (status == PENDRES_OK) status = pendres_settle(ctx, (size_t)n, p, x, v, outcome, &found);
-  if (status == PENDRES_OK) status = pendres_reference_orbit(p, 0.0L, 0.0L, 1, 0, &exact);
+  if (status == PENDRES_OK) status = reference_orbit(p, 0.0L, 0.0L, 1, 0, &exact);
   if (status != PENDRES_OK) {
     (void)hard_failed(sheet, status, ctx);
     goto done;

@@ -5,27 +5,27 @@
 #include <float.h>
 #include <math.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "validation/exact.h"
 #include "validation/hard_cases.h"
 
 /* Larger of the errors of a state next to a reference orbit's Poincaré point. */
-static double off_point(const pendres_reference_cycle *c, double x, double v)
+static double off_point(const reference_cycle *c, double x, double v)
 {
   const long double y = (long double)x - half_pi_exact - c->y;
   return hard_larger((double)fabsl(remainderl(y, 4.0L * half_pi_exact)), (double)fabsl(v - c->v));
 }
 
-static pendres_status refer(hard_sheet *sheet, const pendres_orbit *o, pendres_reference_cycle *c)
+static pendres_status refer(hard_sheet *sheet, const pendres_orbit *o, reference_cycle *c)
 {
   const pendres_status status =
-    pendres_reference_orbit(&o->pendulum, (long double)o->x - half_pi_exact, o->v, 1, 0, c);
+    reference_orbit(&o->pendulum, (long double)o->x - half_pi_exact, o->v, 1, 0, c);
   return status == PENDRES_OK ? status : hard_failed(sheet, status, NULL);
 }
 
 /* The worst of an orbit's errors over their estimates. */
-static double orbit_underestimated(const pendres_orbit *o, const pendres_reference_cycle *c)
+static double orbit_underestimated(const pendres_orbit *o, const reference_cycle *c)
 {
   const double most = 1e-4; /* a larger claim is no answer */
   const double ratio[] = {
@@ -63,7 +63,7 @@ static pendres_status weak_orbits(hard_sheet *sheet, pendres_context *ctx, doubl
   static const double frequency[WEAK] = { 0.8, 0.9, 0.95, 1.1, 1.2, 0.9, 0.95 };
   w->estimate = 0.0;
   for (int i = 0; i < WEAK; i++) {
-    pendres_reference_cycle c;
+    reference_cycle c;
     pendres_harmonic h;
     w->p[i] = (pendres_pendulum){ .damping = damping, .drive_amplitude = 0.02,
                                   .drive_frequency = frequency[i] };
@@ -167,7 +167,7 @@ static const double frequency_damping = 0.2, frequency_tolerance = 1e-8;
 
 typedef struct ways {
   pendres_orbit orbit;
-  pendres_reference_cycle cycle;
+  reference_cycle cycle;
   double error;       /* of the orbit's point, loop area and amplitude, the largest */
   double naive_error; /* of the point, by waiting */
 } ways;

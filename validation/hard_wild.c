@@ -8,7 +8,7 @@
  */
 #include <math.h>
 
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include "validation/exact.h"
 #include "validation/hard_cases.h"
@@ -45,12 +45,12 @@ static pendres_status exact_exponent(const pendres_pendulum *p, double scale, ex
   const int batch = scale >= 1.0 ? BATCH : scale >= 0.1 ? BATCH / 4 : BATCH / 20;
   long double y = 0.1L, v = 0.0L, u[2] = { 1.0L, 0.0L };
   double sum = 0.0, squares = 0.0;
-  pendres_status status = pendres_reference_advance(p, &y, &v, NULL, TRANSIENT);
+  pendres_status status = reference_advance(p, &y, &v, NULL, TRANSIENT);
   for (int b = 0; b < BATCHES && status == PENDRES_OK; b++) {
     double growth = 0.0;
     for (int k = 0; k < batch && status == PENDRES_OK; k++) {
-      pendres_reference_image m;
-      status = pendres_reference_map(p, y, v, 1, &m);
+      reference_image m;
+      status = reference_map(p, y, v, 1, &m);
       if (status != PENDRES_OK) break;
       const long double a = m.monodromy[0][0] * u[0] + m.monodromy[0][1] * u[1];
       const long double c = m.monodromy[1][0] * u[0] + m.monodromy[1][1] * u[1];
@@ -150,9 +150,9 @@ static const double most_claimed = 1e-6;
 static pendres_status denied(const pendres_orbit *o, int *wrong)
 {
   const long double y = o->x - half_pi_exact;
-  pendres_reference_cycle c;
-  pendres_reference_image early;
-  pendres_status status = pendres_reference_orbit(&o->pendulum, y, o->v, o->period, o->winding, &c);
+  reference_cycle c;
+  reference_image early;
+  pendres_status status = reference_orbit(&o->pendulum, y, o->v, o->period, o->winding, &c);
   *wrong = status == PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return *wrong ? PENDRES_OK : status;
   *wrong = !(hypotl(c.multiplier_re[0], c.multiplier_im[0]) < 1.0L) ||
@@ -160,7 +160,7 @@ static pendres_status denied(const pendres_orbit *o, int *wrong)
                           most_claimed) ||
            hard_misplaced((double)fabsl(o->v - c.v), o->v_error, most_claimed);
   for (int k = 1; k < o->period && status == PENDRES_OK; k++) {
-    status = pendres_reference_map(&o->pendulum, c.y, c.v, k, &early);
+    status = reference_map(&o->pendulum, c.y, c.v, k, &early);
     *wrong |= !(hypotl(early.y - c.y, early.v - c.v) >= 1e-3L);
   }
   return status;
@@ -224,7 +224,7 @@ static pendres_status add_cascade(hard_sheet *sheet, const struct cascade *known
 /* Advance by a method from the orbit's point some turns away; x and v become their distances from
    where the orbit is then. */
 static pendres_status run_on(hard_sheet *sheet, const pendres_options *o,
-                             const pendres_reference_cycle *orbit, long periods, double *x,
+                             const reference_cycle *orbit, long periods, double *x,
                              double *v)
 {
   const double turns = 1e6 - (double)periods;
@@ -256,10 +256,10 @@ static pendres_status add_turns(hard_sheet *sheet)
   const double tolerance = 1e-12, last_place = 0x1p-31;
   const long periods = sheet->scale < 1.0 ? 100 : 5000, few = 20;
   const pendres_pendulum p = driven(1.35);
-  pendres_reference_cycle orbit;
+  reference_cycle orbit;
   double x, v, naive_x, naive_v;
   pendres_status status =
-    pendres_reference_orbit(&p, 2.450188L - half_pi_exact, 1.910757L, 1, 1, &orbit);
+    reference_orbit(&p, 2.450188L - half_pi_exact, 1.910757L, 1, 1, &orbit);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
   status = run_on(sheet, &(pendres_options){ .tolerance = tolerance }, &orbit, periods,
                   &x, &v);

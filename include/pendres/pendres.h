@@ -46,7 +46,6 @@
 #include <pendres/switching.h>
 #include <pendres/ramp.h>
 #include <pendres/fit.h>
-#include <pendres/reference.h>
 #include <pendres/store.h>
 
 #endif

@@ -16,7 +16,7 @@
 #include <stdint.h>
 
 #include <pendres/pendres.h>
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 /* What was asked for on the command line. */
 typedef struct accuracy_options {
@@ -87,10 +87,10 @@ void accuracy_complain(accuracy *a, const char *what, const char *how);
 int accuracy_settled_guess(pendres_context *ctx, accuracy_random *r, pendres_orbit_guess *g);
 /* What an orbit has beside what is true of it: all but x, which is counted from elsewhere, and the
    multipliers. */
-void accuracy_note_orbit(accuracy *a, const pendres_orbit *o, const pendres_reference_cycle *e,
+void accuracy_note_orbit(accuracy *a, const pendres_orbit *o, const reference_cycle *e,
                          const char *how);
 /* Of the two pairs of multipliers, the farther: as they are ordered, or the other way round. */
-double accuracy_multipliers_apart(const pendres_orbit *o, const pendres_reference_cycle *e);
+double accuracy_multipliers_apart(const pendres_orbit *o, const reference_cycle *e);
 
 /* ---- units ---- */
 

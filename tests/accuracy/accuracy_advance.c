@@ -44,7 +44,7 @@ static double off_by(const item *t, double x, double v, int *there)
 {
   long double y = t->x - half_pi, w = t->v;
   long turns = 0;
-  *there = pendres_reference_advance(&t->pendulum, &y, &w, &turns, t->periods) == PENDRES_OK;
+  *there = reference_advance(&t->pendulum, &y, &w, &turns, t->periods) == PENDRES_OK;
   const long double angle = y + half_pi + two_pi * (long double)turns;
   return (double)fmaxl(fabsl((long double)x - angle), fabsl((long double)v - w));
 }

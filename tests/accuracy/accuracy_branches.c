@@ -33,7 +33,7 @@ typedef struct place {
   int there;
   pendres_branch_point point;
   pendres_bifurcation bifurcation;
-  pendres_reference_cycle exact;
+  reference_cycle exact;
   long double value; /* of the parameter at the bifurcation */
 } place;
 
@@ -192,10 +192,10 @@ static int equations(const pendres_bifurcation *b, double s, const long double u
   long double trace = 0.0L, moved[2] = {0.0L};
   for (int k = 3; k-- > -1;) { /* last the place itself */
     pendres_pendulum p = b->orbit.pendulum;
-    pendres_reference_image i;
+    reference_image i;
     const double value = (double)(u[2] + (k == 2 ? aside : 0.0L));
     pendres_parameter_set(b->parameter, value, &p);
-    if (pendres_reference_map(&p, u[0] + (k == 0 ? aside : 0.0L), u[1] + (k == 1 ? aside : 0.0L), q,
+    if (reference_map(&p, u[0] + (k == 0 ? aside : 0.0L), u[1] + (k == 1 ? aside : 0.0L), q,
                               &i) != PENDRES_OK)
       return 0;
     const long double off =
@@ -262,7 +262,7 @@ static int exact_bifurcation(const pendres_bifurcation *b, place *out)
     u[2] = (double)(u[2] + a[2][3]);
   }
   if (!(last < 1e-14L)) return 0;
-  out->exact = (pendres_reference_cycle){.y = u[0] + a[0][3], .v = u[1] + a[1][3]};
+  out->exact = (reference_cycle){.y = u[0] + a[0][3], .v = u[1] + a[1][3]};
   out->value = u[2] + a[2][3];
   return 1;
 }
@@ -275,8 +275,8 @@ static int exact_of(place *at)
     return exact_bifurcation(b, at);
   if (b->kind != PENDRES_SYMMETRY_BREAKING || b->parameter != PENDRES_DRIVE_FREQUENCY ||
       o->period != 1 || o->winding != 0 ||
-      pendres_reference_find(PENDRES_REFERENCE_SYMMETRY_BREAKING, &o->pendulum,
-                             &(pendres_reference_guess){b->value, o->x - origin_of(o), o->v, 0.0L},
+      reference_find(REFERENCE_SYMMETRY_BREAKING, &o->pendulum,
+                             &(reference_guess){b->value, o->x - origin_of(o), o->v, 0.0L},
                              &at->exact) != PENDRES_OK)
     return 0;
   at->value = at->exact.drive_frequency;
@@ -305,7 +305,7 @@ static void look(accuracy_random *r, const pendres_branch *b, item *t)
     at->point.orbit = accuracy_out_of_units(&at->point.orbit, u);
     const pendres_orbit *o = &at->point.orbit;
     at->there = at->point.bifurcation < 0 &&
-                pendres_reference_orbit(&o->pendulum, o->x - origin_of(o), o->v, o->period,
+                reference_orbit(&o->pendulum, o->x - origin_of(o), o->v, o->period,
                                         o->winding, &at->exact) == PENDRES_OK;
   }
   for (size_t k = 0; k < met && k < BIFURCATIONS; k++) {
@@ -382,7 +382,7 @@ static void compute_weak(accuracy_random *r, void *of, long number)
 }
 
 /* How far an x is from where the reference has it, in whole turns. */
-static double turn_of(const pendres_orbit *o, const pendres_reference_cycle *e)
+static double turn_of(const pendres_orbit *o, const reference_cycle *e)
 {
   const double apart = o->x - origin_of(o) - (double)e->y;
   return o->pendulum.force == PENDRES_FORCE_POLYNOMIAL ? 0.0 : rint(apart / two_pi) * two_pi;
@@ -391,7 +391,7 @@ static double turn_of(const pendres_orbit *o, const pendres_reference_cycle *e)
 static void note_point(accuracy *a, const place *at, const char *how)
 {
   const pendres_orbit *o = &at->point.orbit;
-  const pendres_reference_cycle *e = &at->exact;
+  const reference_cycle *e = &at->exact;
   accuracy_note(a, "x of a point", o->x - turn_of(o, e), o->x_error, e->y + origin_of(o), how);
   accuracy_note(a, "v of a point", o->v, o->v_error, e->v, how);
   if (o->pendulum.drive_amplitude != 0.0) /* without a drive it is 0 exactly */
@@ -412,14 +412,14 @@ static void note_bifurcation(accuracy *a, const place *at, const char *how)
   const char *name = pendres_name_get(PENDRES_NAMES_SPECIAL, b->kind);
   char kind[64];
   pendres_pendulum p = o->pendulum;
-  pendres_reference_cycle e = at->exact;
+  reference_cycle e = at->exact;
   snprintf(kind, sizeof kind, "%s", name);
   accuracy_note(a, kind, b->value, b->value_error, at->value, how);
   snprintf(kind, sizeof kind, "x of a %s", name);
   accuracy_note(a, kind, o->x - turn_of(o, &e), o->x_error, e.y + origin_of(o), how);
   pendres_parameter_set(b->parameter, (double)at->value, &p);
   const long double s = b->kind == PENDRES_PERIOD_DOUBLING ? -1.0L : 1.0L;
-  e = (pendres_reference_cycle){
+  e = (reference_cycle){
     .multiplier_re = {s, s * product_at(&p, o->period)}};
   snprintf(kind, sizeof kind, "multipliers of a %s", name);
   accuracy_note_error(a, kind, accuracy_multipliers_apart(o, &e), o->multiplier_error, how);

@@ -53,7 +53,7 @@ static int true_state(const item *t, double x)
 {
   long double y = (long double)x - 1.57079632679489661923132169163975144L, v = t->ensemble.v;
   for (int k = 0; k < STRETCHES; k++) {
-    if (pendres_reference_advance(&t->pendulum, &y, &v, NULL, STRETCH) != PENDRES_OK) return -1;
+    if (reference_advance(&t->pendulum, &y, &v, NULL, STRETCH) != PENDRES_OK) return -1;
     const int s = state_at(&t->found, (double)y, (double)v);
     if (s >= 0) return s;
   }

@@ -21,7 +21,7 @@ typedef struct item {
   accuracy_units units;
   int there;
   pendres_orbit orbit;
-  pendres_reference_cycle exact;
+  reference_cycle exact;
   long periods;
   double claim;          /* of the pendulum that was advanced, a length, */
   long double off;       /* and what it is off by: velocities count by its unit of time */
@@ -54,7 +54,7 @@ static void draw(accuracy_random *r, item *t)
 }
 
 /* The multipliers, and the exponents where these are real: r1, r2 or -damping/2 +- i r2. */
-static void multipliers(const pendres_pendulum *p, pendres_reference_cycle *e)
+static void multipliers(const pendres_pendulum *p, reference_cycle *e)
 {
   const long double a = p->force_coefficients[0], half = 0.5L * p->damping;
   const long double time = two_pi / p->drive_frequency, root = half * half - a;
@@ -71,12 +71,12 @@ static void multipliers(const pendres_pendulum *p, pendres_reference_cycle *e)
   e->multiplier_re[1] = expl(-fast * time);
 }
 
-static void exact_of(const pendres_pendulum *p, pendres_reference_cycle *e)
+static void exact_of(const pendres_pendulum *p, reference_cycle *e)
 {
   const long double a = p->force_coefficients[0], w = p->drive_frequency, f = p->drive_amplitude;
   const long double stiff = a - w * w, friction = p->damping * w;
   const long double square = stiff * stiff + friction * friction, size = f / sqrtl(square);
-  *e = (pendres_reference_cycle){.amplitude = size, .first_harmonic_amplitude = size};
+  *e = (reference_cycle){.amplitude = size, .first_harmonic_amplitude = size};
   e->y = p->torque / a + size * (stiff / sqrtl(square));
   e->v = size * w * (friction / sqrtl(square));
   e->phase_lag = atan2l(friction, stiff);
@@ -92,7 +92,7 @@ static void exact_of(const pendres_pendulum *p, pendres_reference_cycle *e)
 static long double off_by(const item *t, double x, double v)
 {
   const pendres_pendulum *p = &t->orbit.pendulum;
-  const pendres_reference_cycle *e = &t->exact;
+  const reference_cycle *e = &t->exact;
   const accuracy_units u = accuracy_near_units(t->units);
   const long double half = 0.5L * p->damping, a = p->force_coefficients[0];
   const long double time = two_pi * t->periods / p->drive_frequency, root = half * half - a;
@@ -136,7 +136,7 @@ static void note(accuracy *a, const void *of, long number, void *tally)
 {
   const item *t = of;
   const pendres_orbit *o = &t->orbit;
-  const pendres_reference_cycle *e = &t->exact;
+  const reference_cycle *e = &t->exact;
   const pendres_pendulum *p = &t->guess.pendulum;
   char how[HOW];
   (void)tally;

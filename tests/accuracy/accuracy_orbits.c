@@ -25,10 +25,10 @@ typedef struct item {
   int there;  /* an orbit was found, and the reference has one beside it */
   int false_; /* the library found one where the reference has none */
   pendres_orbit orbit;
-  pendres_reference_cycle exact;
+  reference_cycle exact;
   int settled; /* the attractor below is a closed orbit, and the reference has it */
   pendres_attractor attractor;
-  pendres_reference_cycle of_attractor;
+  reference_cycle of_attractor;
 } item;
 
 static pendres_context *context_with(double tolerance)
@@ -94,7 +94,7 @@ static void settle(pendres_context *ctx, item *t)
     t->attractor = *pendres_attractors_get(found, (size_t)outcome.attractor);
     const pendres_orbit *o = &t->attractor.orbit;
     t->settled = t->attractor.label != PENDRES_LABEL_CHAOTIC &&
-                 pendres_reference_orbit(&g->pendulum, o->x - half_pi, o->v, o->period, o->winding,
+                 reference_orbit(&g->pendulum, o->x - half_pi, o->v, o->period, o->winding,
                                          &t->of_attractor) == PENDRES_OK;
   }
   pendres_attractors_free(found);
@@ -111,7 +111,7 @@ static void compute(accuracy_random *r, void *of, long number)
   if (ctx != NULL && g->period > 0 &&
       pendres_orbit_find(ctx, 1, g, t->want, &t->orbit, &outcome) == PENDRES_OK &&
       outcome != PENDRES_NOT_CONVERGED) {
-    const pendres_status status = pendres_reference_orbit(
+    const pendres_status status = reference_orbit(
       &g->pendulum, t->orbit.x - half_pi, t->orbit.v, g->period, g->winding, &t->exact);
     t->there = status == PENDRES_OK;
     t->false_ = status == PENDRES_NOT_CONVERGED;
@@ -120,7 +120,7 @@ static void compute(accuracy_random *r, void *of, long number)
   pendres_context_free(ctx);
 }
 
-double accuracy_multipliers_apart(const pendres_orbit *o, const pendres_reference_cycle *e)
+double accuracy_multipliers_apart(const pendres_orbit *o, const reference_cycle *e)
 {
   double apart[2] = {0.0, 0.0};
   for (int swap = 0; swap < 2; swap++)
@@ -136,7 +136,7 @@ double accuracy_multipliers_apart(const pendres_orbit *o, const pendres_referenc
 /* The exponent is the larger multiplier's logarithm in time. */
 static void note_attractor(accuracy *a, const item *t, const char *how)
 {
-  const pendres_reference_cycle *e = &t->of_attractor;
+  const reference_cycle *e = &t->of_attractor;
   const long double time = two_pi * (long double)e->period / e->drive_frequency;
   const long double exponent =
     logl(hypotl(e->multiplier_re[0], e->multiplier_im[0])) / time;
@@ -159,7 +159,7 @@ static void note_samples(accuracy *a, const item *t, const char *how)
       pendres_orbit_sample(ctx, o, 1, x, v, error) == PENDRES_OK) {
     for (int k = 0; k < o->period; k++) {
       long double y = t->exact.y, w = t->exact.v;
-      if (pendres_reference_advance(&o->pendulum, &y, &w, NULL, k) != PENDRES_OK) continue;
+      if (reference_advance(&o->pendulum, &y, &w, NULL, k) != PENDRES_OK) continue;
       const double turn = rint((double)((x[k] - half_pi) - y) / two_pi) * two_pi;
       off[0] = fmax(off[0], (double)fabsl(x[k] - turn - half_pi - y));
       off[1] = fmax(off[1], (double)fabsl(v[k] - w));
@@ -170,7 +170,7 @@ static void note_samples(accuracy *a, const item *t, const char *how)
   pendres_context_free(ctx);
 }
 
-void accuracy_note_orbit(accuracy *a, const pendres_orbit *o, const pendres_reference_cycle *e,
+void accuracy_note_orbit(accuracy *a, const pendres_orbit *o, const reference_cycle *e,
                          const char *how)
 {
   accuracy_note(a, "v", o->v, o->v_error, e->v, how);
@@ -194,7 +194,7 @@ static void note(accuracy *a, const void *of, long number, void *tally)
 {
   const item *t = of;
   const pendres_orbit *o = &t->orbit;
-  const pendres_reference_cycle *e = &t->exact;
+  const reference_cycle *e = &t->exact;
   const pendres_pendulum *p = &t->guess.pendulum;
   char how[HOW];
   (void)tally;

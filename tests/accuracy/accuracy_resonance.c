@@ -20,7 +20,7 @@ typedef struct item {
   pendres_status status;
   pendres_resonance found;
   int peak, fold; /* the reference has it too */
-  pendres_reference_cycle top, end;
+  reference_cycle top, end;
 } item;
 
 static void draw(accuracy_random *r, item *t)
@@ -55,16 +55,16 @@ static void compute(accuracy_random *r, void *of, long number)
   const pendres_resonance *f = &t->found;
   const pendres_orbit *o = &f->response.state[0].orbit;
   if (f->peak == PENDRES_PEAK_SMOOTH && is_alone(&f->response))
-    t->peak = pendres_reference_find(PENDRES_REFERENCE_RESONANCE, &t->pendulum,
-                                     &(pendres_reference_guess){f->frequency, o->x - half_pi, o->v,
+    t->peak = reference_find(REFERENCE_RESONANCE, &t->pendulum,
+                                     &(reference_guess){f->frequency, o->x - half_pi, o->v,
                                                                 0.0L},
                                      &t->top) == PENDRES_OK;
   if (f->peak == PENDRES_PEAK_EDGE && isfinite(f->fold_frequency))
     for (size_t k = 0; k < f->response.states && !t->fold; k++) {
       const pendres_orbit *s = &f->response.state[k].orbit;
       t->fold = s->period == 1 && s->winding == 0 &&
-                pendres_reference_find(PENDRES_REFERENCE_FOLD, &t->pendulum,
-                                       &(pendres_reference_guess){f->fold_frequency, s->x - half_pi,
+                reference_find(REFERENCE_FOLD, &t->pendulum,
+                                       &(reference_guess){f->fold_frequency, s->x - half_pi,
                                                                   s->v, 0.0L},
                                        &t->end) == PENDRES_OK &&
                 fabsl(t->end.drive_frequency - (long double)f->fold_frequency) < 1e-3L;

@@ -110,7 +110,7 @@ static double value_in(const item *t, double value, accuracy_units u)
 
 typedef struct place {
   double value;
-  pendres_reference_cycle cycle;
+  reference_cycle cycle;
 } place;
 
 static double turn_of(const pendres_pendulum *p)
@@ -119,7 +119,7 @@ static double turn_of(const pendres_pendulum *p)
   return period > 0.0 ? period : 1e300;
 }
 
-static int stable(const pendres_reference_cycle *c)
+static int stable(const reference_cycle *c)
 {
   return hypotl(c->multiplier_re[0], c->multiplier_im[0]) < 1.0L &&
          hypotl(c->multiplier_re[1], c->multiplier_im[1]) < 1.0L;
@@ -130,7 +130,7 @@ static int stable(const pendres_reference_cycle *c)
 static int next_place(const item *t, const place *before, const place *here, double value,
                       place *out)
 {
-  const pendres_reference_cycle *a = &before->cycle, *b = &here->cycle;
+  const reference_cycle *a = &before->cycle, *b = &here->cycle;
   pendres_pendulum p = t->pendulum;
   const long double way = here->value - before->value;
   const long double part = way != 0.0L ? (value - here->value) / way : 0.0L;
@@ -139,7 +139,7 @@ static int next_place(const item *t, const place *before, const place *here, dou
   const long double v = b->v + part * (b->v - a->v);
   pendres_parameter_set(t->parameter, value, &p);
   out->value = value;
-  return pendres_reference_orbit(&p, y, v, b->period, b->winding, &out->cycle) == PENDRES_OK &&
+  return reference_orbit(&p, y, v, b->period, b->winding, &out->cycle) == PENDRES_OK &&
          hypotl(remainderl(out->cycle.y - y, turn), out->cycle.v - v) < expected &&
          stable(&out->cycle);
 }

@@ -21,7 +21,7 @@
  * Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99; two-word sums: Dekker,
  * Numerische Mathematik 18 (1971) 224.
  */
-#include "reference/taylor.h"
+#include "oracle/taylor.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,28 +29,28 @@
 /* Step ends lie on this grid in theta, so that the phase is exact but for its own wrap. */
 static const long double grid = 0x1p-40L;
 
-static pendres_reference_pair two_sum(long double a, long double b)
+static reference_pair two_sum(long double a, long double b)
 {
   const long double s = a + b;
   const long double part = s - a;
-  return (pendres_reference_pair){ s, (a - (s - part)) + (b - part) };
+  return (reference_pair){ s, (a - (s - part)) + (b - part) };
 }
 
-static void pair_add(pendres_reference_pair *a, long double b)
+static void pair_add(reference_pair *a, long double b)
 {
-  const pendres_reference_pair s = two_sum(a->hi, b);
+  const reference_pair s = two_sum(a->hi, b);
   *a = two_sum(s.hi, s.lo + a->lo);
 }
 
 /* a b exactly in two words, by splitting each in halves. */
-static pendres_reference_pair two_product(long double a, long double b)
+static reference_pair two_product(long double a, long double b)
 {
   const long double splitter = ldexpl(1.0L, (LDBL_MANT_DIG + 1) / 2) + 1.0L;
   const long double ta = splitter * a, tb = splitter * b;
   const long double ah = ta - (ta - a), al = a - ah;
   const long double bh = tb - (tb - b), bl = b - bh;
   const long double product = a * b;
-  return (pendres_reference_pair){
+  return (reference_pair){
     product, ((ah * bh - product) + ah * bl + al * bh) + al * bl };
 }
 
@@ -58,17 +58,17 @@ static pendres_reference_pair two_product(long double a, long double b)
 static const double two_pi_part[3] = { 0x1.921fb54442d18p+2, 0x1.1a62633145c07p-52,
                                        -0x1.f1976b7ed8fbcp-108 };
 
-pendres_reference_pair pendres_reference_taylor_two_pi(void)
+reference_pair reference_taylor_two_pi(void)
 {
-  pendres_reference_pair sum = two_sum(two_pi_part[0], two_pi_part[1]);
+  reference_pair sum = two_sum(two_pi_part[0], two_pi_part[1]);
   pair_add(&sum, two_pi_part[2]);
   return sum;
 }
 
-pendres_status pendres_reference_model_of(const pendres_pendulum *p, pendres_reference_model *out)
+pendres_status reference_model_of(const pendres_pendulum *p, reference_model *out)
 {
   if (pendres_pendulum_check(p, NULL) != PENDRES_OK) return PENDRES_INVALID_ARGUMENT;
-  *out = (pendres_reference_model){.damping = p->damping, .drive_amplitude = p->drive_amplitude,
+  *out = (reference_model){.damping = p->damping, .drive_amplitude = p->drive_amplitude,
                                    .drive_frequency = p->drive_frequency, .torque = p->torque,
                                    .parametric_amplitude = p->parametric_amplitude};
   switch (p->force) {
@@ -85,15 +85,15 @@ pendres_status pendres_reference_model_of(const pendres_pendulum *p, pendres_ref
 }
 
 /* Take whole turns off y until it is in (-pi, pi], and count them. */
-static void wrap(pendres_reference_run *run)
+static void wrap(reference_run *run)
 {
-  const long double two_pi = pendres_reference_taylor_two_pi().hi;
+  const long double two_pi = reference_taylor_two_pi().hi;
   const long double half = two_pi / 2.0L;
   while (run->model.turns && (run->y.hi > half || run->y.hi <= -half)) {
     long double n = rintl(run->y.hi / two_pi);
     if (n == 0.0L) n = run->y.hi > 0.0L ? 1.0L : -1.0L;
     for (int i = 0; i < 3; i++) {
-      const pendres_reference_pair part = two_product(-n, two_pi_part[i]);
+      const reference_pair part = two_product(-n, two_pi_part[i]);
       pair_add(&run->y, part.hi);
       pair_add(&run->y, part.lo);
     }
@@ -101,17 +101,17 @@ static void wrap(pendres_reference_run *run)
   }
 }
 
-long pendres_reference_taylor_init(pendres_reference_run *run,
-                                   const pendres_reference_model *model, long double y,
+long reference_taylor_init(reference_run *run,
+                                   const reference_model *model, long double y,
                                    long double v)
 {
   memset(run, 0, sizeof *run);
   run->model = *model;
-  run->order = PENDRES_REFERENCE_ORDER;
+  run->order = REFERENCE_ORDER;
   run->y.hi = y;
   run->v.hi = v;
-  run->u[PENDRES_REFERENCE_BY_Y].hi = 1.0L;
-  run->w[PENDRES_REFERENCE_BY_V].hi = 1.0L;
+  run->u[REFERENCE_BY_Y].hi = 1.0L;
+  run->w[REFERENCE_BY_V].hi = 1.0L;
   run->highest = -HUGE_VALL;
   run->lowest = HUGE_VALL;
   wrap(run);
@@ -151,9 +151,9 @@ static long double slope(const long double *c, int order, long double h)
 }
 
 /* Terms k of the force's series, from those of y, sine and cosine up to k. */
-static void expand_force(pendres_reference_run *run, int k)
+static void expand_force(reference_run *run, int k)
 {
-  const pendres_reference_model *m = &run->model;
+  const reference_model *m = &run->model;
   long double f = 0.0L, slope = 0.0L;
   run->spower[0][k] = k == 0 ? 1.0L : 0.0L;
   for (int j = 1; j <= m->powers; j++) {
@@ -172,7 +172,7 @@ static void expand_force(pendres_reference_run *run, int k)
   run->sslope[k] += m->parametric_amplitude * cauchy(run->sdrive, run->sbare_slope, k);
 }
 
-static void expand_state(pendres_reference_run *run)
+static void expand_state(reference_run *run)
 {
   const long double damping = run->model.damping, omega = run->model.drive_frequency;
   const long double force = run->model.drive_amplitude;
@@ -197,7 +197,7 @@ static void expand_state(pendres_reference_run *run)
   }
 }
 
-static void expand_column(pendres_reference_run *run, int column)
+static void expand_column(reference_run *run, int column)
 {
   const long double damping = run->model.damping, omega = run->model.drive_frequency;
   long double *u = run->su[column], *w = run->sw[column];
@@ -206,12 +206,12 @@ static void expand_column(pendres_reference_run *run, int column)
   for (int k = 0; k < run->order; k++) {
     const long double n = k + 1;
     long double a = 0.0L, b = 0.0L;
-    if (column == PENDRES_REFERENCE_BY_FREQUENCY) {
+    if (column == REFERENCE_BY_FREQUENCY) {
       a = -run->sv[k] / omega;
       b = -run->sv[k + 1] * n / omega;
-    } else if (column == PENDRES_REFERENCE_BY_DAMPING) {
+    } else if (column == REFERENCE_BY_DAMPING) {
       b = -run->sv[k];
-    } else if (column == PENDRES_REFERENCE_BY_AMPLITUDE) {
+    } else if (column == REFERENCE_BY_AMPLITUDE) {
       b = run->sdrive[k];
     }
     u[k + 1] = (w[k] + a) / n;
@@ -220,14 +220,14 @@ static void expand_column(pendres_reference_run *run, int column)
 }
 
 /* Size of the k-th coefficients of everything integrated, each beside its own scale. */
-static long double relative_term(const pendres_reference_run *run, int k)
+static long double relative_term(const reference_run *run, int k)
 {
   const long double scale = fabsl(run->sy[0]) + fabsl(run->sv[0]) +
                             fabsl(run->model.drive_amplitude) + fabsl(run->model.torque);
   if (scale == 0.0L) return 0.0L;
   long double largest = fmaxl(fabsl(run->sy[k]), fabsl(run->sv[k])) / scale;
   for (int i = 0; i < run->columns; i++) {
-    const int small = i == PENDRES_REFERENCE_BY_FREQUENCY || i == PENDRES_REFERENCE_BY_DAMPING;
+    const int small = i == REFERENCE_BY_FREQUENCY || i == REFERENCE_BY_DAMPING;
     const long double own = fabsl(run->su[i][0]) + fabsl(run->sw[i][0]) + (small ? scale : 1.0L);
     largest = fmaxl(largest, fmaxl(fabsl(run->su[i][k]), fabsl(run->sw[i][k])) / own);
   }
@@ -235,7 +235,7 @@ static long double relative_term(const pendres_reference_run *run, int k)
 }
 
 /* The step in theta that the series allows: its last two terms fall below the rounding. */
-static long double allowed_step(const pendres_reference_run *run)
+static long double allowed_step(const reference_run *run)
 {
   const long double omega = run->model.drive_frequency;
   /* Longer than a decay time, terms of a series would cancel; longer than a radian, those
@@ -250,7 +250,7 @@ static long double allowed_step(const pendres_reference_run *run)
 }
 
 /* Largest and smallest y - drift theta within the step: ends and zeros of its velocity. */
-static void note_extremes(pendres_reference_run *run, const long double *series, long double h)
+static void note_extremes(reference_run *run, const long double *series, long double h)
 {
   enum { PIECES = 8 };
   long double before = series[1];
@@ -276,27 +276,27 @@ static void note_extremes(pendres_reference_run *run, const long double *series,
 
 /* A step of t + rest by a series, where rest is the second word of the step. It acts at the
    step's end: taken from its beginning it would feed energy in, a little each period. */
-static long double advance_series(const long double *c, int order, pendres_reference_pair t)
+static long double advance_series(const long double *c, int order, reference_pair t)
 {
   return increment(c, order, t.hi) + t.lo * slope(c, order, t.hi);
 }
 
 /* Integral over the step of the product of two series. */
-static void integrate(const pendres_reference_run *run, const long double *a,
-                      const long double *b, long double factor, pendres_reference_pair t,
-                      pendres_reference_pair *sum)
+static void integrate(const reference_run *run, const long double *a,
+                      const long double *b, long double factor, reference_pair t,
+                      reference_pair *sum)
 {
-  pendres_reference_series product = { 0.0L };
+  reference_series product = { 0.0L };
   for (int k = 0; k < run->order; k++)
     product[k + 1] = cauchy(a, b, k) / (long double)(k + 1);
   pair_add(sum, factor * advance_series(product, run->order, t));
 }
 
-static void measure(pendres_reference_run *run, pendres_reference_pair t)
+static void measure(reference_run *run, reference_pair t)
 {
-  const long double two_pi = pendres_reference_taylor_two_pi().hi;
+  const long double two_pi = reference_taylor_two_pi().hi;
   const long double omega = run->model.drive_frequency, force = run->model.drive_amplitude;
-  pendres_reference_series steady;
+  reference_series steady;
   memcpy(steady, run->sy, sizeof steady);
   steady[0] += two_pi * ((long double)run->turns - run->drift * (long double)run->periods) -
                run->drift * run->theta;
@@ -310,21 +310,21 @@ static void measure(pendres_reference_run *run, pendres_reference_pair t)
     integrate(run, run->sv, run->sdriven, -run->model.parametric_amplitude, t, &run->parametric);
   for (int i = 0; i < run->columns; i++)
     integrate(run, run->sw[i], run->sdrive, force, t, &run->area_by[i]);
-  if (run->columns > PENDRES_REFERENCE_BY_FREQUENCY)
+  if (run->columns > REFERENCE_BY_FREQUENCY)
     integrate(run, run->sv, run->sdrive, -force / omega, t,
-              &run->area_by[PENDRES_REFERENCE_BY_FREQUENCY]);
-  if (run->columns > PENDRES_REFERENCE_BY_AMPLITUDE)
+              &run->area_by[REFERENCE_BY_FREQUENCY]);
+  if (run->columns > REFERENCE_BY_AMPLITUDE)
     integrate(run, run->sv, run->sdrive, 1.0L, t,
-              &run->area_by[PENDRES_REFERENCE_BY_AMPLITUDE]);
+              &run->area_by[REFERENCE_BY_AMPLITUDE]);
 }
 
 /* One step of h + tail in theta; h is on the grid or ends the period. */
-static void step(pendres_reference_run *run, long double h, long double tail)
+static void step(reference_run *run, long double h, long double tail)
 {
   const int order = run->order;
   const long double omega = run->model.drive_frequency;
-  pendres_reference_pair t = { h / omega, 0.0L };
-  const pendres_reference_pair back = two_product(t.hi, omega);
+  reference_pair t = { h / omega, 0.0L };
+  const reference_pair back = two_product(t.hi, omega);
   t.lo = (((h - back.hi) - back.lo) + tail) / omega;
   if (run->measures) measure(run, t);
   /* The second word of y is in the series, that of v acts to first order. */
@@ -340,7 +340,7 @@ static void step(pendres_reference_run *run, long double h, long double tail)
 }
 
 /* Advance from drive phase 0 to phase `end`. */
-static pendres_status advance_to(pendres_reference_run *run, pendres_reference_pair end)
+static pendres_status advance_to(reference_run *run, reference_pair end)
 {
   run->theta = 0.0L;
   for (;;) {
@@ -362,18 +362,18 @@ static pendres_status advance_to(pendres_reference_run *run, pendres_reference_p
   }
 }
 
-pendres_status pendres_reference_taylor_advance(pendres_reference_run *run, long periods)
+pendres_status reference_taylor_advance(reference_run *run, long periods)
 {
   for (long i = 0; i < periods; i++) {
-    const pendres_status status = advance_to(run, pendres_reference_taylor_two_pi());
+    const pendres_status status = advance_to(run, reference_taylor_two_pi());
     if (status != PENDRES_OK) return status;
     run->periods++;
   }
   return PENDRES_OK;
 }
 
-pendres_status pendres_reference_taylor_advance_half(pendres_reference_run *run)
+pendres_status reference_taylor_advance_half(reference_run *run)
 {
-  const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
-  return advance_to(run, (pendres_reference_pair){ 0.5L * two_pi.hi, 0.5L * two_pi.lo });
+  const reference_pair two_pi = reference_taylor_two_pi();
+  return advance_to(run, (reference_pair){ 0.5L * two_pi.hi, 0.5L * two_pi.lo });
 }

@@ -7,22 +7,22 @@
  * dA/domega = A_z dz/domega + A_omega; the resonance is its zero, found by secants.
  * Definitions of the measures: reference.h.
  */
-#include <pendres/reference.h>
+#include "oracle/reference.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-#include "reference/taylor.h"
+#include "oracle/taylor.h"
 
 /* An orbit to be found. */
-typedef struct pendres_reference_target {
-  pendres_reference_model model;
+typedef struct reference_target {
+  reference_model model;
   long double y, v;     /* guess, then solution */
   long period, winding;
   int mirror;           /* nonzero: one that is its own mirror image half a period later, */
   long double centre;   /* about this y */
-} pendres_reference_target;
+} reference_target;
 
 /* Solve a x = b by elimination with pivoting, in place (x in b); n <= 4. Nonzero: singular. */
 static int solve_linear(int n, long double a[][4], long double b[])
@@ -54,7 +54,7 @@ static int solve_linear(int n, long double a[][4], long double b[])
 }
 
 /* M - I of a run. */
-static void shifted_monodromy(const pendres_reference_run *run, long double a[][4])
+static void shifted_monodromy(const reference_run *run, long double a[][4])
 {
   a[0][0] = run->u[0].hi - 1.0L + run->u[0].lo;
   a[0][1] = run->u[1].hi;
@@ -62,12 +62,12 @@ static void shifted_monodromy(const pendres_reference_run *run, long double a[][
   a[1][1] = run->w[1].hi - 1.0L + run->w[1].lo;
 }
 
-static pendres_status mirror_defect(const pendres_reference_target *target,
-                                    pendres_reference_run *run, long double defect[2])
+static pendres_status mirror_defect(const reference_target *target,
+                                    reference_run *run, long double defect[2])
 {
-  const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
+  const reference_pair two_pi = reference_taylor_two_pi();
   const long double start_y = run->y.hi;
-  const pendres_status status = pendres_reference_taylor_advance_half(run);
+  const pendres_status status = reference_taylor_advance_half(run);
   if (status != PENDRES_OK) return status;
   const long double off =
     run->model.turns ? -rintl((start_y + run->y.hi) / two_pi.hi) : 0.0L;
@@ -80,15 +80,15 @@ static pendres_status mirror_defect(const pendres_reference_target *target,
 /* The defect of an orbit: its end minus its start over the period or, for a mirror orbit (whose
    centre may be any well), end plus start over half a period. *run is the run with `columns`
    columns that gave it. */
-static pendres_status defect_of(const pendres_reference_target *target, int columns,
-                                pendres_reference_run *run, long double defect[2])
+static pendres_status defect_of(const reference_target *target, int columns,
+                                reference_run *run, long double defect[2])
 {
-  const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
-  pendres_reference_taylor_init(run, &target->model, target->y, target->v);
+  const reference_pair two_pi = reference_taylor_two_pi();
+  reference_taylor_init(run, &target->model, target->y, target->v);
   const long double start = run->y.hi; /* target->y, wrapped */
   run->columns = columns;
   if (target->mirror) return mirror_defect(target, run, defect);
-  const pendres_status status = pendres_reference_taylor_advance(run, target->period);
+  const pendres_status status = reference_taylor_advance(run, target->period);
   if (status != PENDRES_OK) return status;
   const long double off = (long double)run->turns - (long double)target->winding;
   defect[0] = (run->y.hi - start) + off * two_pi.hi;
@@ -103,17 +103,17 @@ static long double norm(const long double d[2])
 }
 
 /* One step from target along -(M - I)^-1 defect, halved until the defect shrinks. */
-static pendres_status newton_step(pendres_reference_target *target, long double *moved)
+static pendres_status newton_step(reference_target *target, long double *moved)
 {
-  pendres_reference_run run;
+  reference_run run;
   long double d[2], a[2][4];
-  pendres_status status = defect_of(target, PENDRES_REFERENCE_BY_FREQUENCY, &run, d);
+  pendres_status status = defect_of(target, REFERENCE_BY_FREQUENCY, &run, d);
   if (status != PENDRES_OK) return status;
   const long double before = norm(d);
   shifted_monodromy(&run, a);
   if (solve_linear(2, a, d)) return PENDRES_NOT_CONVERGED;
   if (!isfinite(norm(d))) return PENDRES_NOT_CONVERGED;
-  const pendres_reference_target from = *target;
+  const reference_target from = *target;
   /* A radian is too far for a linear map to be of use. */
   long double part = fminl(1.0L, 0.5L / norm(d));
   for (int i = 0; i < 8; i++, part *= 0.5L) {
@@ -130,7 +130,7 @@ static pendres_status newton_step(pendres_reference_target *target, long double 
 }
 
 /* Newton's method on the defect, which changes target->y and v. */
-static pendres_status close_orbit(pendres_reference_target *target)
+static pendres_status close_orbit(reference_target *target)
 {
   enum { MOST = 100 };
   long double last = HUGE_VALL;
@@ -144,16 +144,16 @@ static pendres_status close_orbit(pendres_reference_target *target)
     last = moved;
     if (i == MOST - 1) return PENDRES_NOT_CONVERGED;
   }
-  const long double two_pi = pendres_reference_taylor_two_pi().hi;
+  const long double two_pi = reference_taylor_two_pi().hi;
   if (target->model.turns && fabsl(target->y) > two_pi / 2.0L)
     target->y -= two_pi * rintl(target->y / two_pi);
   return PENDRES_OK;
 }
 
-static void fill_multipliers(pendres_reference_cycle *out)
+static void fill_multipliers(reference_cycle *out)
 {
   const long double half = 0.5L * (out->monodromy[0][0] + out->monodromy[1][1]);
-  const long double two_pi = pendres_reference_taylor_two_pi().hi;
+  const long double two_pi = reference_taylor_two_pi().hi;
   /* Liouville's determinant is exact, the matrix' own cancels. */
   const long double determinant =
       expl(-out->damping * two_pi * (long double)out->period / out->drive_frequency);
@@ -172,22 +172,22 @@ static void fill_multipliers(pendres_reference_cycle *out)
   }
 }
 
-static void fill_slopes(const pendres_reference_run *run, pendres_reference_cycle *out)
+static void fill_slopes(const reference_run *run, reference_cycle *out)
 {
-  const int by = PENDRES_REFERENCE_BY_FREQUENCY;
+  const int by = REFERENCE_BY_FREQUENCY;
   long double a[2][4], slope[2] = { -run->u[by].hi, -run->w[by].hi };
   shifted_monodromy(run, a);
   if (solve_linear(2, a, slope)) slope[0] = slope[1] = NAN;
   out->state_slope[0] = slope[0];
   out->state_slope[1] = slope[1];
-  out->loop_area_slope = (run->area_by[PENDRES_REFERENCE_BY_Y].hi * slope[0] +
-                          run->area_by[PENDRES_REFERENCE_BY_V].hi * slope[1] +
+  out->loop_area_slope = (run->area_by[REFERENCE_BY_Y].hi * slope[0] +
+                          run->area_by[REFERENCE_BY_V].hi * slope[1] +
                           run->area_by[by].hi) / (long double)out->period;
 }
 
-static void fill_measures(const pendres_reference_run *run, pendres_reference_cycle *out)
+static void fill_measures(const reference_run *run, reference_cycle *out)
 {
-  const long double pi = pendres_reference_taylor_two_pi().hi / 2.0L;
+  const long double pi = reference_taylor_two_pi().hi / 2.0L;
   const long double cycles = (long double)out->period, omega = out->drive_frequency;
   const long double a = omega * run->cosine.hi / (pi * cycles);
   const long double b = omega * run->sine.hi / (pi * cycles);
@@ -207,22 +207,22 @@ static void fill_measures(const pendres_reference_run *run, pendres_reference_cy
 }
 
 /* Measures of the orbit at the target, which must be closed already. */
-static pendres_status measure_orbit(const pendres_reference_target *target,
-                                    pendres_reference_cycle *out)
+static pendres_status measure_orbit(const reference_target *target,
+                                    reference_cycle *out)
 {
-  const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
-  pendres_reference_cycle cycle = { .damping = target->model.damping,
+  const reference_pair two_pi = reference_taylor_two_pi();
+  reference_cycle cycle = { .damping = target->model.damping,
                                     .drive_amplitude = target->model.drive_amplitude,
                                     .drive_frequency = target->model.drive_frequency,
                                     .y = target->y, .v = target->v,
                                     .period = target->period, .winding = target->winding };
-  pendres_reference_run run;
-  pendres_reference_taylor_init(&run, &target->model, target->y, target->v);
+  reference_run run;
+  reference_taylor_init(&run, &target->model, target->y, target->v);
   cycle.y = run.y.hi;
-  run.columns = PENDRES_REFERENCE_BY_FREQUENCY + 1;
+  run.columns = REFERENCE_BY_FREQUENCY + 1;
   run.measures = 1;
   run.drift = (long double)target->winding / (long double)target->period;
-  const pendres_status status = pendres_reference_taylor_advance(&run, target->period);
+  const pendres_status status = reference_taylor_advance(&run, target->period);
   if (status != PENDRES_OK) return status;
   const long double off = (long double)(run.turns - target->winding);
   const long double dy = (run.y.hi - cycle.y) + off * two_pi.hi + run.y.lo + off * two_pi.lo;
@@ -238,18 +238,18 @@ static pendres_status measure_orbit(const pendres_reference_target *target,
   return PENDRES_OK;
 }
 
-static pendres_status close_and_measure(pendres_reference_target *target,
-                                        pendres_reference_cycle *out)
+static pendres_status close_and_measure(reference_target *target,
+                                        reference_cycle *out)
 {
   const pendres_status status = close_orbit(target);
   return status == PENDRES_OK ? measure_orbit(target, out) : status;
 }
 
-pendres_status pendres_reference_orbit(const pendres_pendulum *p, long double y, long double v,
-                                       long period, long winding, pendres_reference_cycle *out)
+pendres_status reference_orbit(const pendres_pendulum *p, long double y, long double v,
+                                       long period, long winding, reference_cycle *out)
 {
-  pendres_reference_target target = {.y = y, .v = v, .period = period, .winding = winding};
-  if (out == NULL || pendres_reference_model_of(p, &target.model) != PENDRES_OK || period < 1 ||
+  reference_target target = {.y = y, .v = v, .period = period, .winding = winding};
+  if (out == NULL || reference_model_of(p, &target.model) != PENDRES_OK || period < 1 ||
       (winding != 0 && !target.model.turns) || !(fabsl(y) <= 1e9L) || !isfinite(v))
     return PENDRES_INVALID_ARGUMENT;
   return close_and_measure(&target, out);
@@ -257,12 +257,12 @@ pendres_status pendres_reference_orbit(const pendres_pendulum *p, long double y,
 
 /* The orbit at another drive frequency, from `here` along the branch's tangent and then by
    Newton. */
-static pendres_status move_to(const pendres_reference_model *model,
-                              const pendres_reference_cycle *here, long double frequency,
-                              pendres_reference_cycle *out)
+static pendres_status move_to(const reference_model *model,
+                              const reference_cycle *here, long double frequency,
+                              reference_cycle *out)
 {
   const long double change = frequency - here->drive_frequency;
-  pendres_reference_target target = {
+  reference_target target = {
     *model, here->y + change * here->state_slope[0], here->v + change * here->state_slope[1],
     here->period, here->winding, 0, 0.0L };
   target.model.drive_frequency = frequency;
@@ -271,7 +271,7 @@ static pendres_status move_to(const pendres_reference_model *model,
 
 /* Where the slope of the loop area vanishes, by two points' secant; uphill where the area
    is not concave, and never farther than the branch is straight. */
-static long double next_change(const pendres_reference_cycle *here, long double curvature)
+static long double next_change(const reference_cycle *here, long double curvature)
 {
   const long double most = 0.02L;
   if (!(curvature < 0.0L)) return copysignl(most, here->loop_area_slope);
@@ -279,11 +279,11 @@ static long double next_change(const pendres_reference_cycle *here, long double 
 }
 
 /* The maximum of the loop area along the branch that the target's orbit is on. */
-static pendres_status find_resonance(pendres_reference_target *target,
-                                     pendres_reference_cycle *out)
+static pendres_status find_resonance(reference_target *target,
+                                     reference_cycle *out)
 {
   enum { MOST = 200 };
-  pendres_reference_cycle here, next;
+  reference_cycle here, next;
   pendres_status status = close_and_measure(target, &here);
   if (status != PENDRES_OK) return status;
   long double change = copysignl(1e-3L, here.loop_area_slope), last = HUGE_VALL;
@@ -326,7 +326,7 @@ static pendres_status find_resonance(pendres_reference_target *target,
 /* The unknowns in their order; a fold has the first three. */
 enum { BY_Y, BY_V, BY_FREQUENCY, BY_DAMPING };
 
-static long double *unknown(pendres_reference_target *target, int i)
+static long double *unknown(reference_target *target, int i)
 {
   switch (i) {
   case BY_Y: return &target->y;
@@ -337,38 +337,38 @@ static long double *unknown(pendres_reference_target *target, int i)
 }
 
 /* g of a finished run. */
-static long double run_determinant(const pendres_reference_target *target,
-                                   const pendres_reference_run *run)
+static long double run_determinant(const reference_target *target,
+                                   const reference_run *run)
 {
-  const long double phase = pendres_reference_taylor_two_pi().hi * (target->mirror ? 0.5L : 1.0L);
+  const long double phase = reference_taylor_two_pi().hi * (target->mirror ? 0.5L : 1.0L);
   const long double time = phase / target->model.drive_frequency;
   return (1.0L - run->u[0].hi) - run->w[1].hi + expl(-target->model.damping * time);
 }
 
-static pendres_status determinant(const pendres_reference_target *target, long double *g)
+static pendres_status determinant(const reference_target *target, long double *g)
 {
-  pendres_reference_run run;
+  reference_run run;
   long double defect[2];
-  const pendres_status status = defect_of(target, PENDRES_REFERENCE_BY_FREQUENCY, &run, defect);
+  const pendres_status status = defect_of(target, REFERENCE_BY_FREQUENCY, &run, defect);
   if (status == PENDRES_OK) *g = run_determinant(target, &run);
   return status;
 }
 
 /* k: sixth-order central difference of g along the null vector of M - I. */
-static pendres_status determinant_slope(const pendres_reference_target *target, long double *k)
+static pendres_status determinant_slope(const reference_target *target, long double *k)
 {
   /* Truncation step^6 and rounding epsilon/step are both below 1e-15 here. */
   static const long double step = 2e-3L, weight[3] = { 45.0L, -9.0L, 1.0L };
-  pendres_reference_run run;
+  reference_run run;
   long double defect[2];
-  pendres_status status = defect_of(target, PENDRES_REFERENCE_BY_FREQUENCY, &run, defect);
+  pendres_status status = defect_of(target, REFERENCE_BY_FREQUENCY, &run, defect);
   if (status != PENDRES_OK) return status;
   const long double along[2] = { -run.u[1].hi, run.u[0].hi - 1.0L };
   const long double length = hypotl(along[0], along[1]);
   long double sum = 0.0L;
   for (int i = 1; i <= 3; i++) {
     for (int sign = -1; sign <= 1; sign += 2) {
-      pendres_reference_target beside = *target;
+      reference_target beside = *target;
       const long double far = (long double)(sign * i) * step / length;
       long double g = 0.0L;
       beside.y += far * along[0];
@@ -382,15 +382,15 @@ static pendres_status determinant_slope(const pendres_reference_target *target, 
   return PENDRES_OK;
 }
 
-typedef pendres_status scalar(const pendres_reference_target *target, long double *value);
+typedef pendres_status scalar(const reference_target *target, long double *value);
 
 /* Gradient of f over the first n unknowns. */
-static pendres_status gradient(scalar *f, const pendres_reference_target *target, int n,
+static pendres_status gradient(scalar *f, const reference_target *target, int n,
                                long double row[])
 {
   const long double step = 1e-5L;
   for (int i = 0; i < n; i++) {
-    pendres_reference_target less = *target, more = *target;
+    reference_target less = *target, more = *target;
     long double low = 0.0L, high = 0.0L;
     *unknown(&less, i) -= step;
     *unknown(&more, i) += step;
@@ -403,17 +403,17 @@ static pendres_status gradient(scalar *f, const pendres_reference_target *target
 }
 
 /* Newton's correction over n = 3 (fold) or 4 (cusp) unknowns, into change. */
-static pendres_status correction(const pendres_reference_target *target, int n,
+static pendres_status correction(const reference_target *target, int n,
                                  long double change[4])
 {
-  pendres_reference_run run;
+  reference_run run;
   long double a[4][4];
-  pendres_status status = defect_of(target, PENDRES_REFERENCE_COLUMNS, &run, change);
+  pendres_status status = defect_of(target, REFERENCE_COLUMNS, &run, change);
   if (status != PENDRES_OK) return status;
   const long double start = target->mirror ? 1.0L : -1.0L; /* its sign in the defect */
   change[2] = run_determinant(target, &run);
   for (int i = 0; i < n; i++) {
-    const pendres_reference_pair *u = run.u, *w = run.w;
+    const reference_pair *u = run.u, *w = run.w;
     a[0][i] = u[i].hi + (i == BY_Y ? start : 0.0L);
     a[1][i] = w[i].hi + (i == BY_V ? start : 0.0L);
   }
@@ -427,7 +427,7 @@ static pendres_status correction(const pendres_reference_target *target, int n,
   return solve_linear(n, a, change) ? PENDRES_NOT_CONVERGED : PENDRES_OK;
 }
 
-static pendres_status solve(pendres_reference_target *target, int n, pendres_reference_cycle *out)
+static pendres_status solve(reference_target *target, int n, reference_cycle *out)
 {
   enum { MOST = 60 };
   long double last = HUGE_VALL;
@@ -455,32 +455,32 @@ static pendres_status solve(pendres_reference_target *target, int n, pendres_ref
 
 /* The target of an orbit of period one near a guess; 0 if a parameter is not valid. */
 static int target_of(const pendres_pendulum *p, long double frequency, long double damping,
-                     long double y, long double v, pendres_reference_target *out)
+                     long double y, long double v, reference_target *out)
 {
   if (p == NULL || !(fabsl(y) <= 1e9L) || !isfinite(v)) return 0;
   pendres_pendulum checked = *p;
   checked.drive_frequency = (double)frequency;
   checked.damping = (double)damping;
-  *out = (pendres_reference_target){.y = y, .v = v, .period = 1};
-  if (pendres_reference_model_of(&checked, &out->model) != PENDRES_OK) return 0;
+  *out = (reference_target){.y = y, .v = v, .period = 1};
+  if (reference_model_of(&checked, &out->model) != PENDRES_OK) return 0;
   out->model.drive_frequency = frequency;
   out->model.damping = damping;
   return 1;
 }
 
-pendres_status pendres_reference_find(pendres_reference_kind kind, const pendres_pendulum *p,
-                                      const pendres_reference_guess *guess,
-                                      pendres_reference_cycle *out)
+pendres_status reference_find(reference_kind kind, const pendres_pendulum *p,
+                                      const reference_guess *guess,
+                                      reference_cycle *out)
 {
-  pendres_reference_target target;
-  if (p == NULL || guess == NULL || out == NULL || (unsigned)kind >= PENDRES_REFERENCE_KINDS)
+  reference_target target;
+  if (p == NULL || guess == NULL || out == NULL || (unsigned)kind >= REFERENCE_KINDS)
     return PENDRES_INVALID_ARGUMENT;
-  const int cusp = kind == PENDRES_REFERENCE_CUSP;
+  const int cusp = kind == REFERENCE_CUSP;
   const long double damping = cusp ? guess->damping : (long double)p->damping;
   if (!target_of(p, guess->frequency, damping, guess->y, guess->v, &target))
     return PENDRES_INVALID_ARGUMENT;
-  if (kind == PENDRES_REFERENCE_RESONANCE) return find_resonance(&target, out);
-  if (kind == PENDRES_REFERENCE_SYMMETRY_BREAKING) {
+  if (kind == REFERENCE_RESONANCE) return find_resonance(&target, out);
+  if (kind == REFERENCE_SYMMETRY_BREAKING) {
     if (!pendres_pendulum_symmetric(p)) return PENDRES_INVALID_ARGUMENT;
     target.mirror = 1;
     target.centre =

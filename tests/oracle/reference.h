@@ -4,9 +4,9 @@
  *
  * Owns: the pendulum integrated by Taylor series in long double, its stroboscopic map with all
  * first derivatives, and what follows from the map: orbits with their measures, resonances,
- * folds and cusps. It shares no code with the rest of the library (strobe.h, orbit.h, ...), is
- * slower by two orders of magnitude and more exact by several. The rest is tested against it, and
- * it serves where the 16 digits of a double are not enough.
+ * folds and cusps. It shares no code with the library (strobe.h, orbit.h, ...), is
+ * slower by two orders of magnitude and more exact by several. The library is tested against it and
+ * does not hold it.
  *
  * Equation (pendulum.h, without noise), angle y = x - pi/2, velocity v = dy/dt, drive phase
  * theta = omega t:
@@ -35,16 +35,11 @@
  * Thread safety: all functions are pure. Nothing is allocated, no argument is kept.
  * No output is changed unless PENDRES_OK is returned.
  */
-#ifndef PENDRES_REFERENCE_H
-#define PENDRES_REFERENCE_H
+#ifndef REFERENCE_H
+#define REFERENCE_H
 
 #include <pendres/pendulum.h>
 #include <pendres/status.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-#pragma GCC visibility push(default)
 
 /**
  * Advance a pendulum by `periods` >= 0 drive periods. *y and *v are replaced in place; *y is
@@ -54,11 +49,11 @@ extern "C" {
  * Errors: PENDRES_INVALID_ARGUMENT (also for |y| > 1e9), PENDRES_INTEGRATION_FAILED (steps
  * below 1e-6 rad of drive phase, as for extreme velocities or drive frequencies).
  */
-pendres_status pendres_reference_advance(const pendres_pendulum *p, long double *y,
+pendres_status reference_advance(const pendres_pendulum *p, long double *y,
                                          long double *v, long *turns, long periods);
 
 /** End state of some drive periods and its derivatives, all at fixed drive phase. */
-typedef struct pendres_reference_image {
+typedef struct reference_image {
   long double y;                  /**< angle at the end, in (-pi, pi] */
   long double v;                  /**< velocity there */
   long turns;                     /**< so that the angle is y + 2 pi turns */
@@ -66,18 +61,18 @@ typedef struct pendres_reference_image {
   long double by_frequency[2];    /**< d(y, v)/d drive_frequency */
   long double by_damping[2];      /**< d(y, v)/d damping */
   long double by_amplitude[2];    /**< d(y, v)/d drive_amplitude */
-} pendres_reference_image;
+} reference_image;
 
 /** The stroboscopic map, applied `periods` >= 0 times, with its derivatives. Errors are those of
-    pendres_reference_advance(). */
-pendres_status pendres_reference_map(const pendres_pendulum *p, long double y, long double v,
-                                     long periods, pendres_reference_image *out);
+    reference_advance(). */
+pendres_status reference_map(const pendres_pendulum *p, long double y, long double v,
+                                     long periods, reference_image *out);
 
 /**
  * A closed orbit and its measures, all for one drive cycle. For a running orbit (winding not 0) the
  * mean advance is subtracted from the angle before its harmonic and amplitude are taken.
  */
-typedef struct pendres_reference_cycle {
+typedef struct reference_cycle {
   long double damping;            /**< gamma at which it exists */
   long double drive_amplitude;    /**< F0 at which it exists */
   long double drive_frequency;    /**< omega at which it exists */
@@ -103,57 +98,53 @@ typedef struct pendres_reference_cycle {
   long double closure;            /**< residual: largest of |end - start| in y and v */
   long double energy_residual;    /**< residual: |loop_area - dissipation| */
   long double liouville_residual; /**< residual: |det monodromy / exp(-damping time) - 1| */
-} pendres_reference_cycle;
+} reference_cycle;
 
 /**
  * The orbit with the given period >= 1 and winding near the guess (y, v), by Newton's
  * method on the stroboscopic map; it may be stable or unstable.
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_INTEGRATION_FAILED, PENDRES_NOT_CONVERGED.
  */
-pendres_status pendres_reference_orbit(const pendres_pendulum *p, long double y, long double v,
-                                       long period, long winding, pendres_reference_cycle *out);
+pendres_status reference_orbit(const pendres_pendulum *p, long double y, long double v,
+                                       long period, long winding, reference_cycle *out);
 
-/** What pendres_reference_find() looks for. */
-typedef enum pendres_reference_kind {
-  PENDRES_REFERENCE_RESONANCE = 0,     /**< the maximum of the loop area along the branch: only
+/** What reference_find() looks for. */
+typedef enum reference_kind {
+  REFERENCE_RESONANCE = 0,     /**< the maximum of the loop area along the branch: only
                                             smooth ones, zeros of loop_area_slope */
-  PENDRES_REFERENCE_FOLD,              /**< the drive frequency at which a stable and an unstable
+  REFERENCE_FOLD,              /**< the drive frequency at which a stable and an unstable
                                             orbit meet, with the multiplier +1. Where a symmetric
                                             orbit loses its mirror symmetry it has a multiplier +1
                                             as well, but these equations are singular there and the
                                             iteration does not converge */
-  PENDRES_REFERENCE_SYMMETRY_BREAKING, /**< the drive frequency at which an orbit that is its own
+  REFERENCE_SYMMETRY_BREAKING, /**< the drive frequency at which an orbit that is its own
                                             mirror image (y(t + half a period) = 2 c - y(t), with
                                             the centre c as a double has it) has a multiplier +1
                                             without a fold: two orbits branch off that are mirror
                                             images of each other. Swift and Wiesenfeld, Physical
                                             Review Letters 52 (1984) 705 */
-  PENDRES_REFERENCE_CUSP,              /**< the drive frequency and damping at which two folds meet
+  REFERENCE_CUSP,              /**< the drive frequency and damping at which two folds meet
                                             and vanish. Kuznetsov, Elements of Applied Bifurcation
                                             Theory, section 9.2 */
-  PENDRES_REFERENCE_KINDS              /**< how many there are */
-} pendres_reference_kind;
+  REFERENCE_KINDS              /**< how many there are */
+} reference_kind;
 
 /** Where to look for it. */
-typedef struct pendres_reference_guess {
+typedef struct reference_guess {
   long double frequency; /**< drive frequency */
   long double y;         /**< angle at drive phase 0 */
   long double v;         /**< velocity there */
   long double damping;   /**< read for a cusp alone */
-} pendres_reference_guess;
+} reference_guess;
 
 /**
  * The orbit of period one near a guess at which that happens. p's own drive frequency, and for a
  * cusp its damping, are not read. The slopes in *out are those of a resonance, otherwise NaN: they
- * are infinite at a fold. Errors are those of pendres_reference_orbit(); PENDRES_NOT_CONVERGED also
+ * are infinite at a fold. Errors are those of reference_orbit(); PENDRES_NOT_CONVERGED also
  * if the branch ends before a maximum.
  */
-pendres_status pendres_reference_find(pendres_reference_kind kind, const pendres_pendulum *p,
-                                      const pendres_reference_guess *guess,
-                                      pendres_reference_cycle *out);
+pendres_status reference_find(reference_kind kind, const pendres_pendulum *p,
+                                      const reference_guess *guess,
+                                      reference_cycle *out);
 
-#pragma GCC visibility pop
-#ifdef __cplusplus
-}
-#endif
 #endif
