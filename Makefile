@@ -347,7 +347,7 @@ $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 # Of the library and the program what reads, and no more: the rest would take minutes to compile.
 FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/% src/analysis/sweeps/sweep.o \
   drivers/deck/% drivers/farm/journal% drivers/farm/record.o drivers/terminal/safe_text.o drivers/system/% \
-  drivers/apart.o drivers/ending.o drivers/options.o drivers/shard.o drivers/verify.o), \
+  drivers/options.o drivers/shard.o drivers/verify.o), \
   $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
 
 .SECONDARY: $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.o)

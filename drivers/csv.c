@@ -1,8 +1,9 @@
 /* csv.c -- results as text; see run.h. */
-#define _POSIX_C_SOURCE 200809L /* fsync, fdopen */
+#define _POSIX_C_SOURCE 200809L /* fsync, open_memstream */
 #include "run.h"
+#include "system/bytes.h"
+#include "system/file.h"
 #include "system/grow.h"
-#include "system/own_file.h"
 
 #include <errno.h>
 #include <float.h>
@@ -314,23 +315,28 @@ static void name_file(const deck *d, const column *other, char path[ROOM])
   snprintf(path + used, ROOM - (size_t)used, ".csv");
 }
 
-/* Is there nothing at path that is another one's? */
-static int is_free(const char *path)
+/* Is the open file a table of this program, or the beginning of one? */
+static int is_table(int fd)
 {
-  char start[sizeof sign] = "";
-  FILE *f = fopen(path, "rb");
-  if (f == NULL) return errno == ENOENT;
-  const size_t n = fread(start, 1, sizeof sign - 1, f);
-  (void)fclose(f);
-  return n == 0 || memcmp(start, sign, sizeof sign - 1) == 0;
+  char start[sizeof sign - 1];
+  struct stat s;
+  return fstat(fd, &s) == 0 &&
+         (s.st_size == 0 ||
+          (bytes_read(fd, 0, start, sizeof start) && memcmp(start, sign, sizeof start) == 0));
 }
 
+/* Is there nothing at path that is another one's? */
 static int may_replace(const char *path, progress *p)
 {
-  if (is_free(path)) return 1;
-  progress_error(p, "%s is there and is no table of this program: it is left as it is; --force "
-                 "replaces it", path);
-  return 0;
+  char why[FILE_WORDS];
+  const int fd = file_open(path, FILE_READ, 0, why), absent = fd < 0 && errno == ENOENT;
+  const int table = absent || (fd >= 0 && is_table(fd));
+  if (fd < 0 && !absent) progress_error(p, "%s: no table can be written there", why);
+  else if (!table)
+    progress_error(p, "%s is there and is no table of this program: it is left as it is; --force "
+                   "replaces it", path);
+  if (fd >= 0) (void)close(fd);
+  return table;
 }
 
 int csv_check(const deck *d, progress *p)
@@ -341,59 +347,66 @@ int csv_check(const deck *d, progress *p)
 }
 
 /* The part file of a table, which replaces none but one that a killed run has left. */
-static int open_part(const char *part, const char *path)
+static int open_part(const char *part, char *why)
 {
-  struct stat there;
-  int fd = own_file_create(part, path);
+  int fd = file_open(part, FILE_NEW, 0, why);
   if (fd >= 0 || errno != EEXIST) return fd;
-  if (lstat(part, &there) == 0 && S_ISREG(there.st_mode) && is_free(part) && unlink(part) == 0)
-    fd = own_file_create(part, path);
-  else errno = EEXIST;
+  const int left = file_open(part, FILE_TRUSTED, 0, why);
+  if (left < 0) return -1;
+  if (!is_table(left)) snprintf(why, FILE_WORDS, "'%.300s' was not left by a killed run", part);
+  else if (file_remove(left, part) == 0) fd = file_open(part, FILE_NEW, 0, why);
+  (void)close(left);
   return fd;
 }
 
-/* The table into the part file, and that to its name; nonzero on failure, see errno. */
-static int put_file(tables *t, const column *first, column **wanted, int fd, const char *part,
-                    const char *path)
+/* The table as a text, to be freed: made before there is a file, since HDF5, which is asked for it,
+   may end the program. NULL: no memory, or t->status says why. */
+static char *table_text(tables *t, const column *first, size_t *size)
 {
-  FILE *out = fdopen(fd, "w");
-  int failed = out == NULL;
-  if (out != NULL) {
-    put_table(t, first, wanted, out);
-    failed = fflush(out) != 0 || ferror(out) || fsync(fd) != 0 || t->status != PENDRES_OK ||
-             !own_file_is(fd, part) || rename(part, path) != 0;
+  char *text = NULL;
+  column **wanted = calloc(t->count + MOST_AXES, sizeof(column *));
+  FILE *out = wanted != NULL ? open_memstream(&text, size) : NULL;
+  if (out != NULL) put_table(t, first, wanted, out);
+  const int bad = out == NULL || ferror(out);
+  if ((out != NULL && fclose(out) != 0) || bad || t->status != PENDRES_OK) {
+    free(text);
+    text = NULL;
   }
-  const int why = errno;
-  if (failed) own_file_remove(fd, part);
-  if (out != NULL) (void)fclose(out);
-  else (void)close(fd);
-  errno = why;
+  free(wanted);
+  return text;
+}
+
+/* The text into the part file of `path`, and that to its name; 0, or `why` it cannot be. */
+static int put_file(const char *text, size_t size, const char *path, char *why)
+{
+  char part[ROOM + 8];
+  const int length = snprintf(part, sizeof part, "%s.part", path), fits = length < (int)sizeof part;
+  const int fd = fits ? open_part(part, why) : -1;
+  if (!fits) snprintf(why, FILE_WORDS, "'%.300s': %s", path, strerror(ENAMETOOLONG));
+  if (fd < 0) return 1;
+  file_like(fd, path);
+  const int failed = !bytes_write(fd, 0, text, size) || fsync(fd) != 0 || !file_is(fd, part) ||
+                     rename(part, path) != 0;
+  if (failed) snprintf(why, FILE_WORDS, "'%.300s': %s", part, strerror(errno));
+  if (failed) (void)file_remove(fd, part);
+  (void)close(fd);
   return failed;
 }
 
 /* One table, whole or not at all. 0, or 1 after an error; t->status tells of reading. */
 static int write_file(tables *t, const column *first, const char *path)
 {
-  char part[ROOM + 8], why[ROOM + 64] = "";
+  char why[FILE_WORDS] = "";
   char *target = NULL;
-  int fd = -1;
-  column **wanted = calloc(t->count + MOST_AXES, sizeof(column *));
-  int failed = wanted == NULL || pendres_store_target(path, &target, why, sizeof why) != PENDRES_OK;
-  if (!failed) {
-    if (strlen(target) < ROOM) {
-      snprintf(part, sizeof part, "%s.part", target);
-      fd = open_part(part, target);
-    } else {
-      errno = ENAMETOOLONG;
-    }
-    failed = fd < 0 || put_file(t, first, wanted, fd, part, target) != 0;
-    if (failed) snprintf(why, sizeof why, "%s%s: %s", path, fd < 0 ? ".part" : "", strerror(errno));
-  }
+  size_t size = 0;
+  char *text = table_text(t, first, &size);
+  int failed = text == NULL || pendres_store_target(path, &target, why, sizeof why) != PENDRES_OK;
+  if (!failed) failed = put_file(text, size, target, why);
   free(target);
-  free(wanted);
+  free(text);
   if (failed && t->status == PENDRES_OK)
-    progress_error(t->progress, "%s; the results are whole in the HDF5 file",
-                   why[0] != '\0' ? why : pendres_status_message(PENDRES_OUT_OF_MEMORY));
+    progress_error(t->progress, "%s%s; the results are whole in the HDF5 file",
+                   why[0] != '\0' ? why : path, why[0] != '\0' ? "" : ": out of memory");
   return failed;
 }
 

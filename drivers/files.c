@@ -10,8 +10,8 @@
 
 #include <pendres/store.h>
 
-#include "apart.h"
-#include "system/own_file.h"
+#include "system/apart.h"
+#include "system/file.h"
 
 enum { ROOM = DECK_PATH + 16 };
 
@@ -42,11 +42,11 @@ int files_same(const char *one, const char *other)
 }
 
 /* The file that is written first; "" where the output is refused, which is said later. */
-static void part_of(const deck *d, char part[ROOM])
+static void part_of(const char *output, char part[ROOM])
 {
   char *target = NULL;
   part[0] = '\0';
-  if (pendres_store_target(d->output, &target, NULL, 0) != PENDRES_OK) return;
+  if (pendres_store_target(output, &target, NULL, 0) != PENDRES_OK) return;
   if (strlen(target) + sizeof ".part" <= ROOM) snprintf(part, ROOM, "%s.part", target);
   free(target);
 }
@@ -54,7 +54,7 @@ static void part_of(const deck *d, char part[ROOM])
 int files_check(const deck *d, const char *log, progress *p)
 {
   char part[ROOM];
-  part_of(d, part);
+  part_of(d->output, part);
   if (files_same(d->output, d->name)) {
     progress_error(p, "the output %s would overwrite the deck", d->output);
   } else if (part[0] != '\0' && files_same(part, d->name)) {
@@ -114,9 +114,20 @@ static int same_deck(const char *path, off_t bytes, const deck *d)
   char *resolved = NULL;
   if (deck_resolved(d, &resolved) != PENDRES_OK) return 0;
   const held h = { path, resolved };
-  const int same = apart(holds, &h, bytes) == 1;
+  const int same = apart(holds, &h, bytes, -1) == 1;
   free(resolved);
   return same;
+}
+
+void files_drop_whole(const deck *d, const char *output)
+{
+  char part[ROOM], why[FILE_WORDS];
+  struct stat info;
+  part_of(output, part);
+  const int fd = part[0] != '\0' ? file_open(part, FILE_TRUSTED, 0, why) : -1;
+  if (fd < 0) return; /* there is none, or the store tells */
+  if (fstat(fd, &info) == 0 && same_deck(part, info.st_size, d)) (void)file_remove(fd, part);
+  (void)close(fd);
 }
 
 int files_keep(const deck *d, files_kept *kept, progress *p)
@@ -131,7 +142,7 @@ int files_keep(const deck *d, files_kept *kept, progress *p)
     files_keep_end(kept, 1, p);
     return 0;
   }
-  kept->name = own_file_keep(kept->target, &why);
+  kept->name = file_keep(kept->target, &why);
   if (kept->name != NULL) return 0;
   files_keep_end(kept, 1, p);
   progress_error(p, "%s cannot be kept under another name: %s; --force replaces it", d->output,

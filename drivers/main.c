@@ -1,19 +1,20 @@
 /*
  * main.c -- the program `resonance`: a deck in, a file of results and a short table out.
  */
-#define _POSIX_C_SOURCE 200809L /* open_memstream */
+#define _POSIX_C_SOURCE 200809L /* open_memstream, fdopen */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "ending.h"
 #include "farm/ranks.h"
 #include "pages.h"
 #include "scenes/outer.h"
 #include "run.h"
 #include "shard.h"
+#include "system/ending.h"
+#include "system/file.h"
 #include "system/grow.h"
 #include "terminal/safe_text.h"
 #include "terminal/signals.h"
@@ -181,10 +182,12 @@ static int look_ahead(job *j)
 
 static int open_log(job *j)
 {
+  char why[FILE_WORDS];
   if (j->options.log == NULL || j->progress.log != NULL) return DONE;
-  j->progress.log = fopen(j->options.log, "a");
+  const int log = file_open(j->options.log, FILE_OWN, 0, why);
+  if (log >= 0) j->progress.log = fdopen(log, "a");
   if (j->progress.log != NULL) return DONE;
-  progress_error(&j->progress, "%s: %s", j->options.log, strerror(errno));
+  progress_error(&j->progress, "the log: %s", log < 0 ? why : strerror(errno));
   return FAILED;
 }
 
@@ -222,12 +225,16 @@ static int open_output(job *j)
   if (j->options.shards > 0) shard_suffix(j->options.shard, j->options.shards, suffix);
   snprintf(output, sizeof output, "%s%s", d->output, suffix);
   if (together_helping()) together_output(output, sizeof output);
+  else if (options.alone) files_drop_whole(d, output);
   if (pendres_store_create(output, &options, &j->run.store) != PENDRES_OK) {
     const char *why = pendres_store_message(j->run.store);
     progress_error(&j->progress, "%s", *why != '\0' ? why : "out of memory for the output");
     return FAILED;
   }
-  if (together_helping()) together_unname(output);
+  /* What a part of a run or another rank is killed with is of no use: its file has no name, unless
+     that alone can tell others that it is in use. */
+  if (together_helping() || (j->options.shards > 0 && options.alone))
+    pendres_store_drop_part(j->run.store);
   j->run.table = open_memstream(&j->table, &j->table_size);
   if (j->run.table != NULL) return DONE;
   progress_error(&j->progress, "out of memory for the table of results");

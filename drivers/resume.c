@@ -108,8 +108,10 @@ static int add_parts(const place *at, const options *o, const char *own, progres
     } else if (strcmp(path, own) != 0) {
       const pendres_status status = journal_add(j, path, words);
       *count += status == PENDRES_OK;
+      if (status == PENDRES_OK && words[0] != '\0') progress_note(p, "%s", words);
       if (status != PENDRES_OK && o->merge) {
-        progress_error(p, "%s: %s", path, words);
+        progress_error(p, "%s", words[0] != '\0' ? words
+                                                 : "out of memory for the journals of parts");
         code = status == PENDRES_INVALID_ARGUMENT ? BAD_USAGE : FAILED;
       }
     }
@@ -125,7 +127,10 @@ static int open_at(const place *at, const char *path, const char *head, const op
   char words[JOURNAL_WORDS];
   size_t parts = 0;
   int code = 0;
-  const pendres_status status = journal_open(path, head, o->resume || o->merge, out, words);
+  const journal_from from = !o->resume && !o->merge ? JOURNAL_ANEW
+                            : o->journal != NULL    ? JOURNAL_NAMED
+                                                    : JOURNAL_RESUMED;
+  const pendres_status status = journal_open(path, head, from, out, words);
   if (status != PENDRES_OK)
     return complain(p, status, words, " (without --resume all is computed, and that journal "
                     "kept under another name)");

@@ -34,6 +34,11 @@ int files_check(const deck *d, const char *log, progress *p);
    there. */
 int files_writable(const deck *d, progress *p);
 
+/* Remove the part of an output if it is the user's own and holds the whole results of the deck, as
+   after a kill just before it is renamed: they are in the journal too, and a store replaces nothing
+   that is whole. To be called under the journal's lock, before the output is made. */
+void files_drop_whole(const deck *d, const char *output);
+
 /* A file that is about to be replaced, and the name under which it is kept; all zero: none. */
 typedef struct files_kept {
   char *target, *name;
@@ -68,10 +73,6 @@ int together_helping(void);
 
 /* The path to which such a rank writes its output: in a folder for temporary files. */
 void together_output(char *path, size_t size);
-
-/* Unlink the file that a store writes for that path, so that a rank that is killed leaves nothing
-   behind. */
-void together_unname(const char *path);
 
 /* Redirect its standard streams to the null device. */
 void together_silence(void);

@@ -70,13 +70,6 @@ void together_output(char *path, size_t size)
            folder != NULL && *folder != '\0' ? folder : "/tmp", (long)getpid(), ranks_own());
 }
 
-void together_unname(const char *path)
-{
-  char part[DECK_PATH + 32];
-  snprintf(part, sizeof part, "%s.part", path);
-  if (unlink(part) != 0) return; /* it keeps its name until the run ends */
-}
-
 void together_silence(void)
 {
   if (freopen("/dev/null", "w", stdout) == NULL || freopen("/dev/null", "w", stderr) == NULL)

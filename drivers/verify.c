@@ -7,10 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <pendres/store.h>
 
-#include "apart.h"
+#include "system/apart.h"
+#include "system/file.h"
 #include "terminal/safe_text.h"
 
 enum { WHOLE = 0, DAMAGED = 1, UNTOLD = 2 };
@@ -73,11 +75,14 @@ static int read_file(const void *arg)
 
 static int verify_file(const char *file)
 {
-  struct stat info;
-  if (stat(file, &info) != 0) return tell(file, "cannot be read", strerror(errno));
-  if (!S_ISREG(info.st_mode)) return tell(file, "cannot be read", "it is not a regular file");
+  struct stat info = { .st_size = 0 };
+  char why[FILE_WORDS];
+  const int fd = file_open(file, FILE_READ, 0, why);
+  if (fd < 0) return tell(file, "cannot be read", why);
+  (void)fstat(fd, &info);
+  (void)close(fd);
   if (fflush(stdout) != 0) return DAMAGED; /* or both processes would write what is left */
-  const int code = apart(read_file, file, info.st_size);
+  const int code = apart(read_file, file, info.st_size, -1);
   if (code == APART_FAILED) return tell(file, "cannot be read", strerror(errno));
   if (code == APART_ENDLESS) return tell(file, "damaged", "reading it does not end");
   if (code == APART_CRASHED) return tell(file, "damaged", "HDF5 crashes when it reads it");

@@ -13,8 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "apart.h"
-#include "ending.h"
+#include "system/apart.h"
+#include "system/ending.h"
 
 enum { RUNNING = -1 };
 
@@ -160,7 +160,7 @@ static void what_is_done_apart_harms_nothing(void **state)
     if (ending_watch(&store) != 0) _exit(42);
     if (pendres_store_create("run.h5", NULL, &store) != PENDRES_OK) _exit(43);
     for (int i = 0; i < 4; i++) {
-      if (apart(call, &cases[i].how, 0) != cases[i].code) _exit(50 + i);
+      if (apart(call, &cases[i].how, 0, -1) != cases[i].code) _exit(50 + i);
       if (access("run.h5.part", F_OK) != 0) _exit(60 + i);
     }
     pendres_store_free(store);
@@ -182,7 +182,8 @@ static void what_is_done_apart_holds_no_files(void **state)
   (void)state;
   const int file = open(".", O_RDONLY);
   assert_true(file > STDERR_FILENO);
-  assert_int_equal(apart(is_closed, &file, 0), 1);
+  assert_int_equal(apart(is_closed, &file, 0, -1), 1);
+  assert_int_equal(apart(is_closed, &file, 0, file), 0);
   assert_int_equal(close(file), 0);
 }
 

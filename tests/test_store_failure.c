@@ -68,6 +68,29 @@ static void bad_folders_are_told_at_once(void **state)
   pendres_store_free(store);
 }
 
+/* What a killed run has left is taken only from oneself, and under its only name. */
+static void check_others(const char *path, const char *part)
+{
+  char other[PATH_ROOM];
+
+  assert_int_equal(link(part, in_folder(other, "precious")), 0);
+  check_no_create(path, "hard link");
+  assert_int_equal(unlink(other), 0);
+  if (geteuid()) return;
+  assert_int_equal(chown(part, 65534, 65534), 0);
+  check_no_create(path, "belongs to another user");
+  assert_int_equal(chown(part, 0, 0), 0);
+}
+
+static void check_conventions(pendres_store *store, const char *words)
+{
+  char *text = NULL;
+
+  OK(pendres_store_read_attribute_text(store, "", NULL, "Conventions", &text));
+  assert_string_equal(text, words);
+  free(text);
+}
+
 static void abandoned_run_leaves_the_old_file(void **state)
 {
   char path[PATH_ROOM], part[PATH_ROOM];
@@ -84,7 +107,12 @@ static void abandoned_run_leaves_the_old_file(void **state)
   assert_non_null(strstr(pendres_store_message(store), "was not left by a run"));
   pendres_store_free(store);
   check_contents(part, "poems, not left by a run that was killed");
-  write_file(part, "\211HDF\r\n\032\nleft by a run that was killed");
+  write_file(part, "\211HDF\r\n\032\nany file of HDF5");
+  check_no_create(path, "was not left by a run");
+  assert_int_equal(truncate(part, 0) | truncate(part, 100), 0); /* zeros */
+  check_no_create(path, "was not left by a run");
+  write_file(part, "\211HDF\r\n\032\nleft by a run that was killed: (part)");
+  check_others(path, part);
 
   OK(pendres_store_create(path, NULL, &store));
   OK(pendres_store_put(store, &spec, &value, NULL, 1));
@@ -109,6 +137,7 @@ static void abandoned_run_leaves_the_old_file(void **state)
   OK(pendres_store_open(part, &store));
   OK(pendres_store_read(store, "", "y", PENDRES_STORE_DOUBLE, &read, 1));
   assert_true(read == 3);
+  check_conventions(store, "(part)");
   pendres_store_free(store);
 
   /* And a finished one replaces it. */
@@ -118,6 +147,7 @@ static void abandoned_run_leaves_the_old_file(void **state)
   assert_false(exists(part));
   OK(pendres_store_open(path, &store));
   assert_int_equal(pendres_store_has(store, "", "y"), 0);
+  check_conventions(store, "CF-1.8");
   pendres_store_free(store);
 }
 
@@ -144,6 +174,8 @@ static void failed_rename_keeps_the_results(void **state)
   OK(pendres_store_read(store, "", "y", PENDRES_STORE_DOUBLE, &read, 1));
   assert_true(read == 3);
   pendres_store_free(store);
+  check_no_create(path, "was not left by a run"); /* they are not lost to the next one */
+  assert_int_equal(unlink(part), 0);
 }
 
 /* Somebody moved our part away and put a file of theirs in its place. */

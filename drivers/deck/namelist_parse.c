@@ -97,10 +97,13 @@ static void read_name(reader *r, char *name)
   lex_advance_to(r, end);
 }
 
-/* One integer of a subscript; 0 if there is none or it is out of bounds (missing stays as is). */
-static int read_bound(reader *r, long *out)
+/* One integer of a subscript; 0 if it is out of bounds (missing stays as is). Only a step is ever
+   `negative`. */
+static int read_bound(reader *r, int negative, long *out)
 {
   long n = 0;
+  const int sign = lex_peek(r), minus = sign == '-' && negative;
+  if ((minus || sign == '+') && lex_is_digit(lex_at(r, r->at + 1))) lex_advance(r);
   const size_t begin = r->at;
   while (lex_is_digit(lex_peek(r))) {
     n = 10 * n + (lex_peek(r) - '0');
@@ -109,13 +112,14 @@ static int read_bound(reader *r, long *out)
   }
   if (r->at > begin) {
     if (n < 1) return 0;
-    *out = n;
+    *out = minus ? -n : n;
   }
   while (lex_peek(r) == ' ' || lex_peek(r) == '\t') lex_advance(r);
   return 1;
 }
 
-/* `(i)`, `(i:j)`, `(i:j:k)`, each part of a triplet optional. */
+/* `(i)`, `(i:j)`, `(i:j:k)`, each part of a triplet optional. With a negative step j must be given:
+   left out, it is the array's end, and nothing would be selected. */
 static int read_subscript(reader *r, namelist_assignment *a)
 {
   const namelist_place at = lex_place(r, 1);
@@ -125,15 +129,16 @@ static int read_subscript(reader *r, namelist_assignment *a)
   lex_advance(r);
   while (lex_peek(r) == ' ' || lex_peek(r) == '\t') lex_advance(r);
   begin = r->at;
-  if (!read_bound(r, &a->first)) goto bad;
+  if (!read_bound(r, 0, &a->first)) goto bad;
   if (lex_peek(r) != ':' && r->at == begin) goto bad;
   if (lex_peek(r) == ':') {
     for (parts = 2; parts <= 3 && lex_peek(r) == ':'; parts++) {
       lex_advance(r);
       while (lex_peek(r) == ' ' || lex_peek(r) == '\t') lex_advance(r);
-      if (!read_bound(r, parts == 2 ? &a->last : &a->step)) goto bad;
+      if (!read_bound(r, parts == 3, parts == 2 ? &a->last : &a->step)) goto bad;
     }
-    if (a->last != 0 && a->last < a->first) goto bad;
+    if (a->step < 0 ? a->last == 0 || a->last > a->first : a->last != 0 && a->last < a->first)
+      goto bad;
   } else {
     a->last = a->first;
   }

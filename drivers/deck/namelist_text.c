@@ -1,9 +1,14 @@
 /* namelist_text.c -- the text of a namelist, from a file, an argument or memory; see namelist.h. */
+#define _POSIX_C_SOURCE 200809L /* STDIN_FILENO */
 #include "deck/namelist_lex.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "system/bytes.h"
+#include "system/file.h"
 
 static int index_lines(namelist *nl)
 {
@@ -91,48 +96,34 @@ void namelist_free(namelist *nl)
   free(nl->value);
   *nl = (namelist){ 0 };
 }
+
 /* ---- from a file --------------------------------------------------------------------------- */
 
-/* At most one byte more than allowed, so that the parser can tell. */
-static size_t read_bytes(FILE *file, char *text, size_t size)
+/* What is wrong with the file; the parse of an empty text makes the tree that names it. */
+static pendres_status refuse(const char *path, const char *why, namelist *out,
+                             namelist_errors *errors)
 {
-  size_t used = 0, got = 1;
-  while (used < size && got > 0) {
-    got = fread(text + used, 1, size - used, file);
-    used += got;
-  }
-  return used;
+  const pendres_status status = namelist_parse(path, "", 0, out, errors);
+  if (status != PENDRES_OK) return status;
+  namelist_error_at(out, namelist_whole, errors, "cannot read the deck: %s", why);
+  return PENDRES_IO;
 }
 
 pendres_status namelist_read(const char *path, namelist *out, namelist_errors *errors)
 {
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  const size_t size = (size_t)NAMELIST_MAX_BYTES + 1;
-  char *text = malloc(size);
-  FILE *file = NULL;
+  char why[FILE_WORDS];
+  char *text = NULL;
   size_t length = 0;
-  int bad = 0;
-
-  *out = (namelist){ 0 };
-  if (text == NULL) goto done;
-  errno = 0;
-  file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-  if (file != NULL) length = read_bytes(file, text, size);
-  bad = file == NULL || ferror(file);
-  if (bad) {
-    namelist named = { 0 };
-    const char *why = strerror(errno);
-    const pendres_status parsed = namelist_parse(path, "", 0, &named, errors);
-    if (parsed == PENDRES_OK)
-      namelist_error_at(&named, namelist_whole, errors, "cannot read the deck: %s", why);
-    *out = named;
-    status = parsed == PENDRES_OK ? PENDRES_IO : parsed;
-    goto done;
-  }
-  status = namelist_parse(path, text, length, out, errors);
-done:
+  const int standard = strcmp(path, "-") == 0;
+  const int file = standard ? STDIN_FILENO : file_open(path, FILE_READ, 0, why);
+  if (file < 0) return refuse(path, why, out, errors);
+  pendres_status status = bytes_text(file, NAMELIST_MAX_BYTES, &text, &length);
+  const char *words = strerror(errno);
+  if (!standard) (void)close(file);
+  if (status == PENDRES_IO) return refuse(path, words, out, errors);
+  if (status == PENDRES_UNSUPPORTED) length = (size_t)NAMELIST_MAX_BYTES + 1; /* which is told */
+  if (status != PENDRES_OUT_OF_MEMORY) status = namelist_parse(path, text, length, out, errors);
   if (status == PENDRES_OUT_OF_MEMORY) errors->out_of_memory = 1;
-  if (file != NULL && file != stdin) fclose(file);
   free(text);
   return status;
 }

@@ -247,7 +247,8 @@ static int place(const namelist *nl, const namelist_assignment *a, const namelis
   namelist_array *out = f->array;
   for (int i = 0; i < v->repeat; i++, f->next += a->step) {
     const char *problem = NULL;
-    if (a->subscripted && a->last != 0 && f->next > a->last)
+    if (a->subscripted && a->last != 0 &&
+        (a->step > 0 ? f->next > a->last : f->next < a->last))
       problem = "more values than the subscript selects";
     else if (f->next > NAMELIST_MAX_VALUES)
       problem = "more than a million elements";

@@ -4,7 +4,6 @@
 #include "farm/journal.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <search.h>
 #include <stdint.h>
@@ -17,8 +16,8 @@
 
 #include "farm/numbers.h"
 #include "system/clock.h"
+#include "system/file.h"
 #include "system/grow.h"
-#include "system/own_file.h"
 
 /* The position of a record. */
 typedef struct slot {
@@ -42,6 +41,8 @@ struct journal {
   size_t own;       /* records in the first file */
   int locked;       /* the first, by this process */
   int broken;       /* nothing more is written to it */
+  int named;        /* the user has named the folder: journals of others count */
+  char others[FILE_WORDS]; /* that the first is another's */
   int stays;        /* even if it holds nothing */
   int dirty;        /* some of it may not be on disk yet */
   double synced;
@@ -184,17 +185,14 @@ static void drop_own(journal *j)
   j->files = 0;
 }
 
-/* Open the own file, locked; it may be empty. */
-static pendres_status open_own(journal *j, char *words)
+/* Open the own file, locked; it may be empty, and is if it is to be `use` FILE_NEW. */
+static pendres_status open_own(journal *j, file_use use, char *words)
 {
   for (int attempt = 0; attempt < JOURNAL_ATTEMPTS; attempt++) {
-    const int fd = open(j->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-    struct stat status;
-    if (fd < 0)
-      return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
-    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
-      close(fd);
-      return complain(words, PENDRES_IO, "cannot write the journal", j->path, "not a regular file");
+    const int fd = file_open(j->path, use, j->named, j->others);
+    if (fd < 0) {
+      snprintf(words, JOURNAL_WORDS, "cannot write the journal: %.450s", j->others);
+      return PENDRES_IO;
     }
     /* On a file system without locks the output's own lock has to suffice. */
     j->locked = flock(fd, LOCK_EX | LOCK_NB) == 0;
@@ -203,7 +201,7 @@ static pendres_status open_own(journal *j, char *words)
       return complain(words, PENDRES_BUSY, "the journal", j->path, "another run is writing it");
     }
     /* The run that had it may have removed it at its end, before it was locked. */
-    if (own_file_is(fd, j->path)) return take_file(j, fd, j->path);
+    if (file_is(fd, j->path)) return take_file(j, fd, j->path);
     close(fd);
   }
   return complain(words, PENDRES_BUSY, "the journal", j->path,
@@ -215,12 +213,14 @@ static pendres_status open_own(journal *j, char *words)
 static pendres_status begin_anew(journal *j, const char *what, const char *more, char *words)
 {
   int why = 0;
-  char *name = own_file_keep(j->path, &why);
-  if (name == NULL)
-    return complain(words, PENDRES_IO, "cannot set aside the journal", j->path, strerror(why));
-  own_file_remove(j->file[0].fd, j->path);
+  char *name = file_keep(j->path, &why);
+  if (name != NULL) why = file_remove(j->file[0].fd, j->path);
   drop_own(j);
-  const pendres_status status = open_own(j, words);
+  if (why != 0) {
+    free(name);
+    return complain(words, PENDRES_IO, "cannot set aside the journal", j->path, strerror(why));
+  }
+  const pendres_status status = open_own(j, FILE_NEW, words);
   if (status == PENDRES_OK)
     snprintf(words, JOURNAL_WORDS, "%s is kept as '%.300s'%s", what, name, more);
   free(name);
@@ -252,7 +252,7 @@ static pendres_status clear_own(journal *j, char *words)
     [JOURNAL_TORN] = "a journal with a damaged head",
   };
   off_t end = 0;
-  const journal_head found = journal_file_head(j->file[0].fd, j->head, &end, words);
+  const journal_head found = journal_file_head(j->file[0].fd, j->path, j->head, &end, words);
   words[0] = '\0';
   if (found == JOURNAL_NO_MEMORY) return PENDRES_OUT_OF_MEMORY;
   return is_bare(j, found, end) ? empty_own(j, words) : begin_anew(j, what[found], "", words);
@@ -263,7 +263,7 @@ static pendres_status clear_own(journal *j, char *words)
 static pendres_status settle_head(journal *j, char *words)
 {
   pendres_status status = PENDRES_OK;
-  switch (journal_file_head(j->file[0].fd, j->head, &j->end, words)) {
+  switch (journal_file_head(j->file[0].fd, j->path, j->head, &j->end, words)) {
   case JOURNAL_SAME: return PENDRES_OK;
   case JOURNAL_OTHER:
   case JOURNAL_NONE: return PENDRES_INVALID_ARGUMENT;
@@ -294,7 +294,7 @@ static pendres_status load_own(journal *j, char *words)
   return PENDRES_OK;
 }
 
-static pendres_status build(journal *j, const char *path, const char *head, int resume,
+static pendres_status build(journal *j, const char *path, const char *head, journal_from from,
                             char *words)
 {
   const size_t length = strlen(path);
@@ -303,11 +303,16 @@ static pendres_status build(journal *j, const char *path, const char *head, int 
   if (j->path == NULL || j->head == NULL) return PENDRES_OUT_OF_MEMORY;
   strcpy(j->path, path);
   strcpy(j->head, head);
-  pendres_status status = open_own(j, words);
+  j->named = from == JOURNAL_NAMED;
+  pendres_status status = open_own(j, FILE_OWN, words);
   /* Only now it is known that no other run uses it. */
-  if (status == PENDRES_OK && !resume && size_of(j->file[0].fd) > 0) status = clear_own(j, words);
+  if (status == PENDRES_OK && from == JOURNAL_ANEW && size_of(j->file[0].fd) > 0)
+    status = clear_own(j, words);
   if (status == PENDRES_OK) status = settle_head(j, words);
   if (status == PENDRES_OK) status = load_own(j, words);
+  const size_t used = strlen(words);
+  if (status == PENDRES_OK && j->others[0] != '\0')
+    snprintf(words + used, JOURNAL_WORDS - used, "%s%s", used > 0 ? "; " : "", j->others);
   return status;
 }
 
@@ -325,7 +330,7 @@ static void let_go(journal *j)
   free(j);
 }
 
-pendres_status journal_open(const char *path, const char *head, int resume, journal **out,
+pendres_status journal_open(const char *path, const char *head, journal_from from, journal **out,
                             char words[JOURNAL_WORDS])
 {
   journal *j = calloc(1, sizeof *j);
@@ -337,7 +342,7 @@ pendres_status journal_open(const char *path, const char *head, int resume, jour
     return PENDRES_OUT_OF_MEMORY;
   }
   j->synced = clock_wall();
-  const pendres_status status = build(j, path, head, resume, words);
+  const pendres_status status = build(j, path, head, from, words);
   if (status == PENDRES_OK) {
     *out = j;
     return status;
@@ -351,19 +356,13 @@ pendres_status journal_open(const char *path, const char *head, int resume, jour
 pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORDS])
 {
   off_t end = 0;
-  words[0] = '\0';
-  struct stat info;
-  const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const int fd = file_open(path, FILE_TRUSTED, j->named, words);
   if (fd < 0)
-    return complain(words, errno == ENOENT ? PENDRES_NOT_FOUND : PENDRES_IO,
-                    "cannot read the journal", path, strerror(errno));
-  if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
-    close(fd);
-    return complain(words, PENDRES_INVALID_ARGUMENT, "the journal", path, "not a regular file");
-  }
+    return errno == ENOENT ? PENDRES_NOT_FOUND
+           : errno == EPERM ? PENDRES_INVALID_ARGUMENT : PENDRES_IO;
   pendres_status status = take_file(j, fd, path);
   if (status != PENDRES_OK) return status;
-  switch (journal_file_head(fd, j->head, &end, words)) {
+  switch (journal_file_head(fd, path, j->head, &end, words)) {
   case JOURNAL_SAME: return load(j, j->files - 1, &end);
   case JOURNAL_OTHER:
   case JOURNAL_NONE: return PENDRES_INVALID_ARGUMENT;
@@ -440,7 +439,7 @@ void journal_stay(journal *j)
 void journal_close(journal *j)
 {
   if (j == NULL) return;
-  if (j->own == 0 && !j->stays) own_file_remove(j->file[0].fd, j->path);
+  if (j->own == 0 && !j->stays) (void)file_remove(j->file[0].fd, j->path);
   else if (j->dirty) (void)fsync(j->file[0].fd);
   let_go(j);
 }
@@ -451,6 +450,6 @@ void journal_remove(journal *j)
   /* One that another run is still writing is that run's. */
   for (size_t i = 0; i < j->files; i++)
     if (i == 0 || flock(j->file[i].fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-      own_file_remove(j->file[i].fd, j->file[i].name);
+      (void)file_remove(j->file[i].fd, j->file[i].name);
   let_go(j);
 }

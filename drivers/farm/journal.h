@@ -14,22 +14,27 @@
 
 typedef struct journal journal;
 
+/* Where the records of a run come from: the last is for a journal in a folder that the user has
+   named. */
+typedef enum journal_from { JOURNAL_ANEW, JOURNAL_RESUMED, JOURNAL_NAMED } journal_from;
+
 /*
  * Open the journal at `path`, with a head of lines of text, and lock it for this process.
  *
- * resume: existing records are used if the heads are the same; otherwise `words` names the first
- * line that differs. Without resume a journal that holds records, and any other file, is renamed to
- * `path.~1~` or the next name that is free, and kept.
- * words[JOURNAL_WORDS] receives why it failed, what was kept, or what was found damaged and
- * dropped; "" if none of these.
+ * JOURNAL_RESUMED: existing records are used if the heads are the same; otherwise `words` names the
+ * first line that differs. The file must be the user's own, unless JOURNAL_NAMED. JOURNAL_ANEW: an
+ * own journal that holds records, and any other own file, is renamed to `path.~1~` or the next name
+ * that is free, and kept.
+ * words[JOURNAL_WORDS] receives why it failed, what was kept, what was found damaged and dropped,
+ * or that it is another user's; "" if none of these.
  * Errors: PENDRES_INVALID_ARGUMENT (another head, or not a journal), PENDRES_BUSY (another
  * process has it), PENDRES_IO, PENDRES_OUT_OF_MEMORY. On failure *out is NULL.
  */
-pendres_status journal_open(const char *path, const char *head, int resume, journal **out,
+pendres_status journal_open(const char *path, const char *head, journal_from from, journal **out,
                             char words[JOURNAL_WORDS]);
 
-/* Use the records of another journal as well, which is read and never changed. Errors as for
-   journal_open; PENDRES_NOT_FOUND: there is none. */
+/* Use the records of another journal as well, which is read and never changed, under the same
+   conditions. Errors and words as for journal_open; PENDRES_NOT_FOUND: there is none. */
 pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORDS]);
 
 /* Records that are there; those in the own file among them; its name. */

@@ -38,7 +38,7 @@ uint32_t journal_file_sum(const void *data, size_t size)
 /* ---- the head ------------------------------------------------------------------------------ */
 
 /* The first line in which two texts differ, without its indentation. */
-static void name_difference(const char *theirs, const char *ours, char *words)
+static void name_difference(const char *path, const char *theirs, const char *ours, char *words)
 {
   while (*theirs != '\0' && *ours != '\0') {
     const size_t a = strcspn(theirs, "\n"), b = strcspn(ours, "\n");
@@ -48,11 +48,13 @@ static void name_difference(const char *theirs, const char *ours, char *words)
   }
   theirs += strspn(theirs, " ");
   ours += strspn(ours, " ");
-  snprintf(words, JOURNAL_WORDS, "the journal is of another deck or build: it has '%.*s', and "
-           "this run '%.*s'", (int)strcspn(theirs, "\n"), theirs, (int)strcspn(ours, "\n"), ours);
+  snprintf(words, JOURNAL_WORDS, "the journal '%.150s' is of another deck or build: it has '%.*s', "
+           "and this run '%.*s'", path, (int)strcspn(theirs, "\n"), theirs,
+           (int)strcspn(ours, "\n"), ours);
 }
 
-journal_head journal_file_head(int fd, const char *text, off_t *end, char *words)
+journal_head journal_file_head(int fd, const char *path, const char *text, off_t *end,
+                               char *words)
 {
   file_head h;
   journal_head found = JOURNAL_TORN;
@@ -62,8 +64,8 @@ journal_head journal_file_head(int fd, const char *text, off_t *end, char *words
   const size_t some = (size_t)s.st_size < sizeof begin ? (size_t)s.st_size : sizeof begin;
   if (!bytes_read(fd, 0, begin, some)) return JOURNAL_TORN;
   if (memcmp(begin, magic, some) != 0) {
-    snprintf(words, JOURNAL_WORDS, "what stands in the place of the journal is none: it is left "
-             "alone");
+    snprintf(words, JOURNAL_WORDS, "'%.300s', where the journal should be, is none: it is left "
+             "alone", path);
     return JOURNAL_NONE;
   }
   if (!bytes_read(fd, 0, &h, sizeof h) || h.sum != journal_file_sum(&h, offsetof(file_head, sum)) ||
@@ -75,7 +77,7 @@ journal_head journal_file_head(int fd, const char *text, off_t *end, char *words
   if (bytes_read(fd, sizeof h, theirs, (size_t)h.length) &&
       h.text_sum == journal_file_sum(theirs, (size_t)h.length)) {
     found = strcmp(theirs, text) == 0 ? JOURNAL_SAME : JOURNAL_OTHER;
-    if (found == JOURNAL_OTHER) name_difference(theirs, text, words);
+    if (found == JOURNAL_OTHER) name_difference(path, theirs, text, words);
   }
   *end = (off_t)(sizeof h + h.length);
   free(theirs);

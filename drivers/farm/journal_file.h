@@ -41,8 +41,10 @@ typedef enum journal_head {
 /* The checksum of bytes. */
 uint32_t journal_file_sum(const void *data, size_t size);
 
-/* Compare the head with `text`; *end is where it ends. words: the difference. */
-journal_head journal_file_head(int fd, const char *text, off_t *end, char *words);
+/* Compare the head of the file, which is open, with `text`; *end is where it ends. words: the
+   difference. */
+journal_head journal_file_head(int fd, const char *path, const char *text, off_t *end,
+                               char *words);
 
 /* Write a head into an empty file; 0 on failure, see errno. */
 int journal_file_begin(int fd, const char *text, off_t *end);

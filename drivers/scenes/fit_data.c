@@ -5,14 +5,18 @@
  * cell that is no number names the columns. What the columns are is told by the deck, or by these
  * names.
  */
-#define _POSIX_C_SOURCE 200809L /* getline, strdup */
+#define _POSIX_C_SOURCE 200809L /* strdup */
 #include "scenes/fit_data.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/types.h>
+#include <unistd.h>
+
+#include "scenes/numbers.h"
+#include "system/bytes.h"
+#include "system/file.h"
 
 enum { MOST_COLUMNS = 64, CELL = 128, NONE = -1 };
 
@@ -339,68 +343,74 @@ static void set_directions(reader *r)
 /* ---- the file ------------------------------------------------------------------------------ */
 
 /* From the deck's folder, unless the path begins at the root. */
-static FILE *open_file(reader *r)
+static int open_file(reader *r)
 {
+  char why[FILE_WORDS];
   const char *file = r->d->data.file, *slash = strrchr(r->d->name, '/');
   const int folder = file[0] != '/' && slash != NULL ? (int)(slash - r->d->name) + 1 : 0;
   const int length =
     snprintf(r->out->path, sizeof r->out->path, "%.*s%s", folder, r->d->name, file);
   if (length < 0 || (size_t)length >= sizeof r->out->path) {
     FAIL(r, "data.file: the path is too long");
-    return NULL;
+    return -1;
   }
-  FILE *in = fopen(r->out->path, "r");
-  if (in == NULL)
-    FAIL(r, "%s: %s: data.file is looked for from the deck's folder", r->out->path,
-         strerror(errno));
-  return in;
+  const int fd = file_open(r->out->path, FILE_READ, 0, why);
+  if (fd < 0) FAIL(r, "%s: data.file is looked for from the deck's folder", why);
+  return fd;
 }
 
-static void read_lines(reader *r, FILE *in)
+/* All of the file, to be freed; of one of results, by its first bytes, its variables in place of
+   it. NULL: the run has failed. */
+static char *read_text(reader *r, size_t *length)
 {
-  char *line = NULL;
-  size_t size = 0;
-  ssize_t length;
+  static const char results[4] = "\211HDF";
+  char first[sizeof results], *text = NULL;
+  const int fd = open_file(r);
+  if (fd < 0) return NULL;
+  const int stored = bytes_read(fd, 0, first, sizeof first) &&
+                     memcmp(first, results, sizeof first) == 0;
+  const pendres_status status = stored ? fit_store_text(r->run, r->out->path, fd, &text, length)
+                                       : bytes_text(fd, FIT_MOST_BYTES, &text, length);
+  if (status == PENDRES_UNSUPPORTED)
+    FAIL(r, "%s: more than %d MiB of data are not read: leave out what is no datum", r->out->path,
+         FIT_MOST_BYTES >> 20);
+  else if (status != PENDRES_OK)
+    (void)scene_fail(r->run, status, "%s: %s", r->out->path,
+                     status == PENDRES_IO ? strerror(errno) : "out of memory for data");
+  (void)close(fd);
+  return text;
+}
+
+/* A line without its end. */
+static void take_line(reader *r, char *line, int *head)
+{
+  char *from = r->line == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0 ? line + 3 : line;
+  from[strcspn(from, "#!")] = '\0';
+  if (from[strspn(from, " \t\r")] == '\0') return;
+  if (!*head) {
+    char *copy = strdup(from);
+    if (copy == NULL) (void)scene_fail(r->run, PENDRES_OUT_OF_MEMORY, "out of memory for data");
+    *head = 1;
+    const int names = copy != NULL && read_head(r, copy);
+    free(copy);
+    if (names) return;
+  }
+  if (scene_going(r->run)) read_line(r, from);
+}
+
+static void read_lines(reader *r, char *text, size_t length)
+{
   int head = 0;
-  while (scene_going(r->run) && (length = getline(&line, &size, in)) >= 0) {
+  char *const end = text + length;
+  for (char *line = text, *next; line < end && scene_going(r->run); line = next) {
+    char *stop = memchr(line, '\n', (size_t)(end - line));
+    if (stop == NULL) stop = end;
+    next = stop + 1;
+    *stop = '\0';
     r->line++;
-    if (strlen(line) != (size_t)length) {
-      FAIL(r, "%s:%zu: a zero byte: data are read as text", r->out->path, r->line);
-      break;
-    }
-    char *from = r->line == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0 ? line + 3 : line;
-    from[strcspn(from, "#!\n")] = '\0';
-    if (from[strspn(from, " \t\r")] == '\0') continue;
-    if (!head) {
-      char *copy = strdup(from);
-      if (copy == NULL) {
-        (void)scene_fail(r->run, PENDRES_OUT_OF_MEMORY, "out of memory for data");
-        break;
-      }
-      head = 1;
-      const int names = read_head(r, copy);
-      free(copy);
-      if (names) continue;
-    }
-    if (scene_going(r->run)) read_line(r, from);
+    if (line + strlen(line) == stop) take_line(r, line, &head);
+    else FAIL(r, "%s:%zu: a zero byte: data are read as text", r->out->path, r->line);
   }
-  if (ferror(in)) (void)scene_fail(r->run, PENDRES_IO, "%s: %s", r->out->path, strerror(errno));
-  free(line);
-}
-
-/* A file of results instead of text, by its first bytes; its variables in place of it. */
-static FILE *read_store(reader *r, FILE *in, char **text)
-{
-  char first[4] = "";
-  const size_t n = fread(first, 1, sizeof first, in);
-  rewind(in);
-  if (n < sizeof first || memcmp(first, "\211HDF", sizeof first) != 0) return in;
-  (void)fclose(in);
-  *text = fit_store_text(r->run, r->out->path);
-  if (*text == NULL || !scene_going(r->run)) return NULL;
-  FILE *lines = fmemopen(*text, strlen(*text), "r");
-  if (lines == NULL) (void)scene_fail(r->run, PENDRES_OUT_OF_MEMORY, "out of memory for data");
-  return lines;
 }
 
 void fit_data_read(scene_run *run, fit_data *out)
@@ -417,13 +427,9 @@ void fit_data_read(scene_run *run, fit_data *out)
       PENDRES_NAMES_FIT_OBSERVABLE, d->data.observables.name[i]);
   if (r.observables == 0)
     r.kind[r.observables++] = fit_is_decay(d) ? PENDRES_FIT_DISPLACEMENT : PENDRES_FIT_AMPLITUDE;
-  char *text = NULL;
-  FILE *in = open_file(&r);
-  if (in != NULL) in = read_store(&r, in, &text);
-  if (in != NULL) {
-    read_lines(&r, in);
-    (void)fclose(in);
-  }
+  size_t length = 0;
+  char *text = read_text(&r, &length);
+  if (text != NULL) read_lines(&r, text, length);
   free(text);
   if (scene_going(run) && out->of.n == 0)
     FAIL(&r, "%s: there are no data in the file", out->path);

@@ -2,16 +2,21 @@
  * fit_store.c -- data of a fit from a file of results: its variables as lines of text, which
  * fit_data.c reads as it reads others. See fit_data.h.
  */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* open_memstream */
-#endif
+#define _POSIX_C_SOURCE 200809L /* fdopen, fileno, ftruncate */
+#include "scenes/fit_data.h"
+
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "scenes/fit_data.h"
+#include "scenes/numbers.h"
+#include "system/apart.h"
+#include "system/bytes.h"
 
-enum { COLUMNS = 16 };
+enum { COLUMNS = 16, CELL = 25 /* characters of a number at most, with what separates it */ };
 
 typedef struct table {
   scene_run *run;
@@ -140,32 +145,68 @@ static void write_table(table *t, FILE *out)
   for (int i = 0; i < t->rank; i++) free(name[i]);
 }
 
-char *fit_store_text(scene_run *run, const char *path)
+/* ---- in a process of its own --------------------------------------------------------------- */
+
+typedef struct task {
+  scene_run *run;
+  const char *path;
+  FILE *out;
+} task;
+
+static void write_text(const task *w, table *t)
 {
-  table t = {.run = run};
-  char *text = NULL;
-  size_t length = 0;
-  const pendres_status status = pendres_store_open(path, &t.store);
-  if (status != PENDRES_OK) {
-    const int bad = status != PENDRES_OUT_OF_MEMORY;
-    (void)scene_fail(run, bad ? PENDRES_INVALID_ARGUMENT : status,
-                     "%s: the file of results cannot be read: it is broken, or no file of this "
-                     "program: write it anew", path);
-    pendres_store_free(t.store);
-    return NULL;
-  }
-  find_variables(&t);
-  FILE *out = t.columns > 0 ? open_memstream(&text, &length) : NULL;
-  if (t.columns == 0)
+  scene_run *run = w->run;
+  const pendres_status status = pendres_store_open(w->path, &run->store);
+  t->store = run->store; /* whose words scene_stored() tells: the results' are not this process's */
+  if (status != PENDRES_OK)
+    (void)scene_fail(run, status == PENDRES_IO ? PENDRES_INVALID_ARGUMENT : status,
+                     "the file of results cannot be read (%s): it is broken, or no file of this "
+                     "program: write it anew", pendres_store_message(run->store));
+  if (scene_going(run)) find_variables(t);
+  if (t->columns == 0)
     (void)scene_fail(run, PENDRES_INVALID_ARGUMENT,
-                     "%s: the file has no variable with the name of an observable: give those of "
-                     "its variables in data.columns, as 'rms=amplitude'", path);
-  else if (out == NULL)
-    (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for data");
-  if (out != NULL) {
-    write_table(&t, out);
-    (void)fclose(out);
-  }
-  pendres_store_free(t.store);
-  return text;
+                     "the file has no variable with the name of an observable: give those of its "
+                     "variables in data.columns, as 'rms=amplitude'");
+  else if (t->n > FIT_MOST_BYTES / CELL / (t->columns + PENDRES_STORE_RANK))
+    (void)scene_fail(run, PENDRES_INVALID_ARGUMENT, "it has more data than a fit takes");
+  if (scene_going(run)) write_table(t, w->out);
+  if (fflush(w->out) != 0) (void)scene_fail(run, PENDRES_IO, "%s", strerror(errno));
+}
+
+/* The text into the file, or the reason why there is none, which the status tells. */
+static int read_apart(const void *arg)
+{
+  const task *w = arg;
+  table t = {.run = w->run};
+  write_text(w, &t);
+  if (scene_going(w->run)) return PENDRES_OK;
+  if (ftruncate(fileno(w->out), 0) != 0) return PENDRES_STATUS_COUNT;
+  rewind(w->out);
+  fputs(w->run->message, w->out);
+  return fflush(w->out) == 0 ? (int)w->run->status : PENDRES_STATUS_COUNT;
+}
+
+pendres_status fit_store_text(scene_run *run, const char *path, int fd, char **text,
+                              size_t *length)
+{
+  struct stat s;
+  int code = APART_FAILED;
+  pendres_status status = PENDRES_IO;
+  const int file = scene_unnamed(run, 0);
+  FILE *out = file >= 0 ? fdopen(file, "w") : NULL;
+  const task w = {run, path, out};
+  if (out != NULL && fstat(fd, &s) == 0) code = apart(read_apart, &w, s.st_size, file);
+  if (code >= 0 && code < PENDRES_STATUS_COUNT && lseek(file, 0, SEEK_SET) == 0)
+    status = bytes_text(file, FIT_MOST_BYTES, text, length);
+  else if (code != APART_FAILED)
+    (void)scene_fail(run, PENDRES_INVALID_ARGUMENT, "%s: the file of results cannot be read: %s",
+                     path, code == APART_ENDLESS ? "reading it does not end"
+                                                 : "HDF5 crashes when it reads it");
+  if (out != NULL) (void)fclose(out);
+  else if (file >= 0) (void)close(file);
+  if (status != PENDRES_OK || code == PENDRES_OK) return status;
+  (void)scene_fail(run, (pendres_status)code, "%s: %s", path, *text);
+  free(*text);
+  *text = NULL;
+  return status;
 }

@@ -25,6 +25,10 @@ enum {
   BASINS_ROWS = 256       /* rows of it that are written or added up at a time */
 };
 
+/* Bytes of a fit's data as text: some millions of lines, of which a fit would take days; what is
+   larger was hardly meant, and would take the memory of others. */
+enum { FIT_MOST_BYTES = 256 << 20 };
+
 /* States that a refinement has filled are verified: so many of them, or one of so many if these are
    more. */
 enum { BASINS_LEAST_SAMPLE = 10000, BASINS_SAMPLED = 256 };

@@ -121,24 +121,26 @@ typedef struct pendres_store_entry {
 /**
  * The file that a path means as an output. Links are followed, to a file that need not exist yet:
  * the results replace what the link points to, and the link stays. Refused with PENDRES_IO and a
- * sentence in why[size] (may be NULL): a device or a stream, /dev/stdout and the like included,
- * even where it leads to a plain file; a folder; a file that is read-only for this process, or for
- * everybody even if this process is root's. *target is to be freed by free(); NULL on failure.
+ * sentence in why[size] (may be NULL): a link of another user's; a device or a stream, /dev/stdout
+ * and the like included, even where it leads to a plain file; a folder; a file that is read-only
+ * for this process, or for everybody even if this process is root's; another user's file in a
+ * sticky folder, which he alone may replace. *target is to be freed by free(); NULL on failure.
  * Opens and makes nothing. Thread safe.
  */
 pendres_status pendres_store_target(const char *path, char **target, char *why, size_t size);
 
 /**
- * Start to write a file: TARGET.part beside the TARGET that path means (pendres_store_target);
- * the contents of such a file, if it is no other process's, are lost (a caller that resumes moves
- * it away first). An existing TARGET is not touched.
+ * Start to write a file: TARGET.part beside the TARGET that path means (pendres_store_target). It
+ * is made; of what may stand there, only the part that a killed process of this user has left is
+ * emptied, and must have no other name (hard link). An existing TARGET is not touched.
  *
  * options may be NULL. *out receives the store, also when the function fails (unless out of
  * memory: then NULL), so that pendres_store_message() can give the reason; pass it to
  * pendres_store_free() in any case.
  *
  * PENDRES_IO: the folder does not exist or cannot be written, the disk is full, path is refused
- * by pendres_store_target(), or another process is writing the same file.
+ * by pendres_store_target(), another process is writing the same file, or another file stands where
+ * the part is to be made.
  */
 pendres_status pendres_store_create(const char *path, const pendres_store_options *options,
                                     pendres_store **out);
@@ -166,7 +168,8 @@ void pendres_store_free(pendres_store *store);
 const char *pendres_store_message(const pendres_store *store);
 
 /** Make what was written so far survive the end of the process: PATH.part can be opened up to
- *  here if the process is killed later. Costs a rewrite of chunks that are not full. */
+ *  here if the process is killed later; until the end its `Conventions` are "(part)". Costs a
+ *  rewrite of chunks that are not full. */
 pendres_status pendres_store_flush(pendres_store *store);
 
 /**
@@ -218,9 +221,9 @@ pendres_status pendres_store_provenance(pendres_store *store, const pendres_stor
 
 /* ---- Reading back: for resuming a run and for tests ------------------------------------------ */
 
-/** Open a file, finished or a part, for reading. *out and failures as in pendres_store_create();
- *  PENDRES_BUSY: HDF5 cannot lock the file, which another process has open for writing, or locks
- *  are denied. Free with pendres_store_free(). */
+/** Open a file, finished or a part, for reading. *out and failures as in pendres_store_create(),
+ *  for a pipe or a device as well; PENDRES_BUSY: HDF5 cannot lock the file, which another process has
+ *  open for writing, or locks are denied. Free with pendres_store_free(). */
 pendres_status pendres_store_open(const char *path, pendres_store **out);
 
 /**

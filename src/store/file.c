@@ -92,16 +92,31 @@ static pendres_status close_again(pendres_store_file *file, pendres_status statu
   return status;
 }
 
-/* Whether it can be the remainder of a run: empty, a beginning without its head, or an HDF5 file.
-   */
-static int is_leftover(int fd)
+/* Where the mark of a part stands in the open file; -1: nowhere. HDF5 writes it with the first
+   texts, not compressed and without a checksum of theirs. */
+static off_t find_mark(int fd)
 {
-  static const char signature[8] = { '\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n' };
-  static const char nothing[8];
-  char begin[8] = { 0 };
+  char begin[8192];
+  const size_t size = sizeof PENDRES_STORE_MARK - 1;
   const ssize_t n = pread(fd, begin, sizeof begin, 0);
 
-  return n == 0 || (n > 0 && (!memcmp(begin, signature, 8) || !memcmp(begin, nothing, 8)));
+  for (ssize_t at = 0; at + (ssize_t)size <= n; at++)
+    if (!memcmp(begin + at, PENDRES_STORE_MARK, size)) return at;
+  return -1;
+}
+
+/* Why what stands in the place of the part is not what a killed run of this user has left; NULL: it
+   is. Only that is emptied. */
+static const char *foreign(int fd)
+{
+  struct stat info;
+
+  if (fstat(fd, &info) || !S_ISREG(info.st_mode)) return "is not a regular file";
+  if (info.st_uid != geteuid()) return "belongs to another user";
+  if (info.st_nlink > 1) return "has another name, too (a hard link)";
+  if (info.st_size && find_mark(fd) < 0)
+    return "was not left by a run that was killed: move it elsewhere";
+  return NULL;
 }
 
 /*
@@ -110,7 +125,7 @@ static int is_leftover(int fd)
  */
 static pendres_status take_over(pendres_store_file *file, int alone, int *again)
 {
-  struct stat info;
+  const char *why;
 
   *again = 0;
   if (!alone && !locks_count())
@@ -122,8 +137,6 @@ static pendres_status take_over(pendres_store_file *file, int alone, int *again)
     *again = errno == ENOENT;
     return file_failed(file, "write", file->part, errno);
   }
-  if (fstat(file->fd, &info) || !S_ISREG(info.st_mode))
-    return close_again(file, file_fail(file, "'%s' exists and is not a regular file", file->part));
   if (flock(file->fd, LOCK_EX | LOCK_NB)) {
     if (errno == EWOULDBLOCK) return close_again(file, busy(file));
     if (!alone)
@@ -135,9 +148,8 @@ static pendres_status take_over(pendres_store_file *file, int alone, int *again)
     *again = 1;
     return close_again(file, PENDRES_IO);
   }
-  if (!is_leftover(file->fd))
-    return close_again(file, file_fail(file, "'%s' exists, and was not left by a run that was "
-                                       "killed: move it elsewhere", file->part));
+  why = foreign(file->fd);
+  if (why) return close_again(file, file_fail(file, "'%s' exists, and %s", file->part, why));
   if (ftruncate(file->fd, 0))
     return close_again(file, file_failed(file, "empty", file->part, errno));
   return PENDRES_OK;
@@ -186,6 +198,15 @@ pendres_status pendres_store_file_create(pendres_store_file *file, const char *p
      none. */
   if (!status && !stat(file->path, &before)) (void)fchmod(file->fd, before.st_mode & 0777);
   return status;
+}
+
+int pendres_store_file_readable(const char *path, char *why)
+{
+  struct stat info;
+
+  if (stat(path, &info) || S_ISREG(info.st_mode)) return 1; /* HDF5 tells what else is wrong */
+  snprintf(why, PENDRES_STORE_WHY, "cannot read '%s': it is not a regular file", path);
+  return 0;
 }
 
 int pendres_store_file_unlockable(const char *path, char *why)
@@ -251,6 +272,16 @@ static int sync_folder(const char *path)
   return error;
 }
 
+/* The seal in the place of the mark. Nonzero: see errno. */
+static int seal(const pendres_store_file *file)
+{
+  const size_t size = sizeof PENDRES_STORE_SEAL - 1;
+  const off_t at = find_mark(file->fd);
+
+  if (at < 0) errno = EIO;
+  return at < 0 || pwrite(file->fd, PENDRES_STORE_SEAL, size, at) != (ssize_t)size;
+}
+
 pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole)
 {
   int error;
@@ -259,7 +290,7 @@ pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole)
   if (!is_same_file(file->fd, file->part))
     return file_fail(file, "'%s' was taken away or replaced during the run", file->part);
   if (file->error) return file_failed(file, "write", file->part, file->error);
-  if (fsync(file->fd) && errno != EINVAL)
+  if (seal(file) || (fsync(file->fd) && errno != EINVAL))
     return file_failed(file, "write", file->part, file->error = errno);
   *whole = 1;
   /* The file is renamed while it is still locked: no other process can take the name in between. */

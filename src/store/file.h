@@ -13,6 +13,12 @@
 
 enum { PENDRES_STORE_WHY = 512 };
 
+/* A text of the file while it is a part, and what it becomes when all is whole: so a part can be
+ * told from any other file, and can be opened nevertheless. */
+#define PENDRES_STORE_MARK "(part)"
+#define PENDRES_STORE_SEAL "CF-1.8"
+_Static_assert(sizeof PENDRES_STORE_MARK == sizeof PENDRES_STORE_SEAL, "nothing is moved");
+
 /* Bytes that the disk refused, newest first. */
 typedef struct pendres_store_refused {
   struct pendres_store_refused *next;
@@ -30,10 +36,15 @@ typedef struct pendres_store_file {
   char why[PENDRES_STORE_WHY]; /* the message of the last failure */
 } pendres_store_file;
 
-/* Make and lock the part file, or take over one that a killed run has left, which may be in use
- * where locks are switched off, unless the caller says that it is `alone`. It has the permissions
+/* Make and lock the part file, or take over one that a killed run of this user has left, which may
+ * be in use where locks are switched off, unless the caller says that it is `alone`; whatever else
+ * is there is refused. It has the permissions
  * of the file that it is to replace. file is zeroed first; destroy it in any case. */
 pendres_status pendres_store_file_create(pendres_store_file *file, const char *path, int alone);
+
+/* Whether a file is of those that are read: not a pipe, on which HDF5 would wait. 0: the reason is
+   in why[PENDRES_STORE_WHY]. */
+int pendres_store_file_readable(const char *path, char *why);
 
 /* Whether the file cannot be locked for reading, as HDF5 locks it. 1: the reason is in
    why[PENDRES_STORE_WHY]. */
@@ -48,8 +59,9 @@ void pendres_store_file_unlink(const pendres_store_file *file);
 /* Close the part file if it is open, and remove it unless `keep`. */
 void pendres_store_file_abandon(pendres_store_file *file, int keep);
 
-/* Write everything to the disk, close, rename the part file to path, and write the folder to the
- * disk. *whole is set once the part is complete on disk, even where the rename then fails. */
+/* Seal it, write everything to the disk, close, rename the part file to path, and write the folder
+ * to the disk. *whole is set once the part is complete on disk, even where the rename then
+ * fails. */
 pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole);
 
 /*

@@ -171,7 +171,7 @@ static pendres_status create_h5(pendres_store *store)
 static pendres_status set_root(pendres_store *store, const pendres_store_options *options)
 {
   const char *const names[] = { "Conventions", "title", "history", "source", "references" };
-  const char *values[] = { "CF-1.8", NULL, NULL, NULL, NULL };
+  const char *values[] = { PENDRES_STORE_MARK, NULL, NULL, NULL, NULL };
   pendres_store_node *root = NULL;
   pendres_status status = pendres_store_need_group(store, "", &root);
 
@@ -237,6 +237,8 @@ pendres_status pendres_store_open(const char *path, pendres_store **out)
     store->file.path = pendres_store_copy(path);
     if (!store->file.path)
       status = PENDRES_OUT_OF_MEMORY;
+    else if (!pendres_store_file_readable(path, store->message))
+      status = PENDRES_IO;
     else if ((store->h5 = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)) < 0)
       status = pendres_store_file_unlockable(path, store->message)
                  ? PENDRES_BUSY

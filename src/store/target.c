@@ -65,22 +65,41 @@ static char *read_link(const char *path)
   return next;
 }
 
+/* The folder of a path, to be freed; NULL: out of memory. */
+static char *folder_of(const char *path)
+{
+  const size_t length = folder_length(path);
+  char *folder = malloc(length + 2);
+
+  if (!folder) return NULL;
+  memcpy(folder, length ? path : ".", length ? length : 1);
+  folder[length ? length : 1] = '\0';
+  return folder;
+}
+
 /* Whether the name belongs to the system. It may lead to a plain file, as /dev/stdout does, which
    is then a stream nevertheless. */
 static int is_stream(const char *path)
 {
-  const size_t length = folder_length(path);
-  char *folder = malloc(length + 2), *real = NULL;
-  int stream = 0;
+  char *folder = folder_of(path), *real = folder ? realpath(folder, NULL) : NULL;
+  const int stream = real && (!strcmp(real, "/dev") || !strncmp(real, "/proc/", 6));
 
-  if (!folder) return 0;
-  memcpy(folder, length ? path : ".", length ? length : 1);
-  folder[length ? length : 1] = '\0';
-  real = realpath(folder, NULL);
-  if (real) stream = !strcmp(real, "/dev") || !strncmp(real, "/proc/", 6);
   free(real);
   free(folder);
   return stream;
+}
+
+/* Whether a file is another user's in a sticky folder, as /tmp is: the system would refuse to
+   rename over it. */
+static int is_held(const struct stat *file, const char *target)
+{
+  char *name = folder_of(target);
+  struct stat folder;
+  const int sticky = name && !stat(name, &folder) && (folder.st_mode & S_ISVTX);
+  const uid_t user = geteuid();
+
+  free(name);
+  return sticky && user && user != file->st_uid && user != folder.st_uid;
 }
 
 /* Check what is there already. */
@@ -94,6 +113,9 @@ static pendres_status check_old(const char *path, const char *target, char *why,
   /* Root may write read-only files, but this is hardly intended. */
   if (!(info.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) || access(target, W_OK))
     return refuse(why, size, "'%s' exists and is read-only", path);
+  if (is_held(&info, target))
+    return refuse(why, size, "'%s' exists and belongs to another user, in a folder where only he "
+                  "may replace it", path);
   return PENDRES_OK;
 }
 
@@ -111,8 +133,13 @@ pendres_status pendres_store_target(const char *path, char **target, char *why, 
   strcpy(name, path);
   status = is_stream(name) ? refuse(why, size, "'%s' is a device, not a file", path) : PENDRES_OK;
   for (int links = 0; !status && !lstat(name, &info) && S_ISLNK(info.st_mode); links++) {
-    char *next = links < MOST_LINKS ? read_link(name) : NULL;
+    char *next = NULL;
 
+    if (info.st_uid != geteuid()) {
+      status = refuse(why, size, "'%s' is a link of another user's: name the file itself", path);
+      break;
+    }
+    if (links < MOST_LINKS) next = read_link(name);
     if (!next) {
       status = refuse(why, size, "cannot follow the link '%s': %s", path,
                       strerror(links < MOST_LINKS ? errno : ELOOP));

@@ -60,6 +60,11 @@ CASES = [
     ('agree', 'element', "&g xv(3)=1.5 /\n", {'xv(3)': 1.5}),
     ('agree', 'slice', "&g xv(2:4)=1,2,3 /\n", {'xv(2)': 1.0, 'xv(3)': 2.0, 'xv(4)': 3.0}),
     ('agree', 'slice with step', "&g xv(1:5:2)=1,2,3 /\n", {'xv(1)': 1.0, 'xv(3)': 2.0, 'xv(5)': 3.0}),
+    ('agree', 'slice with a negative step', "&g xv(5:1:-2)=1,2,3 /\n", {'xv(1)': 3.0, 'xv(3)': 2.0, 'xv(5)': 1.0}),
+    ('agree', 'slice back, repeats', "&g xv(4:2:-1)=2*5,6 /\n", {'xv(2)': 6.0, 'xv(3)': 5.0, 'xv(4)': 5.0}),
+    ('agree', 'slice back, too short', "&g xv(4:1:-2)=1,2,3 /\n", ERROR),
+    ('agree', 'slice back, open', "&g xv(3::-1)=1,2,3 /\n", ERROR),
+    ('agree', 'slice with signs', "&g xv(+1:+5:+2)=1,2,3 /\n", {'xv(1)': 1.0, 'xv(3)': 2.0, 'xv(5)': 3.0}),
     ('agree', 'open slice', "&g xv(4:)=1,2 /\n", {'xv(4)': 1.0, 'xv(5)': 2.0}),
     ('agree', 'element beyond', "&g xv(6)=1 /\n", ERROR),
     ('agree', 'element zero', "&g xv(0)=1 /\n", ERROR),
@@ -146,7 +151,7 @@ def build(folder):
     cc = os.environ.get('CC', 'cc').split()
     sources = [os.path.join(HERE, 'ours.c')] + sorted(glob.glob(os.path.join(TOP, 'drivers', 'deck', '*.c')))
     sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
-    sources.append(os.path.join(TOP, 'drivers', 'system', 'grow.c'))
+    sources += [os.path.join(TOP, 'drivers', 'system', f) for f in ('bytes.c', 'file.c', 'grow.c')]
     sources.append(os.path.join(TOP, 'src', 'analysis', 'sweeps', 'sweep.c'))  # what lists and ranges make of an axis
     # Which coefficients a force has, what its parameters are, and its units.
     sources += [os.path.join(TOP, 'src', 'model', f)

@@ -1,6 +1,6 @@
 /* ending.c -- an orderly end where a library ends the program; see ending.h. */
 #define _GNU_SOURCE /* siginfo_t, REG_RIP */
-#include "ending.h"
+#include "system/ending.h"
 
 #include <signal.h>
 #include <stdatomic.h>
