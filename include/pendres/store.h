@@ -222,8 +222,8 @@ pendres_status pendres_store_provenance(pendres_store *store, const pendres_stor
 /* ---- Reading back: for resuming a run and for tests ------------------------------------------ */
 
 /** Open a file, finished or a part, for reading. *out and failures as in pendres_store_create(),
- *  for a pipe or a device as well; PENDRES_BUSY: HDF5 cannot lock the file, which another process has
- *  open for writing, or locks are denied. Free with pendres_store_free(). */
+ *  for a pipe or a device as well; PENDRES_BUSY: HDF5 cannot lock the file, which another process
+ *  has open for writing, or locks are denied. Free with pendres_store_free(). */
 pendres_status pendres_store_open(const char *path, pendres_store **out);
 
 /**

@@ -21,6 +21,15 @@ TREE = os.path.dirname(os.path.dirname(HERE))
 INSTALLED_HEADERS = os.path.join(HERE, "headers.txt")
 
 
+def of_tree(*names):
+    """A file of the source tree in which this package stands as python/pendres; None: there is no
+    such tree, or the file is another user's, as anybody's may be beside a package in /tmp."""
+    path = os.path.join(TREE, *names)
+    if os.path.basename(os.path.dirname(HERE)) != "python" or not os.path.exists(path):
+        return None
+    return path if os.stat(path).st_uid in (0, os.stat(HERE).st_uid) else None
+
+
 def _pkg_config(variable):
     if not shutil.which("pkg-config"):
         return None
@@ -31,7 +40,7 @@ def _pkg_config(variable):
 
 def headers():
     """The text of the public headers: of the source tree, of this package, or of the system."""
-    if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
+    if of_tree("include", "pendres", "pendres.h"):
         return _headers.folder_text(os.path.join(TREE, "include", "pendres"))
     if os.path.exists(INSTALLED_HEADERS):
         with open(INSTALLED_HEADERS, encoding="utf-8") as text:
@@ -47,8 +56,7 @@ def _candidates(constants):
     """Where the library may be, the likeliest first."""
     name = f"libpendres.so.{constants['PENDRES_VERSION_MAJOR']}"
     yield os.environ.get("PENDRES_LIBRARY")
-    if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
-        yield os.path.join(TREE, "build", "libpendres.so")
+    yield of_tree("build", "libpendres.so")
     if os.path.exists(os.path.join(HERE, "libpendres.so")):
         yield os.path.join(HERE, "libpendres.so")
     yield name

@@ -4,8 +4,11 @@ Owns: where the program is, decks made of keywords, a run of it, and its words a
 of scenes, their keys, meanings and checks are the program's, which is asked for them: a new one
 needs nothing here.
 """
+import base64
 import enum
 import functools
+import hashlib
+import importlib.metadata
 import inspect
 import keyword
 import numbers
@@ -15,7 +18,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import sysconfig
 import tempfile
 import textwrap
 import warnings
@@ -25,7 +27,7 @@ import numpy as np
 
 from . import _files
 from ._handles import force_and_coefficients
-from ._library import HERE, TREE, declared, errors, lib
+from ._library import HERE, declared, errors, lib, of_tree
 
 # What the program's exit codes mean (docs/files.md).
 BAD_DECK, POINTS_FAILED, STOPPED = 2, 3, 75
@@ -36,14 +38,33 @@ TEXT = {"encoding": "utf-8", "errors": "surrogateescape"}  # whatever the enviro
 # ---- The program -------------------------------------------------------------------------------
 
 
+@functools.lru_cache(maxsize=None)
+def _of_wheel():
+    """The program that pip has put where the record beside this package says, or, by --target, into
+    bin/ beside it. Others may write there: it is the one whose checksum the record has, or none."""
+    site = os.path.dirname(HERE)
+    for wheel in importlib.metadata.distributions(name="pendres", path=[site]):
+        for file in wheel.files or ():
+            if file.parts[-2:] != ("bin", "resonance") or not file.hash:
+                continue
+            for path in (os.path.normpath(wheel.locate_file(file)),
+                         os.path.join(site, "bin", "resonance")):
+                if os.path.isfile(path) and _checksum(path, file.hash.mode) == file.hash.value:
+                    return path
+    return None
+
+
+def _checksum(path, mode):
+    """As a record of files that pip has installed writes it."""
+    with open(path, "rb") as file:
+        digest = hashlib.new(mode, file.read()).digest()
+    return base64.urlsafe_b64encode(digest).rstrip(b"=").decode()
+
+
 def _candidates():
-    """Where the program may be, the likeliest first: in the source tree; where pip put it, below
-    PREFIX of PREFIX/lib/pythonX.Y/site-packages/pendres, or in a folder of its own; or on PATH."""
-    if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
-        yield os.path.join(TREE, "resonance")
-    above = os.path.dirname(os.path.dirname(TREE)), os.path.dirname(HERE)
-    for folder in (*(os.path.join(a, "bin") for a in above), sysconfig.get_path("scripts")):
-        yield os.path.join(folder, "resonance")
+    """Where the program may be: in the source tree; where pip has put it; or on PATH."""
+    yield of_tree("resonance")
+    yield _of_wheel()
     yield shutil.which("resonance")
 
 
