@@ -6,8 +6,8 @@
 #                   for errors of memory alone, for an hour or two
 #   make accuracy   error estimates at random parameters against the reference, for an hour or so;
 #                   ACCURACY="--seed=3 --orbits=2000 --section=orbits" for less
-#   make fuzz       bytes that a fuzzer makes up (clang's libFuzzer), for the readers of decks, journals
-#                   and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz
+#   make fuzz       bytes that a fuzzer makes up (clang's libFuzzer), for the readers of decks, journals,
+#                   data and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
@@ -351,14 +351,15 @@ FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/
   $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
 
 .SECONDARY: $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.o)
-# What collects records needs all of it.
-$(BUILD)/fuzz_collect: $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS)
+# What collects records, and the data of fits, need all of it.
+$(BUILD)/fuzz_collect $(BUILD)/fuzz_data: $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS)
 $(BUILD)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(FUZZED_OBJECTS)
 	@echo "  LD  $@"
 	@$(LINK) -fsanitize=fuzzer -o $@ $^ $(DRIVER_LIBS)
 
 # HDF5 may crash in the process that reads for --verify, and the fuzzer is not to take it for ours;
 # nor does it see what a file is good for, and keeps all that are there.
+FUZZ_data = $(FUZZ_verify)
 FUZZ_verify := -handle_segv=0 -handle_bus=0 -handle_abrt=0 -handle_ill=0 -handle_fpe=0 \
                -keep_seed=1 -reduce_inputs=0
 

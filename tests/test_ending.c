@@ -13,6 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <gsl/gsl_errno.h>
+
 #include "system/apart.h"
 #include "system/ending.h"
 
@@ -43,6 +45,13 @@ static void fault(void)
 static void give_up(void)
 {
   abort();
+}
+
+/* As a library does that gives up. */
+static void abort_in_library(void)
+{
+  gsl_set_error_handler(NULL);
+  GSL_ERROR_VOID("no memory", GSL_ENOMEM);
 }
 
 /* A child that is broken in the middle (code RUNNING), or when its code is known; its wait status,
@@ -103,6 +112,21 @@ static void a_fault_stays_one_and_leaves_nothing(void **state)
     assert_true(WIFSIGNALED(status) && WTERMSIG(status) == numbers[i]);
     assert_non_null(strstr(text, "crashed"));
   }
+}
+
+/* One that a library gives up with is a failure, told as the library's. */
+static void an_abort_of_a_library_is_its_own(void **state)
+{
+  char text[400];
+  (void)state;
+  const int status = broken(abort_in_library, RUNNING, text, sizeof text);
+#ifdef __GLIBC__
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  assert_non_null(strstr(text, "one of the program's libraries has crashed"));
+#else
+  assert_true(WIFSIGNALED(status));
+#endif
+  assert_non_null(strstr(text, "; nothing was written\n"));
 }
 
 /* When the run is over, libraries that fail while they are closed change nothing. */
@@ -204,6 +228,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_exit_is_a_failure_that_is_told),
     cmocka_unit_test(a_fault_stays_one_and_leaves_nothing),
+    cmocka_unit_test(an_abort_of_a_library_is_its_own),
     cmocka_unit_test(what_is_told_stays),
     cmocka_unit_test(a_done_program_exits),
     cmocka_unit_test(what_is_done_apart_harms_nothing),

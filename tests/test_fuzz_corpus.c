@@ -21,6 +21,9 @@
 #define LLVMFuzzerTestOneInput fuzz_verify
 #include "fuzz/fuzz_verify.c"
 #undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_data
+#include "fuzz/fuzz_data.c"
+#undef LLVMFuzzerTestOneInput
 #define LLVMFuzzerTestOneInput fuzz_collect
 #include "fuzz/fuzz_collect.c"
 #undef LLVMFuzzerTestOneInput
@@ -81,6 +84,53 @@ static void files_of_results(void **state)
   replay("verify", fuzz_verify);
 }
 
+/* A number by chance, the same in every run. */
+static uint32_t chance(uint32_t *number)
+{
+  *number = 1664525u * *number + 1013904223u;
+  return *number >> 8;
+}
+
+/* Some bytes by chance: another, one less, or one more, of those that such files are made of. */
+static size_t damage(uint8_t *bytes, size_t n, size_t room, uint32_t *number)
+{
+  static const char common[] = "0123456789.,;-+eE# \t\r\n\"nainfupdown!\0\377\200";
+  for (uint32_t k = chance(number) % 4 + 1; k > 0 && n > 1; k--) {
+    const size_t at = 1 + chance(number) % (n - 1);
+    const uint8_t byte = (uint8_t)common[chance(number) % sizeof common];
+    const uint32_t how = chance(number) % 4;
+    if (how == 0 && n < room) memmove(bytes + at + 1, bytes + at, n++ - at);
+    else if (how == 1) memmove(bytes + at, bytes + at + 1, --n - at);
+    if (how != 1) bytes[at] = byte;
+  }
+  return n;
+}
+
+/* Text, each of the corpus damaged in many ways; results of HDF5, which take a process each, are
+   damaged as files to verify. */
+static void data_of_fits(void **state)
+{
+  enum { WAYS = 150 };
+  static const char *const names[] = { "whole", "names", "semicolons", "windows", "decay", "jumps",
+                                       "rotation", "tabs", "blanks", "old_mac" };
+  (void)state;
+  replay("data", fuzz_data);
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    char path[100];
+    uint8_t bytes[2000], changed[2100];
+    uint32_t number = (uint32_t)i;
+    snprintf(path, sizeof path, "tests/fuzz/corpus/data/%s", names[i]);
+    FILE *f = fopen(path, "rb");
+    assert_non_null(f);
+    const size_t n = fread(bytes, 1, sizeof bytes, f);
+    assert_int_equal(fclose(f), 0);
+    for (int way = 0; way < WAYS; way++) {
+      memcpy(changed, bytes, n);
+      (void)fuzz_data(changed, damage(changed, n, sizeof changed, &number));
+    }
+  }
+}
+
 /* And changes by chance, the same in every run: some of each deck. */
 static void collectors(void **state)
 {
@@ -90,10 +140,7 @@ static void collectors(void **state)
   (void)state;
   replay("collect", fuzz_collect);
   for (int i = 0; i < INPUTS; i++) {
-    for (size_t k = 0; k < sizeof bytes; k++) {
-      number = 1664525u * number + 1013904223u;
-      bytes[k] = (uint8_t)(number >> 24);
-    }
+    for (size_t k = 0; k < sizeof bytes; k++) bytes[k] = (uint8_t)(chance(&number) >> 16);
     (void)fuzz_collect(bytes, 1 + 8 * (size_t)(1 + i % CHANGES));
   }
 }
@@ -102,7 +149,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(namelists), cmocka_unit_test(decks), cmocka_unit_test(journals),
-    cmocka_unit_test(files_of_results), cmocka_unit_test(collectors),
+    cmocka_unit_test(files_of_results), cmocka_unit_test(data_of_fits),
+    cmocka_unit_test(collectors),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* ending.c -- an orderly end where a library ends the program; see ending.h. */
-#define _GNU_SOURCE /* siginfo_t, REG_RIP */
+#define _GNU_SOURCE /* siginfo_t, REG_RIP, dladdr */
 #include "system/ending.h"
 
 #include <signal.h>
@@ -10,6 +10,10 @@
 #include <string.h>
 #include <ucontext.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <dlfcn.h>
+#include <execinfo.h>
+#endif
 
 #include <gsl/gsl_errno.h>
 
@@ -60,11 +64,35 @@ static void at_exit(void)
   _exit(code == RUNNING ? FAILED : code);
 }
 
+static int in_program(uintptr_t at)
+{
+  return at >= (uintptr_t)__executable_start && at < (uintptr_t)etext;
+}
+
+/* Whether a library has called abort(), which was met at this place of the C library: what stands
+   behind that on the stack, as far as the system tells. */
+static int aborts_in_library(uintptr_t at)
+{
+#ifdef __GLIBC__
+  enum { FRAMES = 32 };
+  void *frame[FRAMES];
+  Dl_info libc, caller;
+  const int n = dladdr((void *)at, &libc) != 0 ? backtrace(frame, FRAMES) : 0;
+  for (int i = 0, inside = 0; i < n; i++) {
+    const int here = dladdr(frame[i], &caller) != 0 && caller.dli_fbase == libc.dli_fbase;
+    if (inside && !here) return !in_program((uintptr_t)frame[i]);
+    inside |= here;
+  }
+#else
+  (void)at;
+#endif
+  return 0;
+}
+
 /* Whether a fault was met in the code of a library, as far as that is known. */
 static int in_library(const siginfo_t *info, const void *context)
 {
   uintptr_t at = (uintptr_t)__executable_start;
-  if (info->si_code <= 0) return 0; /* sent, not met */
 #if defined __linux__ && defined __x86_64__
   at = (uintptr_t)((const ucontext_t *)context)->uc_mcontext.gregs[REG_RIP];
 #elif defined __linux__ && defined __aarch64__
@@ -72,7 +100,8 @@ static int in_library(const siginfo_t *info, const void *context)
 #else
   (void)context;
 #endif
-  return at < (uintptr_t)__executable_start || at >= (uintptr_t)etext;
+  if (info->si_code > 0) return !in_program(at);
+  return info->si_signo == SIGABRT && info->si_pid == getpid() && aborts_in_library(at);
 }
 
 /* Where the fault is not a library's, back to what was there, a debugger's or a sanitizer's say,
@@ -105,6 +134,10 @@ int ending_watch(pendres_store *const *store)
   /* A sanitizer has one of its own, which it frees. */
   bad |= sigaltstack(NULL, &present);
   if ((present.ss_flags & SS_DISABLE) != 0) bad |= sigaltstack(&stack, NULL);
+#ifdef __GLIBC__
+  void *unused;
+  (void)backtrace(&unused, 1); /* which takes memory when it is first called */
+#endif
   (void)gsl_set_error_handler_off(); /* which ends the program where GSL gets no memory */
   for (size_t i = 0; i < LENGTH(faults); i++) bad |= sigaction(faults[i], &action, &before[i]);
   bad |= atexit(at_exit);

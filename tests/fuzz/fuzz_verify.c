@@ -3,23 +3,11 @@
  * is whole or what is wrong, and goes on. HDF5 may crash on them, in the process that reads, where
  * no fuzzer sees which way it went: mutations are blind.
  */
-#include "fuzz/fuzz.h"
+#include "fuzz/fuzz_limit.h"
 
 #include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
 
 #include "run.h"
-
-/* On some bytes HDF5 runs in circles, and --verify gives it a minute. A second is enough for files
-   as small as these: this stands in the place of the C library's function. Sanitizers call it
-   before they are ready to watch anything. */
-__attribute__((no_sanitize_address, no_sanitize_thread))
-int setrlimit(int resource, const struct rlimit *limit)
-{
-  const struct rlimit second = { 1, 1 };
-  return (int)syscall(SYS_prlimit64, 0, resource, resource == RLIMIT_CPU ? &second : limit, NULL);
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
