@@ -100,7 +100,7 @@ for by in '' libhdf5; do
   at=$count
   csv=--csv
   count malloc "$by"
-  step=$((1 + (count - at) / some))
+  step=$((1 + (count - at) / some / 5))
   while [ "$at" -le "$count" ]; do
     run malloc "$at" "$by"
     [ -f d.h5 ] || fail "malloc $at $by, with a table: the results are lost"
