@@ -153,37 +153,31 @@ typedef struct task {
   FILE *out;
 } task;
 
-static void write_text(const task *w, table *t)
-{
-  scene_run *run = w->run;
-  const pendres_status status = pendres_store_open(w->path, &run->store);
-  t->store = run->store; /* whose words scene_stored() tells: the results' are not this process's */
-  if (status != PENDRES_OK)
-    (void)scene_fail(run, status == PENDRES_IO ? PENDRES_INVALID_ARGUMENT : status,
-                     "the file of results cannot be read (%s): it is broken, or no file of this "
-                     "program: write it anew", pendres_store_message(run->store));
-  if (scene_going(run)) find_variables(t);
-  if (t->columns == 0)
-    (void)scene_fail(run, PENDRES_INVALID_ARGUMENT,
-                     "the file has no variable with the name of an observable: give those of its "
-                     "variables in data.columns, as 'rms=amplitude'");
-  else if (t->n > FIT_MOST_BYTES / CELL / (t->columns + PENDRES_STORE_RANK))
-    (void)scene_fail(run, PENDRES_INVALID_ARGUMENT, "it has more data than a fit takes");
-  if (scene_going(run)) write_table(t, w->out);
-  if (fflush(w->out) != 0) (void)scene_fail(run, PENDRES_IO, "%s", strerror(errno));
-}
-
 /* The text into the file, or the reason why there is none, which the status tells. */
 static int read_apart(const void *arg)
 {
   const task *w = arg;
-  table t = {.run = w->run};
-  write_text(w, &t);
-  if (scene_going(w->run)) return PENDRES_OK;
-  if (ftruncate(fileno(w->out), 0) != 0) return PENDRES_STATUS_COUNT;
+  scene_run *run = w->run;
+  table t = {.run = run};
+  const pendres_status status = pendres_store_open(w->path, &run->store);
+  t.store = run->store; /* whose words scene_stored() tells: the results' are not this process's */
+  if (status == PENDRES_OK) find_variables(&t);
+  else
+    (void)scene_fail(run, status == PENDRES_IO ? PENDRES_INVALID_ARGUMENT : status,
+                     "the file of results cannot be read (%s): it is broken, or no file of this "
+                     "program: write it anew", pendres_store_message(run->store));
+  if (t.columns == 0)
+    (void)scene_fail(run, PENDRES_INVALID_ARGUMENT,
+                     "the file has no variable with the name of an observable: give those of its "
+                     "variables in data.columns, as 'rms=amplitude'");
+  else if (t.n > FIT_MOST_BYTES / CELL / (t.columns + PENDRES_STORE_RANK))
+    (void)scene_fail(run, PENDRES_INVALID_ARGUMENT, "it has more data than a fit takes");
+  if (scene_going(run)) write_table(&t, w->out);
+  if (fflush(w->out) != 0) (void)scene_fail(run, PENDRES_IO, "%s", strerror(errno));
+  if (scene_going(run)) return PENDRES_OK;
   rewind(w->out);
-  fputs(w->run->message, w->out);
-  return fflush(w->out) == 0 ? (int)w->run->status : PENDRES_STATUS_COUNT;
+  const int bad = ftruncate(fileno(w->out), 0) != 0 || fputs(run->message, w->out) < 0;
+  return bad || fflush(w->out) != 0 ? PENDRES_STATUS_COUNT : (int)run->status;
 }
 
 pendres_status fit_store_text(scene_run *run, const char *path, int fd, char **text,

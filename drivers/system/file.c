@@ -15,21 +15,14 @@ enum { MOST_KEPT = 1000, ATTEMPTS = 100 /* of a name that others make and remove
 
 /* ---- opening ------------------------------------------------------------------------------- */
 
-static const char *kind_of(mode_t mode)
-{
-  return S_ISDIR(mode)    ? "a folder"
-         : S_ISFIFO(mode) ? "a pipe"
-         : S_ISSOCK(mode) ? "a socket"
-         : S_ISLNK(mode)  ? "a symbolic link, which is not followed here"
-                          : "a device";
-}
-
 /* Whether a file is of those that are opened for this; if not, `why` says so. */
 static int may_open(const struct stat *s, const char *path, file_use use, int named, char *why)
 {
   const uintmax_t names = s->st_nlink, owner = s->st_uid;
   if (!S_ISREG(s->st_mode)) {
-    snprintf(why, FILE_WORDS, "'%.300s' is not a regular file but %s", path, kind_of(s->st_mode));
+    snprintf(why, FILE_WORDS, "'%.300s' is not a regular file but %s", path,
+             S_ISLNK(s->st_mode) ? "a symbolic link, which is not followed here"
+             : S_ISFIFO(s->st_mode) ? "a pipe" : S_ISDIR(s->st_mode) ? "a folder" : "a device");
     return 0;
   }
   if (use == FILE_READ) return 1;

@@ -200,29 +200,27 @@ pendres_status pendres_store_file_create(pendres_store_file *file, const char *p
   return status;
 }
 
-int pendres_store_file_readable(const char *path, char *why)
-{
-  struct stat info;
-
-  if (stat(path, &info) || S_ISREG(info.st_mode)) return 1; /* HDF5 tells what else is wrong */
-  snprintf(why, PENDRES_STORE_WHY, "cannot read '%s': it is not a regular file", path);
-  return 0;
-}
-
-int pendres_store_file_unlockable(const char *path, char *why)
+pendres_status pendres_store_file_look(const char *path, char *why)
 {
   const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  struct stat info;
+  pendres_status status = PENDRES_BUSY;
   int error = 0;
 
-  if (fd < 0) return 0;
+  if (fd < 0) return PENDRES_OK;
   if (locks_count() && flock(fd, LOCK_SH | LOCK_NB)) error = errno;
-  close(fd);
-  if (error == EWOULDBLOCK)
+  if (fstat(fd, &info) || !S_ISREG(info.st_mode)) {
+    status = PENDRES_IO;
+    snprintf(why, PENDRES_STORE_WHY, "cannot read '%s': it is not a regular file", path);
+  } else if (error == EWOULDBLOCK)
     snprintf(why, PENDRES_STORE_WHY, "'%s' is open for writing in another process", path);
   else if (error)
     snprintf(why, PENDRES_STORE_WHY, "'%s' cannot be locked: %s. HDF5_USE_FILE_LOCKING=FALSE in "
              "the environment reads it without a lock", path, strerror(error));
-  return error != 0;
+  else
+    status = PENDRES_OK;
+  close(fd);
+  return status;
 }
 
 void pendres_store_file_destroy(pendres_store_file *file)

@@ -42,13 +42,10 @@ typedef struct pendres_store_file {
  * of the file that it is to replace. file is zeroed first; destroy it in any case. */
 pendres_status pendres_store_file_create(pendres_store_file *file, const char *path, int alone);
 
-/* Whether a file is of those that are read: not a pipe, on which HDF5 would wait. 0: the reason is
-   in why[PENDRES_STORE_WHY]. */
-int pendres_store_file_readable(const char *path, char *why);
-
-/* Whether the file cannot be locked for reading, as HDF5 locks it. 1: the reason is in
-   why[PENDRES_STORE_WHY]. */
-int pendres_store_file_unlockable(const char *path, char *why);
+/* Look at a file before HDF5 opens it. PENDRES_IO: it is not a regular one, as a pipe on which HDF5
+   would wait; PENDRES_BUSY: it cannot be locked for reading, as HDF5 locks it. The reason is in
+   why[PENDRES_STORE_WHY]. One that cannot be opened is left to HDF5. */
+pendres_status pendres_store_file_look(const char *path, char *why);
 
 /* Close what is open and free; the part file stays where it is. */
 void pendres_store_file_destroy(pendres_store_file *file);

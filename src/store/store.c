@@ -235,14 +235,10 @@ pendres_status pendres_store_open(const char *path, pendres_store **out)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no path of a file given");
   } else {
     store->file.path = pendres_store_copy(path);
-    if (!store->file.path)
-      status = PENDRES_OUT_OF_MEMORY;
-    else if (!pendres_store_file_readable(path, store->message))
-      status = PENDRES_IO;
-    else if ((store->h5 = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)) < 0)
-      status = pendres_store_file_unlockable(path, store->message)
-                 ? PENDRES_BUSY
-                 : pendres_store_fail_hdf5(store, "cannot read '%s'", path);
+    status = store->file.path ? pendres_store_file_look(path, store->message)
+                              : PENDRES_OUT_OF_MEMORY;
+    if (!status && (store->h5 = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)) < 0)
+      status = pendres_store_fail_hdf5(store, "cannot read '%s'", path);
   }
   store->failed = status;
   return pendres_store_leave(store, status);
