@@ -83,7 +83,7 @@ static int read_deck(job *j, const char *name, deck *d)
   namelist_errors_print(&errors, stderr);
   namelist_errors_free(&errors);
   if (status == PENDRES_OUT_OF_MEMORY) {
-    progress_error(&j->progress, "out of memory for the deck");
+    progress_error(&j->progress, "%s: out of memory for the deck", name);
     return FAILED;
   }
   if (status != PENDRES_OK) return BAD_USAGE;

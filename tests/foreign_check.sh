@@ -120,7 +120,6 @@ for name in d.h5.part d.h5.journal log d.csv.part; do
     d.csv.part) run --csv d.nml
       [ $code -eq 1 ] || fail "a $how for d.csv.part: exit code $code"
       grep -q "d.csv.part' .*$how" err || fail "a $how for d.csv.part: other words" ;;
-    d.h5.part) if [ "$how" = link ]; then refused d.h5.part '' d.nml; else refused d.h5.part "$how" d.nml; fi ;;
     *) refused $name "$how" d.nml ;;
     esac
     [ "$(cat precious)" = precious ] || fail "a $how for $name: what it led to is changed"
@@ -211,6 +210,9 @@ theirs()
 }
 : >sticky/d.h5.part && theirs d.h5.part d.nml
 printf '(part)' >sticky/d.h5.part && theirs d.h5.part d.nml
+printf '(part)' >sticky/d.h5.part && chmod 600 sticky/d.h5.part
+refused d.h5.part 'another user' d.nml # one that cannot even be read
+rm sticky/d.h5.part
 : >sticky/log && theirs log --log log d.nml
 : >sticky/d.h5.journal && theirs d.h5.journal d.nml
 : >sticky/d.h5.journal && theirs d.h5.journal --resume d.nml

@@ -105,18 +105,14 @@ static off_t find_mark(int fd)
   return -1;
 }
 
-/* Why what stands in the place of the part is not what a killed run of this user has left; NULL: it
-   is. Only that is emptied. */
-static const char *foreign(int fd)
+/* Why what stands in the place of the part cannot have been left there by a run of this user; NULL:
+   it can. */
+static const char *foreign(const struct stat *info)
 {
-  struct stat info;
-
-  if (fstat(fd, &info) || !S_ISREG(info.st_mode)) return "is not a regular file";
-  if (info.st_uid != geteuid()) return "belongs to another user";
-  if (info.st_nlink > 1) return "has another name, too (a hard link)";
-  if (info.st_size && find_mark(fd) < 0)
-    return "was not left by a run that was killed: move it elsewhere";
-  return NULL;
+  if (S_ISLNK(info->st_mode)) return "is a symbolic link";
+  if (!S_ISREG(info->st_mode)) return "is not a regular file";
+  if (info->st_uid != geteuid()) return "belongs to another user";
+  return info->st_nlink > 1 ? "has another name, too (a hard link)" : NULL;
 }
 
 /*
@@ -125,9 +121,12 @@ static const char *foreign(int fd)
  */
 static pendres_status take_over(pendres_store_file *file, int alone, int *again)
 {
+  struct stat info;
   const char *why;
 
   *again = 0;
+  if (!lstat(file->part, &info) && (why = foreign(&info)) != NULL)
+    return file_fail(file, "'%s' exists, and %s", file->part, why);
   if (!alone && !locks_count())
     return file_fail(file, "'%s' exists: another process is writing it, or one was killed; without "
                      "file locks (HDF5_USE_FILE_LOCKING) nobody can tell. Remove it if no run is "
@@ -144,12 +143,13 @@ static pendres_status take_over(pendres_store_file *file, int alone, int *again)
                                          "it is being written: %s. Remove it if no run is writing "
                                          "it", file->part, strerror(errno)));
   }
-  if (!is_same_file(file->fd, file->part)) {
+  if (fstat(file->fd, &info) || !is_same_file(file->fd, file->part)) {
     *again = 1;
     return close_again(file, PENDRES_IO);
   }
-  why = foreign(file->fd);
-  if (why) return close_again(file, file_fail(file, "'%s' exists, and %s", file->part, why));
+  if (info.st_size && find_mark(file->fd) < 0)
+    return close_again(file, file_fail(file, "'%s' exists, and was not left by a run that was "
+                                       "killed: move it elsewhere", file->part));
   if (ftruncate(file->fd, 0))
     return close_again(file, file_failed(file, "empty", file->part, errno));
   return PENDRES_OK;
