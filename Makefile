@@ -68,7 +68,10 @@ MANDIR ?= $(PREFIX)/share/man
 DATADIR ?= $(PREFIX)/share/pendres
 TEST_TIMEOUT ?= $(if $(VALGRIND),36000,600)
 RUN ?= $(if $(VALGRIND),sh tests/valgrind.sh)
-CFLAGS ?= $(if $(SANITIZE),-O2,-O3) -g -Wall -Wextra -Wpedantic
+CFLAGS ?= $(if $(SANITIZE),-O2,-O3 $(HARDENED)) -g -Wall -Wextra -Wpedantic
+LDFLAGS ?= -Wl,-z,relro -Wl,-z,now
+# As Debian's own. The sanitizers look for the same, and more.
+HARDENED := -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2
 
 # ---- What the results rely on, whatever CFLAGS say -------------------------------------------
 

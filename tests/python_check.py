@@ -465,6 +465,11 @@ def test_scenes():
     assert np.allclose(real.drive_frequency, wanted.drive_frequency / (2 * np.pi), rtol=1e-15)
     assert pendres.si(beam.amplitude).identical(real.amplitude)
     assert pendres.si(wanted).identical(wanted)
+    # What pint 0.25 and unyt 3.2 read; blanks and powers without a sign they refuse.
+    assert pendres.pint_units(real.amplitude) == "m"
+    for text, form in {"N m-1": "N*m**-1", "kg m-2 s-2": "kg*m**-2*s**-2", "m2 s-1": "m**2*s**-1",
+                       "1": "1", "V": "V", "ohm": "ohm", "s-1": "s**-1"}.items():
+        assert pendres.pint_units(text) == form
     # The library's function of the same name, with the same jumps.
     p = pendres.pendulum(force=[1, 0, 1], damping=0.1, drive_amplitude=0.3, drive_frequency=1)
     path = wanted.drive_frequency.values

@@ -105,6 +105,28 @@ static void stopped_by_signal(void **state)
   assert_true(exists("deck.h5.journal"));
 }
 
+/* A journal is not gone on with where the C library rounds otherwise: here glibc, which is told to
+   do without FMA. */
+static void other_roundings_are_told(void **state)
+{
+  (void)state;
+#if defined(__x86_64__) && defined(__GLIBC__)
+  if (!__builtin_cpu_supports("fma")) skip();
+  write_text("deck.nml", "&scene kind = 'phase_diagram' /\n&pendulum drive_amplitude = 0.2 /\n"
+                         "&sweep damping = 0.1, 0.2, drive_frequency_range = 0.7, 0.9, 3 /\n"
+                         "&ensemble members = 4 /\n");
+  check_code(RUN("-o", "run.h5", "--shard=1/2", "deck.nml"), DONE);
+  assert_int_equal(rename("run.h5.1-of-2.journal", "run.h5.journal"), 0);
+  assert_int_equal(setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", 1), 0);
+  check_code(RUN("-o", "run.h5", "--resume", "deck.nml"), 2);
+  check_says(err, "it has 'roundings of the C library ");
+  assert_int_equal(unsetenv("GLIBC_TUNABLES"), 0);
+  check_code(RUN("-o", "run.h5", "--resume", "deck.nml"), DONE);
+#else
+  skip();
+#endif
+}
+
 /* What a killed run has left, where HDF5's own variable switches its locks off: that nobody writes
    the part is known from the journal's lock. Without a journal nobody knows, and it is refused. */
 static void killed_without_locks(void **state)
@@ -173,7 +195,8 @@ static void place_of_journal(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(killed_at_any_moment), TEST(stopped_by_signal),
-                                      TEST(place_of_journal), TEST(killed_without_locks),
+                                      TEST(place_of_journal), TEST(other_roundings_are_told),
+                                      TEST(killed_without_locks),
                                       TEST(kept_for_others) };
   if (!find_program()) return 77;
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -65,6 +65,14 @@ def si(data):
         {name: values for name, values in made.items() if name not in data.coords})
 
 
+def pint_units(units):
+    """Units as a file has them, "N m-3", in the form that pint and unyt read, "N*m**-3": powers of
+    UDUNITS, which astropy reads too, mean nothing to them. A text, or what has such `units`."""
+    import re
+    text = units if isinstance(units, str) else units.attrs["units"]
+    return re.sub(r"([^\W\d]+)(-?\d+)", r"\1**\2", text).replace(" ", "*")
+
+
 def _importable(name):
     from importlib.util import find_spec
     return find_spec(name) is not None

@@ -3,9 +3,11 @@
  *
  * Owns: how an array is divided into chunks, compressed and protected. A chunk is a row (one index
  * of the first dimension), or as many short rows as make 64 KiB, or a piece of a row longer than 1
- * MiB: a run that writes row by row then compresses each chunk once. Every chunk has a checksum,
- * Fletcher32 of the bytes on disk; what is not divided into chunks, scalars and short arrays, is
- * in the header of its dataset, which has a checksum of HDF5's own. Texts have none: HDF5 keeps
+ * MiB: a run that writes row by row then compresses each chunk once. Scalars and short arrays lie
+ * in the file as they are (contiguous), not in the header of their dataset (compact): readers that
+ * look up places of data in a file find none there, and some give NaN without a word. All numbers
+ * have checksums: compressed chunks zlib's (Adler-32), which whoever expands them checks; others
+ * Fletcher32, which not every reader knows; the rest one in sums.c. Texts have none: HDF5 keeps
  * those of variable length in a heap without one. Sizes are in elements unless a comment says
  * otherwise.
  */
@@ -15,8 +17,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes. Smaller arrays are in the header of their dataset, and are not compressed. */
-#define SMALLEST_CHUNKED ((hsize_t)4096)
 /* Bytes. Rows are gathered up to the first, and divided above the second. */
 #define CHUNK_GOAL ((hsize_t)64 * 1024)
 #define CHUNK_LIMIT ((hsize_t)1024 * 1024)
@@ -117,15 +117,14 @@ static void chunk_sizes(const pendres_store_node *node, size_t rows_wanted, hsiz
   chunk[0] = rows ? rows : 1;
 }
 
-/* The checksum comes last: it is that of the bytes on disk, and is checked before these are
-   expanded. */
+/* Fletcher32 only where nothing else is a checksum: kerchunk passes over variables that have it,
+   and hidefix refuses their file. */
 static herr_t set_filters(hid_t creation, size_t element, int deflate)
 {
-  if (deflate >= 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0 &&
-      ((element > 1 && H5Pset_shuffle(creation) < 0) ||
-       H5Pset_deflate(creation, deflate ? (unsigned)deflate : DEFLATE_DEFAULT) < 0))
-    return -1;
-  return H5Zfilter_avail(H5Z_FILTER_FLETCHER32) > 0 ? H5Pset_fletcher32(creation) : 0;
+  if (deflate < 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0)
+    return H5Zfilter_avail(H5Z_FILTER_FLETCHER32) > 0 ? H5Pset_fletcher32(creation) : 0;
+  if (element > 1 && H5Pset_shuffle(creation) < 0) return -1;
+  return H5Pset_deflate(creation, deflate ? (unsigned)deflate : DEFLATE_DEFAULT);
 }
 
 /* Fill value, chunks and filters. */
@@ -133,8 +132,7 @@ static herr_t set_storage(hid_t creation, const pendres_store_node *node, int de
                           size_t chunk_rows)
 {
   const double nan_value = NAN;
-  const size_t element = element_bytes(node->type);
-  hsize_t chunk[PENDRES_STORE_RANK], total = element;
+  hsize_t chunk[PENDRES_STORE_RANK], total = element_bytes(node->type);
 
   for (int k = 0; k < node->rank; k++) total *= node->sizes[k];
   if (H5Pset_obj_track_times(creation, 0) < 0) return -1;
@@ -143,11 +141,12 @@ static herr_t set_storage(hid_t creation, const pendres_store_node *node, int de
   if (node->kind == PENDRES_STORE_VARIABLE && node->type == PENDRES_STORE_DOUBLE &&
       H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &nan_value) < 0)
     return -1;
-  if (total < SMALLEST_CHUNKED) return H5Pset_layout(creation, H5D_COMPACT);
-  if (node->type == PENDRES_STORE_STRING) return 0; /* pointers into the heap */
+  /* Strings are pointers into the heap. */
+  if (total < PENDRES_STORE_SHORT || node->type == PENDRES_STORE_STRING)
+    return H5Pset_layout(creation, H5D_CONTIGUOUS);
   chunk_sizes(node, chunk_rows, chunk);
   if (H5Pset_chunk(creation, node->rank, chunk) < 0) return -1;
-  return set_filters(creation, element, deflate);
+  return set_filters(creation, element_bytes(node->type), deflate);
 }
 
 pendres_status pendres_store_make(pendres_store *store, const char *path,

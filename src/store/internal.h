@@ -102,6 +102,17 @@ pendres_status pendres_store_describe(pendres_store *store, hid_t id, const char
 /* octave.c: mark the groups with text, for GNU Octave to pass over them. */
 pendres_status pendres_store_mark_text(pendres_store *store);
 
+/* sums.c */
+
+/* Bytes. Shorter arrays are neither divided into chunks nor compressed. */
+#define PENDRES_STORE_SHORT 4096
+/* Add a dataset to the checksum of these, if it is one. Negative on failure. */
+herr_t pendres_store_sums_add(hid_t dataset, uint64_t *sum);
+/* Keep that of all that the store made, when all is written. */
+pendres_status pendres_store_sums_write(pendres_store *store);
+/* Compare with the one that the file has, if it has one. */
+pendres_status pendres_store_sums_check(pendres_store *store, uint64_t sum);
+
 /* attribute.c: make or replace an attribute of an open object. */
 
 /* The value of an attribute: n numbers, 0 for a scalar, and their types in the file and in

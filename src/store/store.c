@@ -285,6 +285,7 @@ pendres_status pendres_store_close(pendres_store *store)
   pendres_status status = pendres_store_enter(store, 1);
 
   if (!status) status = pendres_store_mark_text(store);
+  if (!status) status = pendres_store_sums_write(store);
   if (!status) status = close_h5(store);
   if (!status) {
     status = pendres_store_file_finish(&store->file, &store->whole);

@@ -2,7 +2,7 @@
  * verify.c -- reading all of a file, to know whether it can be read.
  *
  * Owns: the way through groups, datasets and attributes. HDF5 itself looks at its checksums when
- * it reads: those of chunks (Fletcher32) and of headers.
+ * it reads: those of chunks (zlib's, or Fletcher32) and of headers. That of the rest is in sums.c.
  */
 #include "store/internal.h"
 
@@ -106,12 +106,13 @@ static herr_t read_rows(hid_t id, hid_t type, hid_t space)
   return result;
 }
 
-static herr_t read_dataset(hid_t id)
+static herr_t read_dataset(hid_t id, uint64_t *sum)
 {
   const hid_t stored = H5Dget_type(id), space = H5Dget_space(id);
   const hid_t type = stored >= 0 ? H5Tget_native_type(stored, H5T_DIR_ASCEND) : H5I_INVALID_HID;
-  const herr_t result = type >= 0 && space >= 0 ? read_rows(id, type, space) : -1;
+  herr_t result = type >= 0 && space >= 0 ? read_rows(id, type, space) : -1;
 
+  if (result >= 0) result = pendres_store_sums_add(id, sum);
   if (type >= 0) H5Tclose(type);
   if (stored >= 0) H5Tclose(stored);
   if (space >= 0) H5Sclose(space);
@@ -131,6 +132,7 @@ typedef struct reading {
   pendres_store *store;
   int depth;
   uint64_t count; /* of datasets */
+  uint64_t sum;   /* of scalars and short arrays */
   pendres_status status;
 } reading;
 
@@ -193,7 +195,7 @@ static pendres_status read_object(reading *w, hid_t object)
   if (kind == H5I_GROUP) return read_group(w, object);
   if (kind != H5I_DATASET) return PENDRES_OK;
   w->count++;
-  return read_dataset(object) < 0 ? unreadable(w->store, object) : PENDRES_OK;
+  return read_dataset(object, &w->sum) < 0 ? unreadable(w->store, object) : PENDRES_OK;
 }
 
 pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets)
@@ -205,6 +207,7 @@ pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets)
   if (!status && (root = H5Gopen2(store->h5, "/", H5P_DEFAULT)) < 0)
     status = pendres_store_fail_hdf5(store, "'%s' cannot be read", store->file.path);
   if (!status) status = read_object(&w, root);
+  if (!status) status = pendres_store_sums_check(store, w.sum);
   if (root >= 0) H5Gclose(root);
   if (datasets) *datasets = w.count;
   return pendres_store_leave(store, status);
