@@ -112,7 +112,7 @@ static double swing(double tolerance, long *steps, long *fails)
   assert_int_equal(ERKStepSetMaxGrowth(erk, 20.0), 0);
   assert_int_equal(ERKStepSetMaxNumSteps(erk, 10000), 0);
   assert_int_equal(ERKStepSetStopTime(erk, 50.0), 0);
-  /* Which is 0 up to 7.2 and ARK_TSTOP_RETURN later. */
+  /* Which is 0 of 6.4.1 and ARK_TSTOP_RETURN of 7.9.0. */
   assert_true(ERKStepEvolve(erk, 50.0, y, &t, ARK_NORMAL) >= 0);
   assert_int_equal(ERKStepGetNumSteps(erk, steps), 0);
   assert_int_equal(ERKStepGetNumErrTestFails(erk, fails), 0);
