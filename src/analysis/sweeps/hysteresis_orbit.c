@@ -7,6 +7,7 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
+#include "orbits/orbit_same.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
 #include "analysis/sweeps/numbers.h"
@@ -46,7 +47,7 @@ static int about_one_place(const pendres_orbit *a, const pendres_orbit *b)
 {
   const double turn = pendres_model_turn(&a->pendulum);
   const double middle = 0.5 * (a->mean_angle + b->mean_angle);
-  const double bound = orbit_same_point + a->amplitude_error + b->amplitude_error;
+  const double bound = pendres_orbit_slack(a->amplitude_error + b->amplitude_error);
   if (fabs(remainder(a->mean_angle - b->mean_angle, turn)) < bound) return 1;
   if (!pendres_pendulum_symmetric(&a->pendulum)) return 0;
   const double aside = middle - pendres_model_centre(&a->pendulum, middle);
@@ -73,8 +74,7 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
     status = pendres_part_orbits(w->ctx, &back, 1, &value, &there, &found);
   pendres_part_free(&back);
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
-  *same = found && fabs(there.amplitude - old->orbit.amplitude) <
-                     orbit_same_point + there.amplitude_error + old->orbit.amplitude_error &&
+  *same = found && pendres_orbit_as_wide(&there, &old->orbit) &&
           about_one_place(&there, &old->orbit);
   return status;
 }
