@@ -202,9 +202,9 @@ static void multiple_of_period(void **state)
   pendres_context_free(ctx);
 }
 
-/* Values of one orbit differ by several errors of both at most, a millionth aside; however large the
-   errors are, what differs by hundredths is two. Turns are no difference, periods and turns over
-   are. Bounds of this test are the numbers' values, within a factor of two. */
+/* Values of one orbit differ by several errors of both at most, a millionth aside; however large
+   the errors are, what differs by hundredths is two. Whole turns are no difference, periods and
+   winding are. Bounds of this test are the numbers' values, within a factor of two. */
 static void same_by_both_errors(void **state)
 {
   static const struct {
@@ -252,8 +252,8 @@ static void once_at_any_tolerance(void **state)
     }
     pendres_context *ctx = NULL;
     pendres_attractors *found = NULL;
-    assert_int_equal(
-      pendres_context_create(&(pendres_options){.tolerance = grid[g].tolerance}, &ctx), PENDRES_OK);
+    const pendres_options options = {.tolerance = grid[g].tolerance};
+    check_ok(pendres_context_create(&options, &ctx));
     check_ok(pendres_attractors_find(ctx, &p, SIDE * SIDE, x, v, &found));
     assert_int_equal(pendres_attractors_count(found), 1);
     pendres_attractors_free(found);

@@ -62,8 +62,8 @@ static void stays(void **state)
   }
 }
 
-/* What an upright pendulum does does not depend on who asks: a picture, whose first run is in single
-   precision, or one that settles alone. Two roundings aside it falls. */
+/* What an upright pendulum does does not depend on who asks: a picture, whose first run is in
+   single precision, or one that settles alone. Two roundings aside it falls. */
 static void upright(void **state)
 {
   const pendres_pendulum p = {.damping = 0.3, .drive_frequency = 1.0};
@@ -140,6 +140,48 @@ static void along_a_path(void **state)
   pendres_hysteresis_free(h);
 }
 
+/* x'' + 0.3 x' + a1 x + a2 x^2 + x^3 = 0, a1 through 0, where states of rest exchange stability
+   (a2 = 0.3) or become one (a2 = 0). That is exactly at 0, whether or not 0 is a value of the path, and
+   whether the pendulum comes from a stable state or has rested in the unstable one. */
+static void through_a_bifurcation(void **state)
+{
+  enum { N = 9 };
+  static const struct {
+    double a2, x, first;
+    pendres_label from, at_0;
+    pendres_jump_kind kind;
+  } cases[] = {
+    {0.3, 0.5, -0.4, PENDRES_LABEL_PERIODIC, PENDRES_LABEL_PERIODIC, PENDRES_JUMP_BRANCH_POINT},
+    {0.3, 0.5, -0.41, PENDRES_LABEL_PERIODIC, PENDRES_LABEL_PERIODIC, PENDRES_JUMP_BRANCH_POINT},
+    {0.3, 0.0, -0.4, PENDRES_LABEL_UNSTABLE, PENDRES_LABEL_UNSTABLE, PENDRES_JUMP_BRANCH_POINT},
+    {0.3, 0.0, -0.41, PENDRES_LABEL_UNSTABLE, PENDRES_LABEL_UNSTABLE, PENDRES_JUMP_BRANCH_POINT},
+    {0.0, 0.5, -0.4, PENDRES_LABEL_PERIODIC, PENDRES_LABEL_PERIODIC, PENDRES_JUMP_SYMMETRY}};
+  for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+    const pendres_pendulum p = {.force = PENDRES_FORCE_POLYNOMIAL,
+                                .force_coefficients = {0.0, cases[c].a2, 1.0},
+                                .damping = 0.3,
+                                .drive_frequency = 1.0};
+    const pendres_state start = {cases[c].x, 0.0};
+    double value[N];
+    for (int i = 0; i < N; i++) value[i] = i == 4 ? 0.0 : cases[c].first + 0.1 * i;
+    if (cases[c].first != -0.4) value[4] = 0.5 * value[3];
+    const pendres_hysteresis_path path = {.parameter = PENDRES_A1, .n = N, .value = value};
+    pendres_hysteresis *h = NULL;
+    check_ok(pendres_hysteresis_find(*state, &p, &start, &path, &h));
+    assert_int_equal(pendres_hysteresis_jump_count(h), 1);
+    const pendres_jump *j = pendres_hysteresis_jump_get(h, 0);
+    assert_int_equal(j->kind, cases[c].kind);
+    assert_int_equal(j->from, cases[c].from);
+    assert_int_equal(j->to, PENDRES_LABEL_PERIODIC);
+    check_near(j->value, 0.0, j->value_error);
+    assert_true(j->value_error < 1e-13);
+    assert_int_equal(pendres_hysteresis_get(h, 4)->attractor.label, cases[c].at_0);
+    for (size_t i = 5; i < N; i++)
+      assert_int_equal(pendres_hysteresis_get(h, i)->attractor.label, PENDRES_LABEL_PERIODIC);
+    pendres_hysteresis_free(h);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -149,6 +191,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(in_no_mean, setup, teardown),
     cmocka_unit_test_setup_teardown(by_averages, setup, teardown),
     cmocka_unit_test_setup_teardown(along_a_path, setup, teardown),
+    cmocka_unit_test_setup_teardown(through_a_bifurcation, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/room.h"
+#include "model/model.h"
 #include "orbits/numbers.h"
 #include "orbits/orbit_same.h"
 
@@ -33,19 +34,41 @@ static int is_there(const pendres_orbit *o, const pendres_strobe_lane *lane)
   return pendres_orbit_is_at(o, x, v, 0.0);
 }
 
+/* Whether a pendulum that does not move at all has a lower potential beside it: at a bifurcation of
+   rest, where multipliers tell nothing and nothing grows by factors. */
+static int tips_over(const pendres_strobe_lane *lane)
+{
+  const pendres_pendulum *p = lane->pendulum;
+  double x, v;
+  pendres_strobe_lane_out(lane, &x, &v);
+  const double here = pendres_model_potential(p, x);
+  return p->parametric_amplitude == 0.0 && v == 0.0 &&
+         fmin(pendres_model_potential(p, x - well_near),
+              pendres_model_potential(p, x + well_near)) < here;
+}
+
 /* Keep those that are at a state of rest which is unstable for certain, with the time in which
    rounding would grow there until it is seen, but for those where that takes too long. */
 static void keep_unstable(const pendres_strobe_lane *lanes, resting *r)
 {
   size_t n = 0;
   for (size_t k = 0; k < r->n; k++) {
-    const pendres_orbit *o = &r->orbit[k];
+    pendres_orbit *o = &r->orbit[k];
     const size_t i = r->lane[k];
-    if (r->outcome[k] == PENDRES_NOT_CONVERGED || !is_there(o, &lanes[i])) continue;
-    const double size = fmax(hypot(o->multiplier_re[0], o->multiplier_im[0]),
-                             hypot(o->multiplier_re[1], o->multiplier_im[1]));
-    const double periods = ceil(growth_passing / log(size));
-    if (!(size - o->multiplier_error > 1.0 && periods <= settle_slowest)) continue;
+    double periods = 1.0;
+    if (r->outcome[k] != PENDRES_NOT_CONVERGED) {
+      const double size = fmax(hypot(o->multiplier_re[0], o->multiplier_im[0]),
+                               hypot(o->multiplier_re[1], o->multiplier_im[1]));
+      periods = ceil(growth_passing / log(size));
+      if (!(size - o->multiplier_error > 1.0 && periods <= settle_slowest)) continue;
+    } else {
+      if (!tips_over(&lanes[i])) continue;
+      *o = pendres_orbit_none(lanes[i].pendulum);
+      pendres_strobe_lane_out(&lanes[i], &o->x, &o->v);
+      o->x_error = o->v_error = 0.0;
+      o->period = 1;
+    }
+    if (!is_there(o, &lanes[i])) continue;
     r->lane[n] = i;
     r->orbit[n] = *o;
     r->copy[n] = lanes[i];

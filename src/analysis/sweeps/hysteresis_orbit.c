@@ -158,6 +158,18 @@ static size_t held(const pendres_path *w, size_t i)
   return i;
 }
 
+/* The orbit at a value that cannot be told from that of a bifurcation at which the part begins or
+   ends: it is the bifurcation's, where Newton's method finds none. NULL: there is none. */
+static const pendres_orbit *at_bifurcation(const pendres_path *w, double value)
+{
+  const pendres_part *s = &w->part;
+  const double same = pendres_part_same(s);
+  const double beginning = pendres_parameter_get(w->parameter, &s->at.pendulum);
+  if (fabs(value - beginning) <= same) return &s->at;
+  const int ends = s->end == PENDRES_PART_BIFURCATION && fabs(value - s->end_value) <= same;
+  return ends ? &s->bifurcation.orbit : NULL;
+}
+
 static pendres_status put_part(pendres_path *w, size_t first, size_t last)
 {
   const size_t n = last - first;
@@ -173,6 +185,12 @@ static pendres_status put_part(pendres_path *w, size_t first, size_t last)
     status = pendres_part_orbits(w->ctx, &w->part, n, w->value + first, orbit, found);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum p = pendres_path_pendulum(w, w->value[first + i]);
+    const pendres_orbit *there = found[i] ? NULL : at_bifurcation(w, w->value[first + i]);
+    if (there != NULL) {
+      orbit[i] = *there;
+      orbit[i].pendulum = p;
+      found[i] = 1;
+    }
     const pendres_attractor a =
       found[i] ? pendres_settled_orbit(&orbit[i]) : pendres_settled_nothing(&p);
     pendres_path_put(w, first + i, &a);
