@@ -141,8 +141,8 @@ static void along_a_path(void **state)
 }
 
 /* x'' + 0.3 x' + a1 x + a2 x^2 + x^3 = 0, a1 through 0, where states of rest exchange stability
-   (a2 = 0.3) or become one (a2 = 0). That is exactly at 0, whether or not 0 is a value of the path, and
-   whether the pendulum comes from a stable state or has rested in the unstable one. */
+   (a2 = 0.3) or become one (a2 = 0). That is exactly at 0, whether or not 0 is a value of the path,
+   and whether the pendulum comes from a stable state or has rested in the unstable one. */
 static void through_a_bifurcation(void **state)
 {
   enum { N = 9 };
