@@ -54,12 +54,12 @@ static void all_orders(const pendres_attractor *a, size_t n)
 static void one_order(void **state)
 {
   pendres_attractor a[ALL] = {
-    {.orbit = {.amplitude = 1.0, .x = 3.0, .v = 0.0, .phase_lag = 0}},
-    {.orbit = {.amplitude = 1.0 + 0.8e-7, .x = 2.0, .v = 0.0, .phase_lag = 1}},
-    {.orbit = {.amplitude = 1.0 + 1.6e-7, .x = 1.0, .v = 0.0, .phase_lag = 2}},
-    {.orbit = {.amplitude = 2.0, .x = 1.0, .v = 3.0, .phase_lag = 3}},
-    {.orbit = {.amplitude = 2.0, .x = 1.0 + 0.8e-6, .v = 2.0, .phase_lag = 4}},
-    {.orbit = {.amplitude = 2.0, .x = 1.0 + 1.6e-6, .v = 1.0, .phase_lag = 5}}};
+    {.orbit = {.period = 1, .amplitude = 1.0, .x = 3.0, .v = 0.0, .phase_lag = 0}},
+    {.orbit = {.period = 1, .amplitude = 1.0 + 0.8e-7, .x = 2.0, .v = 0.0, .phase_lag = 1}},
+    {.orbit = {.period = 1, .amplitude = 1.0 + 1.6e-7, .x = 1.0, .v = 0.0, .phase_lag = 2}},
+    {.orbit = {.period = 1, .amplitude = 2.0, .x = 1.0, .v = 3.0, .phase_lag = 3}},
+    {.orbit = {.period = 1, .amplitude = 2.0, .x = 1.0 + 0.8e-6, .v = 2.0, .phase_lag = 4}},
+    {.orbit = {.period = 1, .amplitude = 2.0, .x = 1.0 + 1.6e-6, .v = 1.0, .phase_lag = 5}}};
   (void)state;
   all_orders(a, ALL);
   double names[ALL];
@@ -72,8 +72,8 @@ static void one_order(void **state)
 static void chaos_last(void **state)
 {
   pendres_cover one = {.attractor = 0, .mean_w = 0.5}, two = {.attractor = 2, .mean_w = -0.5};
-  pendres_attractor a[4] = {{.lyapunov = 0.1}, {.orbit = {.amplitude = NAN}}, {.lyapunov = 0.1},
-                            {.orbit = {.amplitude = 2.0}}};
+  pendres_attractor a[4] = {{.lyapunov = 0.1}, {.orbit = {.period = 1, .amplitude = NAN}}, {.lyapunov = 0.1},
+                            {.orbit = {.period = 1, .amplitude = 2.0}}};
   const pendres_attractor_set c = {
     .count = 4, .attractors = a, .covers = 2, .cover = {&one, &two}};
   int order[4];
