@@ -72,7 +72,9 @@ static void one_order(void **state)
 static void chaos_last(void **state)
 {
   pendres_cover one = {.attractor = 0, .mean_w = 0.5}, two = {.attractor = 2, .mean_w = -0.5};
-  pendres_attractor a[4] = {{.lyapunov = 0.1}, {.orbit = {.period = 1, .amplitude = NAN}}, {.lyapunov = 0.1},
+  pendres_attractor a[4] = {{.lyapunov = 0.1},
+                            {.orbit = {.period = 1, .amplitude = NAN}},
+                            {.lyapunov = 0.1},
                             {.orbit = {.period = 1, .amplitude = 2.0}}};
   const pendres_attractor_set c = {
     .count = 4, .attractors = a, .covers = 2, .cover = {&one, &two}};

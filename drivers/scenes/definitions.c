@@ -37,8 +37,6 @@ static const struct { const char *name, *definition, *no_angle; } definitions[] 
   { "regime", "sa, la: all members on that state; coexistence: some on either; single: all on one "
               "state that continues neither, as beyond the cusp; other: some elsewhere, which "
               "the variable `other` tells", NULL },
-  { "attractors", "how many the built-in starts lead to: there may be more, with small basins",
-    NULL },
   { "regime_exact", "as regime, of all attractors that are known, whether members reach them or "
                     "not: those on branches that members reach anywhere on the line, that curves "
                     "of neighbouring lines bound or, but for the plain pendulum, that guesses "
