@@ -30,7 +30,7 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   engine/rank.h engine/room.h
   engine/steps.h engine/strobe_run.h engine/tables.h engine/team.h
   orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/free_force.h orbits/growth.h orbits/linear.h orbits/label.h orbits/numbers.h orbits/orbit_error.h
-  orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
+  orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h orbits/orbit_same.h
   orbits/orbit_reading.h orbits/orbit_series.h orbits/orbit_span.h
   orbits/settle.h orbits/settle_lanes.h orbits/mean.h
   noise/langevin_internal.h noise/noise_common.h continuation/equations.h continuation/parameter.h

@@ -39,7 +39,7 @@ static const struct {
    {"fold", "flip", "symmetry", "other", "branch_point", "crisis", "homoclinic"}},
   {"label", PENDRES_NAMES_LABEL, PENDRES_LABEL_COUNT,
    {"sa", "la", "periodic", "running", "chaotic", "unresolved", "escape",
-    "quasi_periodic"}},
+    "quasi_periodic", "unstable"}},
   {"langevin_answer", PENDRES_NAMES_LANGEVIN_ANSWER, PENDRES_LANGEVIN_ANSWER_COUNT,
    {"go_on", "enough", "stop"}},
   {"langevin_statistic", PENDRES_NAMES_LANGEVIN_STATISTIC, PENDRES_LANGEVIN_STATISTICS,

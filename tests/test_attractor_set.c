@@ -9,6 +9,7 @@
 
 #include "engine/coordinates.h"
 #include "orbits/attractor_set.h"
+#include "orbits/orbit_same.h"
 
 enum { ALL = 6 };
 
@@ -53,12 +54,12 @@ static void all_orders(const pendres_attractor *a, size_t n)
 static void one_order(void **state)
 {
   pendres_attractor a[ALL] = {
-    {.orbit = {.amplitude = 1.0, .x = 3.0, .v = 0.0, .phase_lag = 0}},
-    {.orbit = {.amplitude = 1.0 + 0.8e-7, .x = 2.0, .v = 0.0, .phase_lag = 1}},
-    {.orbit = {.amplitude = 1.0 + 1.6e-7, .x = 1.0, .v = 0.0, .phase_lag = 2}},
-    {.orbit = {.amplitude = 2.0, .x = 1.0, .v = 3.0, .phase_lag = 3}},
-    {.orbit = {.amplitude = 2.0, .x = 1.0 + 0.8e-6, .v = 2.0, .phase_lag = 4}},
-    {.orbit = {.amplitude = 2.0, .x = 1.0 + 1.6e-6, .v = 1.0, .phase_lag = 5}}};
+    {.orbit = {.period = 1, .amplitude = 1.0, .x = 3.0, .v = 0.0, .phase_lag = 0}},
+    {.orbit = {.period = 1, .amplitude = 1.0 + 0.8e-7, .x = 2.0, .v = 0.0, .phase_lag = 1}},
+    {.orbit = {.period = 1, .amplitude = 1.0 + 1.6e-7, .x = 1.0, .v = 0.0, .phase_lag = 2}},
+    {.orbit = {.period = 1, .amplitude = 2.0, .x = 1.0, .v = 3.0, .phase_lag = 3}},
+    {.orbit = {.period = 1, .amplitude = 2.0, .x = 1.0 + 0.8e-6, .v = 2.0, .phase_lag = 4}},
+    {.orbit = {.period = 1, .amplitude = 2.0, .x = 1.0 + 1.6e-6, .v = 1.0, .phase_lag = 5}}};
   (void)state;
   all_orders(a, ALL);
   double names[ALL];
@@ -71,8 +72,10 @@ static void one_order(void **state)
 static void chaos_last(void **state)
 {
   pendres_cover one = {.attractor = 0, .mean_w = 0.5}, two = {.attractor = 2, .mean_w = -0.5};
-  pendres_attractor a[4] = {{.lyapunov = 0.1}, {.orbit = {.amplitude = NAN}}, {.lyapunov = 0.1},
-                            {.orbit = {.amplitude = 2.0}}};
+  pendres_attractor a[4] = {{.lyapunov = 0.1},
+                            {.orbit = {.period = 1, .amplitude = NAN}},
+                            {.lyapunov = 0.1},
+                            {.orbit = {.period = 1, .amplitude = 2.0}}};
   const pendres_attractor_set c = {
     .count = 4, .attractors = a, .covers = 2, .cover = {&one, &two}};
   int order[4];
@@ -201,12 +204,73 @@ static void multiple_of_period(void **state)
   pendres_context_free(ctx);
 }
 
+/* Values of one orbit differ by several errors of both at most, a millionth aside; however large
+   the errors are, what differs by hundredths is two. Whole turns are no difference, periods and
+   winding are. Bounds of this test are the numbers' values, within a factor of two. */
+static void same_by_both_errors(void **state)
+{
+  static const struct {
+    double error, apart;
+    int same;
+  } cases[] = {{0.0, 0.5e-6, 1}, {0.0, 2e-6, 0},  {1e-4, 1e-3, 1}, {1e-4, 4e-3, 0},
+               {1.0, 0.01, 1},   {1.0, 0.04, 0},  {1e-4, NAN, 0}};
+  const pendres_orbit a = {.period = 2, .winding = 1, .x = 3.0, .v = 0.2};
+  (void)state;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    pendres_orbit o = a, p = a;
+    o.x_error = p.v_error = cases[i].error;
+    o.amplitude_error = p.amplitude_error = cases[i].error;
+    p.x += cases[i].apart + two_pi;
+    p.amplitude += cases[i].apart;
+    assert_int_equal(pendres_orbit_same(&o, &p), cases[i].same);
+    assert_int_equal(pendres_orbit_same(&p, &o), cases[i].same);
+    assert_int_equal(pendres_orbit_as_wide(&o, &p), cases[i].same);
+  }
+  pendres_orbit once = a, back = a;
+  once.period = 1;
+  back.winding = -1;
+  assert_false(pendres_orbit_same(&a, &once) || pendres_orbit_same(&a, &back));
+}
+
+/*
+ * At loose tolerances one orbit is found with errors that are larger than any fixed distance: it is
+ * one attractor all the same. There is a single one here at 1e-8.
+ */
+static void once_at_any_tolerance(void **state)
+{
+  enum { SIDE = 28 };
+  static const struct {
+    double x, v, tolerance;
+  } grid[] = {{3.0, 2.5, 1e-3}, {3.0, 3.0, 1e-3}, {3.0, 2.5, 1e-8}, {pi, 5.0, 1e-4}};
+  const pendres_pendulum p = {.damping = 0.08065207614198543,
+                              .drive_amplitude = 0.42398322758004636,
+                              .drive_frequency = 0.7256297930163663};
+  (void)state;
+  for (size_t g = 0; g < sizeof grid / sizeof *grid; g++) {
+    double x[SIDE * SIDE], v[SIDE * SIDE];
+    for (int i = 0; i < SIDE * SIDE; i++) {
+      x[i] = grid[g].x * (2.0 * (i / SIDE) / (SIDE - 1.0) - 1.0);
+      v[i] = grid[g].v * (2.0 * (i % SIDE) / (SIDE - 1.0) - 1.0);
+    }
+    pendres_context *ctx = NULL;
+    pendres_attractors *found = NULL;
+    const pendres_options options = {.tolerance = grid[g].tolerance};
+    check_ok(pendres_context_create(&options, &ctx));
+    check_ok(pendres_attractors_find(ctx, &p, SIDE * SIDE, x, v, &found));
+    assert_int_equal(pendres_attractors_count(found), 1);
+    pendres_attractors_free(found);
+    pendres_context_free(ctx);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(one_order),
                                      cmocka_unit_test(test_long_orbits),
                                      cmocka_unit_test(multiple_of_period),
                                      cmocka_unit_test(chaos_last),
-                                     cmocka_unit_test(images_compared)};
+                                     cmocka_unit_test(images_compared),
+                                     cmocka_unit_test(same_by_both_errors),
+                                     cmocka_unit_test(once_at_any_tolerance)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -129,6 +129,14 @@ pendres_units deck_pendulum_units(const deck *d)
   return pendres_units_of(&p);
 }
 
+int deck_may_rest(const deck *d)
+{
+  const deck_axis *a = &d->axis[DECK_AXIS_DRIVE_AMPLITUDE];
+  for (size_t k = 0; k < a->count; k++)
+    if (a->value[k] == 0.0) return 1;
+  return a->count == 0 && d->pendulum.drive_amplitude == 0.0;
+}
+
 int deck_is_plain(const deck *d)
 {
   if (d->pendulum.force != PENDRES_FORCE_PENDULUM) return 0;

@@ -383,6 +383,9 @@ int deck_searches(const deck *d);
 /** The shortest segment of a spectrum in drive periods: an even number of samples, 4 or more. */
 int64_t deck_spectrum_least(const deck *d);
 
+/** Is there no drive somewhere, so that a pendulum may rest in an unstable state? */
+int deck_may_rest(const deck *d);
+
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */
 int deck_is_plain(const deck *d);
 

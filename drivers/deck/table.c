@@ -331,7 +331,7 @@ const deck_key deck_table[] = {
   { INTEGER("bifurcation_diagram", "strobes", diagram.strobes), IN(DIAGRAM),
     RANGE(1, DECK_MAX_COUNT), .number = 200, SAYS(NULL, "strobe points at each value") },
   { LOGICAL("bifurcation_diagram", "attractors", diagram.attractors), IN(DIAGRAM), .number = 1,
-    SAYS(NULL, "count the attractors at each value") },
+    SAYS(NULL, "count the attractors that are found at each value, a lower bound") },
   { LOGICAL("bifurcation_diagram", "bifurcations", diagram.bifurcations), IN(DIAGRAM), .number = 1,
     SAYS(NULL, "write the bifurcations on the way, and find the cascade of doublings; without "
                "them states are found at the values alone, in less time") },

@@ -75,6 +75,9 @@ void basins_define(basins *b)
   /* The first two columns have values for what is on no attractor. */
   b->column[0].names = scene_settled_names(&b->pendulum);
   if (may_escape(b)) b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
+  if (b->pendulum.drive_amplitude == 0.0)
+    b->column[1].comment =
+      "-1: unresolved; -2: escapes to infinity; -3: at rest in an unstable state";
   scene_dimension(b->run, "", DECK_AXIS_X);
   scene_dimension(b->run, "", DECK_AXIS_V);
   scene_columns_define(b->run, &table, &of);

@@ -188,7 +188,7 @@ static const scene_column of_points[] = {
 
 static const scene_column of_attractors = {
   .name = "attractors", .long_name = "attractors that are found there", .type = SCENE_NUMBER,
-  .comment = "-1: not known"};
+  .comment = "a lower bound: those that the built-in starts lead to; -1: not known"};
 
 static const scene_column of_bifurcations[] = {
   SCENE_CODE(scene_along_jump, kind, "what ends the motion there", scene_jump_names),

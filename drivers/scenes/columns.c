@@ -43,7 +43,7 @@ const char *scene_label_names(int value)
 
 scene_names scene_settled_names(const pendres_pendulum *p)
 {
-  if (pendres_pendulum_rotates(p)) return scene_motion_names;
+  if (pendres_pendulum_rotates(p) || p->drive_amplitude == 0.0) return scene_motion_names;
   return pendres_pendulum_leaves(p) ? scene_fate_names : scene_label_names;
 }
 
@@ -180,7 +180,8 @@ static void describe(const scene_run *run, const scene_table *t, const scene_col
   int k = 0;
   for (; k < 3 && t->dimensions[k] != NULL; k++) v->spec.dimensions[k] = t->dimensions[k];
   if (c->pairs) v->spec.dimensions[k] = t->inner;
-  const int plain = c->names == scene_motion_names && deck_is_plain(run->deck);
+  const int plain =
+    c->names == scene_motion_names && deck_is_plain(run->deck) && !deck_may_rest(run->deck);
   if (c->names != NULL)
     v->spec.flag_count = meanings_of(plain ? scene_label_names : c->names, v->meanings);
 }
@@ -379,6 +380,7 @@ int scene_check_basin_state(const pendres_basin_state *state, size_t attractors)
 {
   const int number = state->attractor;
   return (number == PENDRES_ATTRACTOR_UNKNOWN || number == PENDRES_ATTRACTOR_ESCAPED ||
+          number == PENDRES_ATTRACTOR_UNSTABLE ||
           (number >= 0 && (size_t)number < attractors)) &&
          scene_check_code(state->label, PENDRES_LABEL_COUNT) &&
          scene_check_code(state->how, PENDRES_BASIN_HOW_COUNT);

@@ -37,8 +37,10 @@ static const struct { const char *name, *definition, *no_angle; } definitions[] 
   { "regime", "sa, la: all members on that state; coexistence: some on either; single: all on one "
               "state that continues neither, as beyond the cusp; other: some elsewhere, which "
               "the variable `other` tells", NULL },
-  { "regime_exact", "as regime, of all attractors that exist, whether members reach them or not",
-    NULL },
+  { "regime_exact", "as regime, of all attractors that are known, whether members reach them or "
+                    "not: those on branches that members reach anywhere on the line, that curves "
+                    "of neighbouring lines bound or, but for the plain pendulum, that guesses "
+                    "about resonances lead to", NULL },
   { "other", "sum of the flags that hold: each of flag_values is a bit", NULL },
   { "uncertain_members", "members whose state is not certain at the tolerance; errors allow for "
                          "any state of theirs", NULL },

@@ -80,7 +80,7 @@ static pendres_status find_from_start(const scene_some *some, orbit_found *out)
     out->settling_periods = outcome.settling_periods;
   }
   out->uncertain = outcome.attractor != PENDRES_ATTRACTOR_UNKNOWN && !outcome.certain;
-  if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE) out->of.label = outcome.label;
+  if (status == PENDRES_OK && outcome.attractor < 0) out->of.label = outcome.label;
   pendres_attractors_free(set);
   return status;
 }

@@ -33,7 +33,7 @@ static const scene_column columns[] = {
   SCENE_CODE(pendres_phase_point, regime,
              "state of motion that the members of the ensemble settle on", scene_regime_names),
   {SCENE_TYPED(SCENE_FLAG, "regime_exact", pendres_phase_point, exact, "states of motion that "
-               "exist as attractors, by the branches, whether members reach them or not"),
+               "are known as attractors, by the branches, whether members reach them or not"),
    .names = scene_regime_names},
   {SCENE_TYPED(SCENE_FLAG, "other", pendres_phase_point, other,
                "what else members settle on: sum of the flags"), .names = others,
@@ -67,7 +67,7 @@ static void print_table(const scene_lines *l, FILE *out)
   fprintf(out, "regime        points\n");
   for (int r = 0; r < PENDRES_REGIME_COUNT; r++)
     fprintf(out, "%-12s  %zu\n", scene_regime_names(r), tally[r]);
-  fprintf(out, "members miss a state that exists at %zu of %zu points\n", differ, l->points.n);
+  fprintf(out, "members miss a state that is known at %zu of %zu points\n", differ, l->points.n);
   if (skipped > 0) fprintf(out, "orbits without a branch: %zu\n", skipped);
   scene_lines_print(l, out);
 }

@@ -84,7 +84,7 @@ static void judge(const scene_some *some, size_t i)
     scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members",
                             pendres_response_weakest_multiplier(p), words);
     scene_mark(some, i, SCENE_FAILURE_UNRESOLVED, words);
-  } else if (isnan(p->mean_loop_area)) {
+  } else if (isnan(p->mean_loop_area) && p->unstable < g->ensemble.members) {
     scene_mark(some, i, SCENE_FAILURE_NO_MEAN, NULL);
   }
 }

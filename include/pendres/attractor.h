@@ -60,6 +60,9 @@ typedef enum pendres_label {
                                      without bound under a linear force: not an attractor */
   PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation that is not locked to the drive; found only by
                                          lyapunov.h and hysteresis.h */
+  PENDRES_LABEL_UNSTABLE = 8,   /**< at rest in an unstable state, without a drive: it began there,
+                                     or on its stable side, and never leaves. With a drive rounding
+                                     leads away from every unstable orbit */
   PENDRES_LABEL_COUNT           /**< how many there are; not a label */
 } pendres_label;
 
@@ -100,7 +103,8 @@ const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, s
 /** Instead of the number of an attractor. */
 enum {
   PENDRES_ATTRACTOR_UNKNOWN = -1, /**< unresolved */
-  PENDRES_ATTRACTOR_ESCAPED = -2  /**< on the way to infinity, not on an attractor */
+  PENDRES_ATTRACTOR_ESCAPED = -2, /**< on the way to infinity, not on an attractor */
+  PENDRES_ATTRACTOR_UNSTABLE = -3 /**< at rest in an unstable state, not on an attractor */
 };
 
 /**
@@ -116,12 +120,14 @@ enum {
  * period, including those exactly on the unstable orbit, which are not distinguished.
  */
 typedef struct pendres_outcome {
-  pendres_label label;   /**< that of its attractor; ESCAPE or UNRESOLVED if there is none */
-  int attractor;         /**< index in the set, or PENDRES_ATTRACTOR_UNKNOWN, or
-                              PENDRES_ATTRACTOR_ESCAPED */
+  pendres_label label;   /**< that of its attractor; ESCAPE, UNSTABLE or UNRESOLVED if there is
+                              none */
+  int attractor;         /**< index in the set, or PENDRES_ATTRACTOR_UNKNOWN,
+                              PENDRES_ATTRACTOR_ESCAPED or PENDRES_ATTRACTOR_UNSTABLE */
   long well;             /**< well that it settled in; 0 for running and chaotic ones */
   long settling_periods; /**< drive periods until it was inside the ellipse or, with weak
-                              damping, a larger region about it, or had escaped; -1: unresolved */
+                              damping, a larger region about it, or had escaped; -1: unresolved, or
+                              unstable */
   int certain;           /**< 1: the error that it carried into the ellipse was small against the
                             ellipse, so that it could not have ended elsewhere; 0 also if
                             unresolved */

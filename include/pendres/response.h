@@ -79,6 +79,8 @@ typedef struct pendres_response {
                                          shares and means; 0 for a line */
   size_t escaped;                   /**< members among the unresolved that are on their way to
                                          infinity: nothing is left open of them */
+  size_t unstable;                  /**< members at rest in an unstable state, which they never
+                                         leave; left out of means and shares, and not unresolved */
 } pendres_response;
 
 /**

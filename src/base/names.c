@@ -23,7 +23,7 @@ static const struct {
   [PENDRES_NAMES_ENSEMBLE_SHAPE] = {.name = {"line", "rectangle", "random"}},
   [PENDRES_NAMES_LABEL] =
     {.name = {"sa", "la", "periodic", "running", "chaotic", "unresolved", "escape",
-              "quasi_periodic"}},
+              "quasi_periodic", "unstable"}},
   [PENDRES_NAMES_SPECIAL] = {.name = {PENDRES_SPECIAL_LIST(SECOND)}},
   [PENDRES_NAMES_BRANCH_END] = {.name = {"range", "closed", "too_wild", "too_long", "stuck"}},
   [PENDRES_NAMES_DOUBT] =

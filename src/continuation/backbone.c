@@ -26,31 +26,17 @@
 
 /* ---- small oscillations ---- */
 
-/* The stiffness about a well by the force's first harmonic at an amplitude. */
-static double stiffness(const pendres_pendulum *p, double well, double amplitude)
-{
-  enum { PHASES = 16 };
-  const double a = fmax(amplitude, well_near);
-  double sum = 0.0, force, slope;
-  for (int i = 0; i < PHASES; i++) {
-    const double sine = sin(two_pi * i / PHASES);
-    pendres_model_force(p, well + a * sine, &force, &slope);
-    sum += force * sine;
-  }
-  return 2.0 * sum / (PHASES * a);
-}
-
 /* The damping at which the drive meets friction in a harmonic oscillation of this amplitude; NaN
    where the force has no stiffness. */
 static double damping_at(const pendres_pendulum *p, double well, double amplitude)
 {
-  return p->drive_amplitude / (amplitude * sqrt(stiffness(p, well, amplitude)));
+  return p->drive_amplitude / (amplitude * sqrt(pendres_free_stiffness(p, well, amplitude)));
 }
 
 /* Whether an oscillation loses less than all of its energy in a radian. */
 static int swings(const pendres_pendulum *p, double well, double a)
 {
-  return damping_at(p, well, a) < sqrt(stiffness(p, well, a));
+  return damping_at(p, well, a) < sqrt(pendres_free_stiffness(p, well, a));
 }
 
 /* The amplitude to begin at, near where oscillations cease to be overdamped: it depends on the line
@@ -58,8 +44,8 @@ static int swings(const pendres_pendulum *p, double well, double a)
 static double start_amplitude(const pendres_pendulum *p, double well)
 {
   double a = backbone_first;
-  while (stiffness(p, well, 2.0 * a) >= stiffness(p, well, a) && !swings(p, well, 2.0 * a) &&
-         isfinite(2.0 * a))
+  while (pendres_free_stiffness(p, well, 2.0 * a) >= pendres_free_stiffness(p, well, a) &&
+         !swings(p, well, 2.0 * a) && isfinite(2.0 * a))
     a *= 2.0;
   while (swings(p, well, a)) a *= 0.5;
   return a;

@@ -65,7 +65,7 @@ static int reflected_after(int period)
 static int is_own_reflection(const pendres_orbit *o, double centre)
 {
   const double nothing =
-    orbit_same_amplitude + pendres_several_errors * o->first_harmonic_amplitude_error;
+    orbit_no_harmonic + pendres_several_errors * o->first_harmonic_amplitude_error;
   if (pendres_model_of(o->pendulum.force)->period == 0.0 &&
       !(fabs(o->mean_angle - centre) <= nothing + o->x_error))
     return 0;

@@ -9,9 +9,6 @@
 
 /* ---- when two are the same ---- */
 
-/* Orbits whose amplitudes differ by less, errors aside, may be one. */
-static const double pendres_same_orbit = 1e-5;
-
 /* Special points of one kind whose unknowns are closer than this are one: their errors are less. */
 static const double curve_same_place = 1e-8;
 

@@ -11,6 +11,7 @@
 #include "continuation/units.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
+#include "orbits/orbit_same.h"
 
 /* ---- sets ---- */
 
@@ -129,10 +130,10 @@ static pendres_status really_lies_on(pendres_context *ctx, pendres_curve *b,
   const pendres_status status =
     pendres_branch_cross(ctx, pendres_branch_of(b), value, MOST, there, &found);
   for (size_t i = 0; i < found && i < MOST && status == PENDRES_OK; i++) {
-    const double e = pendres_same_orbit + pendres_several_errors * (o->x_error + there[i].x_error);
     if (there[i].period == o->period && same_winding(&there[i], o) &&
-        fabs(there[i].amplitude - o->amplitude) < e &&
-        fabs(there[i].loop_area - o->loop_area) < e)
+        pendres_orbit_as_wide(&there[i], o) &&
+        fabs(there[i].loop_area - o->loop_area) <
+          pendres_orbit_slack(there[i].loop_area_error + o->loop_area_error))
       *on = 1;
   }
   return pendres_room_close(&room, status);
@@ -199,11 +200,9 @@ pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendr
 static int same_bifurcation(const pendres_bifurcation *a, const pendres_bifurcation *b)
 {
   const double e = curve_untold + pendres_several_errors * (a->value_error + b->value_error);
-  const double apart = pendres_same_orbit + pendres_several_errors * (a->orbit.amplitude_error +
-                                                                      b->orbit.amplitude_error);
   return a->kind == b->kind && a->orbit.period == b->orbit.period &&
          same_winding(&a->orbit, &b->orbit) && !(a->curvature * b->curvature < 0.0) &&
-         fabs(a->value - b->value) < e && fabs(a->orbit.amplitude - b->orbit.amplitude) < apart;
+         fabs(a->value - b->value) < e && pendres_orbit_as_wide(&a->orbit, &b->orbit);
 }
 
 static int met_already(const pendres_curves *set, const pendres_bifurcation *b)

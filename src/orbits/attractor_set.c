@@ -13,7 +13,7 @@
 #include "engine/coordinates.h"
 #include "model/model.h"
 #include "orbits/label.h"
-#include "orbits/numbers.h"
+#include "orbits/orbit_same.h"
 #include "orbits/orbit_table.h"
 
 void pendres_attractor_set_clear(pendres_attractor_set *c)
@@ -202,7 +202,7 @@ enum { KEYS = 3 };
 /* An attractor on its way to its place. Attractors of one group agree in all earlier keys. */
 typedef struct placed {
   int group;
-  double key;
+  double key, error;
   int number; /* the old one */
 } placed;
 
@@ -220,33 +220,32 @@ static const pendres_cover *cover_of(const pendres_attractor_set *c, int attract
   return NULL;
 }
 
-/*
- * An attractor's key number k, and *same: how far apart two such keys may be by rounding alone. The
- * amplitudes of mirror images, for one, differ by rounding, which must not decide their order.
- */
-static double key_of(const pendres_attractor_set *c, int attractor, int k, double *same)
+/* An attractor's key number k, and its error, which must not decide the order: the amplitudes of
+   mirror images, for one, differ by errors alone. */
+static double key_of(const pendres_attractor_set *c, int attractor, int k, double *error)
 {
-  static const double rounding[KEYS] = {orbit_same_amplitude, orbit_same_point, 0.0};
   const pendres_attractor *a = &c->attractors[attractor];
+  const double place = a->orbit.x_error + a->orbit.v_error;
+  const double errors[KEYS] = {a->orbit.amplitude_error, place, place};
   const pendres_cover *cover = cover_of(c, attractor);
   const int closes = pendres_attractor_closes(a);
   const double orbit[KEYS] = {closes ? a->orbit.amplitude : a->drift, a->orbit.x, a->orbit.v};
   const double chaos[KEYS] = {cover != NULL ? cover->mean_w : 0.0,
                               cover != NULL ? cover->mean_y : 0.0, a->lyapunov};
   const double key = cover != NULL ? chaos[k] : orbit[k];
-  *same = cover != NULL ? 0.0 : rounding[k];
+  *error = cover != NULL ? 0.0 : errors[k];
   return isnan(key) ? INFINITY : key; /* NaN sorts last */
 }
 
-/* Give a group of their own to attractors that are further from their neighbour than rounding. */
-static void part(const pendres_attractor_set *c, placed *p, int k)
+/* Give a group of their own to attractors that are further from their neighbour than by errors. */
+static void part(size_t n, placed *p)
 {
   int group = 0, before = 0; /* the new group, and the old one of the attractor before */
-  for (size_t i = 0; i < c->count; i++) {
+  for (size_t i = 0; i < n; i++) {
     const int old = p[i].group;
-    double same;
-    (void)key_of(c, p[i].number, k, &same);
-    if (i > 0 && (old != before || p[i].key - p[i - 1].key > same)) group++;
+    if (i > 0 && (old != before || p[i].key - p[i - 1].key >
+                                     pendres_orbit_slack(p[i].error + p[i - 1].error)))
+      group++;
     before = old;
     p[i].group = group;
   }
@@ -254,7 +253,6 @@ static void part(const pendres_attractor_set *c, placed *p, int k)
 
 int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order)
 {
-  double same;
   placed *p = malloc((c->count + 1) * sizeof *p);
   if (p == NULL) return -1;
   for (size_t i = 0; i < c->count; i++)
@@ -262,9 +260,9 @@ int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order)
                              : pendres_attractor_closes(&c->attractors[i]) ? 0 : 2,
                     .number = (int)i};
   for (int k = 0; k < KEYS; k++) {
-    for (size_t i = 0; i < c->count; i++) p[i].key = key_of(c, p[i].number, k, &same);
+    for (size_t i = 0; i < c->count; i++) p[i].key = key_of(c, p[i].number, k, &p[i].error);
     qsort(p, c->count, sizeof *p, by_group_and_key);
-    part(c, p, k);
+    part(c->count, p);
   }
   for (size_t i = 0; i < c->count; i++) order[i] = p[i].number;
   free(p);
@@ -280,15 +278,18 @@ enum { HARMONICS = 5 /* that are compared */ };
 int pendres_attractor_set_are_images(const pendres_orbit *a, const pendres_orbit *b)
 {
   if (a->period != b->period || a->winding != -b->winding) return 0;
-  if (!(fabs(a->amplitude - b->amplitude) <= orbit_same_point)) return 0;
+  const double bound =
+    pendres_orbit_slack(a->x_error + a->v_error + a->amplitude_error + b->x_error + b->v_error +
+                        b->amplitude_error);
+  if (!pendres_orbit_as_wide(a, b)) return 0;
   const double middle = 0.5 * (a->mean_angle + b->mean_angle);
   if (pendres_model_of(a->pendulum.force)->period == 0.0 &&
-      !(fabs(middle - pendres_model_centre(&a->pendulum, middle)) <= orbit_same_point))
+      !(fabs(middle - pendres_model_centre(&a->pendulum, middle)) <= bound))
     return 0;
   for (int m = 1; m <= HARMONICS; m++) {
     const double sign = m % 2 == 0 ? -1.0 : 1.0;
     if (!(hypot(a->cosine[m - 1] - sign * b->cosine[m - 1],
-                a->sine[m - 1] - sign * b->sine[m - 1]) <= orbit_same_point))
+                a->sine[m - 1] - sign * b->sine[m - 1]) <= bound))
       return 0;
   }
   return 1;

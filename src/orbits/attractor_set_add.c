@@ -16,31 +16,24 @@
 #include "orbits/numbers.h"
 #include "orbits/orbit_pair.h"
 #include "orbits/orbit_prime.h"
+#include "orbits/orbit_same.h"
 
 /* ---- what is in a set of attractors ---- */
 
-/* Whether an orbit, or another point of the same orbit, is in the set of attractors. */
+/* Whether an orbit, or another point of the same orbit, is in the set of attractors, with its own
+   period or, as it closes after several of these too, with a shorter one. */
 static int known(const pendres_attractor_set *c, const pendres_orbit *o)
 {
   for (size_t t = 0; t < c->ellipses; t++) {
     const pendres_trapping_ellipse *at = &c->ellipse[t];
     const pendres_coordinates place = {.y = at->y, .w = at->w};
+    const int times = o->period / at->period;
     double x, v;
     pendres_coordinates_out(&o->pendulum, &place, &x, &v);
-    if (at->period == o->period && at->winding == o->winding &&
-        pendres_orbit_apart(o, x, v) < orbit_same_point)
+    if (at->period * times == o->period && at->winding * times == o->winding &&
+        pendres_orbit_is_at(o, x, v, at->error))
       return 1;
   }
-  return 0;
-}
-
-/* Whether an orbit of period q closes after a shorter period already, under which it is found. */
-static int closes_earlier(const pendres_orbit *points, int q)
-{
-  for (int d = 1; d < q; d++)
-    if (q % d == 0 &&
-        pendres_orbit_apart(&points[0], points[d].x, points[d].v) < orbit_same_point)
-      return 1;
   return 0;
 }
 
@@ -153,20 +146,7 @@ static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
   return pendres_room_close(&room, status);
 }
 
-/* Whether an orbit is back at its first point before its period is over, by where its other points
-   are guessed to be. The error of a guess is far smaller than the distance of two points of an
-   orbit. */
-static int returns_earlier(const pendres_orbit *o, const pendres_orbit_guess *guess)
-{
-  for (int d = 1; d < o->period; d++)
-    if (o->period % d == 0 &&
-        pendres_orbit_apart(o, guess[d].x, guess[d].v) < 0.5 * orbit_same_point)
-      return 1;
-  return 0;
-}
-
-/* Refine each point at its own place, but for orbits that have a shorter period: a hundred points
-   of an orbit of period 1 would take ten thousand periods each time. */
+/* Refine each point at its own place. */
 static pendres_status find_points(pendres_context *ctx, long_orbits *l)
 {
   size_t n = 0;
@@ -179,24 +159,21 @@ static pendres_status find_points(pendres_context *ctx, long_orbits *l)
   for (size_t i = 0; i < l->count && status == PENDRES_OK; i++) {
     const pendres_orbit_guess *from = guess + l->first[i];
     const size_t others = (size_t)l->orbit[i]->period - 1;
-    l->complete[i] = (char)!returns_earlier(l->orbit[i], from);
-    if (!l->complete[i]) continue;
     memmove(guess + n, from + 1, others * sizeof *guess);
     n += others;
   }
   if (status == PENDRES_OK)
     status = pendres_orbit_find(ctx, n, guess, PENDRES_ORBIT_PLAIN, l->point, outcome);
   for (size_t i = l->count; i-- > 0 && status == PENDRES_OK;) {
-    if (!l->complete[i]) continue;
     const int q = l->orbit[i]->period;
     pendres_orbit *point = l->point + l->first[i];
     n -= (size_t)q - 1;
     memmove(point + 1, l->point + n, (size_t)(q - 1) * sizeof *point);
     point[0] = *l->orbit[i];
+    l->complete[i] = 1;
     for (int j = 1; j < q; j++)
       if (outcome[n + (size_t)j - 1] == PENDRES_NOT_CONVERGED || !point[j].stable)
         l->complete[i] = 0;
-    if (l->complete[i] && closes_earlier(point, q)) l->complete[i] = 0;
   }
   return pendres_room_close(&room, status);
 }
@@ -336,13 +313,32 @@ static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
     if (outcome[i] == PENDRES_NOT_CONVERGED || !o[i].stable) continue;
     int new = !known(&attractor_sets[set[i]], &o[i]);
     for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
-      new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
-            pendres_orbit_apart(&o[j], o[i].x, o[i].v) > orbit_same_point;
+      new = !pendres_orbit_same(&o[j], &o[i]);
     if (!new) continue;
     set[count] = set[i];
     o[count++] = o[i];
   }
   return count;
+}
+
+/* Drop orbits that close after a shorter period, with which they are found: a hundred points of an
+   orbit of period 1 would take ten thousand periods. */
+static pendres_status drop_multiples(pendres_context *ctx, size_t *n, pendres_orbit *o,
+                                     size_t *set)
+{
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  int *period = pendres_room_take(&room, *n, sizeof *period);
+  pendres_status status = room.status;
+  for (size_t i = 0; i < *n && status == PENDRES_OK; i++) period[i] = o[i].period;
+  if (status == PENDRES_OK) status = pendres_orbits_to_prime(ctx, *n, o);
+  size_t count = 0;
+  for (size_t i = 0; i < *n && status == PENDRES_OK; i++) {
+    if (o[i].period < period[i]) continue;
+    set[count] = set[i];
+    o[count++] = o[i];
+  }
+  *n = count;
+  return pendres_room_close(&room, status);
 }
 
 /* Where the mirror image of an orbit crosses drive phase 0: half a period later, reflected. */
@@ -401,7 +397,9 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_attractor_set *a
   pendres_status status = pendres_orbit_find_once(ctx, count, g, orbits, outcome);
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   count = distinct_orbits(count, orbits, set, outcome, attractor_sets);
-  status = find_short(ctx, count, orbits, attractor_sets[0].effort, ellipses);
+  status = drop_multiples(ctx, &count, orbits, set);
+  if (status == PENDRES_OK)
+    status = find_short(ctx, count, orbits, attractor_sets[0].effort, ellipses);
   const candidates k = {.count = count, .orbit = orbits, .set = set, .ellipse = ellipses,
                         .done = marks, .added = marks + n};
   if (status == PENDRES_OK) status = add_orbits(ctx, attractor_sets, &k);

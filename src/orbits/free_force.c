@@ -28,6 +28,19 @@
 #include "model/model.h"
 #include "orbits/numbers.h"
 
+double pendres_free_stiffness(const pendres_pendulum *p, double well, double amplitude)
+{
+  enum { PHASES = 16 };
+  const double a = fmax(amplitude, well_near);
+  double sum = 0.0, force, slope;
+  for (int i = 0; i < PHASES; i++) {
+    const double sine = sin(two_pi * i / PHASES);
+    pendres_model_force(p, well + a * sine, &force, &slope);
+    sum += force * sine;
+  }
+  return 2.0 * sum / (PHASES * a);
+}
+
 int pendres_free_well(const pendres_pendulum *p, double *y)
 {
   double force, slope, low, high;

@@ -10,4 +10,8 @@
    top of a barrier, right above it; 0: nowhere. */
 int pendres_free_well(const pendres_pendulum *p, double *y);
 
+/* The stiffness about a well by the force's first harmonic at an amplitude: the square of the
+   frequency of free oscillations, nearly. */
+double pendres_free_stiffness(const pendres_pendulum *p, double well, double amplitude);
+
 #endif

@@ -6,12 +6,7 @@
 #include "base/angles.h"
 #include "model/model.h"
 #include "orbits/numbers.h"
-
-/* By how much amplitudes with these errors may differ and still be those of one state. */
-static double slack(double a, double b)
-{
-  return orbit_same_amplitude + fmin(1e-2, a + b);
-}
+#include "orbits/orbit_same.h"
 
 int pendres_label_named(const pendres_orbit *o)
 {
@@ -22,7 +17,9 @@ void pendres_label_note(pendres_label_states *s, const pendres_orbit *o)
 {
   if (!o->stable || !pendres_label_named(o)) return;
   for (size_t i = 0; i < s->count; i++)
-    if (fabs(s->amplitude[i] - o->amplitude) <= slack(s->error[i], o->amplitude_error)) return;
+    if (fabs(s->amplitude[i] - o->amplitude) <=
+        pendres_orbit_slack(s->error[i] + o->amplitude_error))
+      return;
   if (s->count == PENDRES_LABEL_STATES) return;
   s->amplitude[s->count] = o->amplitude;
   s->error[s->count++] = o->amplitude_error;
@@ -58,7 +55,8 @@ pendres_label pendres_label_of(const pendres_label_states *s, const pendres_labe
   if (!pendres_label_named(o)) return PENDRES_LABEL_PERIODIC;
   if (s->count < 2) return lone(border, o);
   const size_t least = pendres_label_extreme(s, 0);
-  return o->amplitude <= s->amplitude[least] + slack(s->error[least], o->amplitude_error)
+  return o->amplitude <=
+             s->amplitude[least] + pendres_orbit_slack(s->error[least] + o->amplitude_error)
            ? PENDRES_LABEL_SA
            : PENDRES_LABEL_LA;
 }

@@ -9,18 +9,18 @@
 
 /* ---- when two are the same ---- */
 
-/* Poincaré points of one orbit agree to this and their errors, and so do the harmonics of mirror
-   images. So may the points of an orbit that has just doubled its period, but there the shorter one
-   is not stable; stable orbits that differ are that close at most next to a bifurcation. */
+/* Poincaré points of one orbit agree to this and pendres_several_errors, and so do the harmonics of
+   mirror images (orbit_same.h). So may the points of an orbit that has just doubled its period, but
+   there the shorter one is not stable; stable orbits that differ are that close at most next to a
+   bifurcation. */
 static const double orbit_same_point = 1e-6;
 
 /* Newton's method has come to one orbit from two guesses where it stops as close as this: within
    what its last steps leave, and far within what tells orbits apart. */
 static const double orbit_repeated = 1e-8;
 
-/* Amplitudes of mirror images differ by rounding and the orbits' errors alone, those of states that
-   coexist by more, unless they are about to meet. Harmonics below this are none. */
-static const double orbit_same_amplitude = 1e-7;
+/* Harmonics below this are none. */
+static const double orbit_no_harmonic = 1e-7;
 
 /* The amplitudes of a state at adjacent parameters differ by less than this, and an orbit further
    from where it was looked for is another one. */

@@ -61,7 +61,7 @@ static void set_rows(const pendres_orbit_measures *a, const pendres_orbit_measur
 static int is_symmetric(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
                         const pendres_orbit_uncertainty *uncertainty, const pendres_orbit *o)
 {
-  const double nothing = orbit_same_amplitude * fmax(1.0, b->amplitude);
+  const double nothing = orbit_no_harmonic * fmax(1.0, b->amplitude);
   if (o->winding != 0 || !pendres_pendulum_symmetric(&o->pendulum)) return 0;
   if (!(b->symmetry_defect <= nothing)) return 0;
   if (pendres_model_of(o->pendulum.force)->period > 0.0) return 1;

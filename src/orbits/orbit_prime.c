@@ -7,7 +7,7 @@
 #include "engine/room.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
-#include "orbits/numbers.h"
+#include "orbits/orbit_same.h"
 
 /* The tolerance of a run around the closed orbit, for methods that choose their own steps. */
 static const double run_within = 1e-10;
@@ -25,16 +25,6 @@ typedef struct job {
   closing *found; /* one a lane */
 } job;
 
-double pendres_orbit_apart(const pendres_orbit *o, double x, double v)
-{
-  return hypot(pendres_less_turns(x - o->x, pendres_model_turn(&o->pendulum)), v - o->v);
-}
-
-static int is_same(const pendres_orbit *o, double x, double v)
-{
-  return pendres_orbit_apart(o, x, v) < orbit_same_point + 4.0 * (o->x_error + o->v_error);
-}
-
 /* At each period that divides the orbit's: whether the lane is back where it began. */
 static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
@@ -46,7 +36,7 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
   if (d <= c->tried || o->period % d != 0 || o->winding % (o->period / d) != 0) return 0;
   double x, v;
   pendres_strobe_lane_out(lane, &x, &v);
-  if (!is_same(o, x, v)) return 0;
+  if (!pendres_orbit_is_at(o, x, v, o->x_error + o->v_error)) return 0;
   c->period = d;
   c->winding = o->winding / (o->period / d);
   return 1;
@@ -95,7 +85,8 @@ static pendres_status refine(pendres_context *ctx, job *j, size_t *n)
     closing c = j->found[i];
     pendres_orbit *o = &j->orbit[c.which];
     if (outcome[i] != PENDRES_NOT_CONVERGED && shorter[i].stable &&
-        is_same(o, shorter[i].x, shorter[i].v)) {
+        pendres_orbit_is_at(o, shorter[i].x, shorter[i].v, shorter[i].x_error +
+                                                           shorter[i].v_error)) {
       *o = shorter[i];
     } else {
       c.tried = c.period;

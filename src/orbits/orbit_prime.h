@@ -10,9 +10,6 @@
 
 #include <pendres/orbit.h>
 
-/* The distance from an orbit's Poincaré point to another point, modulo whole turns. */
-double pendres_orbit_apart(const pendres_orbit *o, double x, double v);
-
 /* Replace each of n stable orbits by the same orbit with its shortest period. */
 pendres_status pendres_orbits_to_prime(pendres_context *ctx, size_t n, pendres_orbit *orbit);
 

@@ -157,6 +157,7 @@ static void doubt(const pendres_attractor_set *attractor_sets, const pendres_set
   for (size_t i = 0; i < from->n; i++) {
     const pendres_attractor_set *c = &attractor_sets[from->set[i]];
     if (i == 0 || from->set[i] != from->set[i - 1]) driven = pendres_settle_driven(c);
+    if (outcome[i].attractor == PENDRES_ATTRACTOR_UNSTABLE) continue; /* it does not move */
     if (c->grows || !(pendres_steps_speed(&c->pendulum, from->x[i], from->v[i]) < driven)) continue;
     outcome[i].certain = 0;
     error_ratio[i] = NAN;
@@ -328,6 +329,8 @@ pendres_status pendres_settle_known(pendres_context *ctx,
   pendres_settle_labelling l = {.attractor_sets = attractor_set, .order = order, .budget = &most,
                                 .outcome = outcome, .error_ratio = error_ratio};
   status = pendres_settle_lanes(ctx, n, lanes, &l);
+  if (status == PENDRES_OK)
+    status = pendres_settle_unstable(ctx, n, lanes, outcome, NULL);
   if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &l, starts, accuracy);
   ctx->cost.settled_pendulums += (double)n;
   if (status == PENDRES_OK && budget == PENDRES_SETTLE_FULL)

@@ -116,6 +116,8 @@ static pendres_status run(pendres_context *ctx, const pendres_settle_labelling *
                                   .drop_lost = 1};
   if (status == PENDRES_OK) status = room.status;
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, d->count, d->lanes, &job);
+  if (status == PENDRES_OK)
+    status = pendres_settle_unstable(ctx, d->count, d->lanes, d->outcome, NULL);
   return pendres_room_close(&room, status);
 }
 

@@ -62,7 +62,7 @@ static const pendres_outcome pendres_settle_unresolved = {
   .label = PENDRES_LABEL_UNRESOLVED, .attractor = PENDRES_ATTRACTOR_UNKNOWN,
   .settling_periods = -1};
 
-/* Whether a lane is done: it is on an attractor, or has escaped. */
+/* Whether a lane is done: it is on an attractor, has escaped, or never leaves an unstable state. */
 static inline int pendres_settle_ended(const pendres_outcome *o)
 {
   return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
@@ -131,6 +131,18 @@ double pendres_settle_tighter(double accuracy, double error_ratio);
  */
 pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelling *job,
                                       const pendres_settle_starts *from, double accuracy);
+
+/* ---- settle_unstable.c: pendulums that rest where nothing attracts --------------------------- */
+
+/*
+ * Of lanes that have not settled, label those that are at rest in an unstable state, without a
+ * drive: they began there, or on its stable side, and never leave. For that they are watched for as
+ * long as rounding would take to grow until it is seen. state: receives the state of each that is
+ * labelled; may be NULL.
+ */
+pendres_status pendres_settle_unstable(pendres_context *ctx, size_t n,
+                                       const pendres_strobe_lane *lanes, pendres_outcome *outcome,
+                                       pendres_orbit *state);
 
 /* ---- settle_search.c: what attracts pendulums that are in no known ellipse ------------------- */
 

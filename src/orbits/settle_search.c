@@ -201,9 +201,8 @@ pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
                                      const pendres_strobe_lane *lanes)
 {
   lost_lanes l = {0};
-  pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < from->n; i++) l.count += !pendres_settle_ended(&job->outcome[i]);
-  if (l.count == 0) return status;
+  if (l.count == 0) return PENDRES_OK;
   pendres_room room = pendres_room_open(ctx, "lanes");
   take_room(&room, sets, &l);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
@@ -215,6 +214,8 @@ pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
     l.lanes[k++] = lanes[i];
   }
   for (size_t s = 0; s < sets; s++) l.known[s] = attractor_sets[s].count;
+  pendres_status status =
+    pendres_settle_unstable(ctx, l.count, l.lanes, l.outcome, NULL);
 
   pendres_settle_labelling again = {.attractor_sets = attractor_sets, .set = l.set,
                                     .budget = job->budget, .outcome = l.outcome,

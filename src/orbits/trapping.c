@@ -391,7 +391,7 @@ pendres_status pendres_trapping_find(pendres_context *ctx, size_t n, const pendr
     const pendres_coordinates at = pendres_coordinates_in_whole(&o->pendulum, o->x, o->v);
     ellipses[i] = (pendres_trapping_ellipse){
       .y = at.y, .w = at.w, .period = o->period, .winding = o->winding,
-      .turn = pendres_model_turn(&o->pendulum)};
+      .error = o->x_error + o->v_error, .turn = pendres_model_turn(&o->pendulum)};
     if (!o->stable) continue;
     if (pendres_trapping_is_weak(o)) even_metric(o, ellipses[i].metric);
     else if (!metric_of(o, ellipses[i].metric)) continue;

@@ -36,6 +36,7 @@ typedef struct pendres_trapping_ellipse {
   double unit;      /* of length, of the polynomial in the metric */
   double level;     /* its value on the region's edge */
   double term[PENDRES_TRAPPING_TERMS];
+  double error;     /* of the place of the Poincaré point, in x and v */
   int period;       /* of the orbit */
   int winding;
 } pendres_trapping_ellipse;

@@ -125,6 +125,35 @@ static pendres_status tell_linear(pendres_context *ctx, const job *j)
   return status;
 }
 
+/* ---- unstable states ---- */
+
+/* Those that rest in an unstable state: what would stretch distances there is no motion. */
+static pendres_status tell_unstable(pendres_context *ctx, const job *j)
+{
+  int undriven = 0;
+  for (size_t i = 0; i < j->n; i++) undriven |= j->pendulum[i].drive_amplitude == 0.0;
+  if (!undriven) return PENDRES_OK;
+  pendres_room room = pendres_room_open(ctx, "lanes");
+  pendres_strobe_lane *lanes = pendres_room_take(&room, j->n, sizeof *lanes);
+  pendres_outcome *outcome = pendres_room_take(&room, j->n, sizeof *outcome);
+  pendres_orbit *state = pendres_room_take(&room, j->n, sizeof *state);
+  pendres_status status = room.status;
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    lanes[i] = j->runner[i].lane;
+    if (j->runner[i].state == PENDRES_RUNNER_MOVING) outcome[i] = pendres_settle_unresolved;
+  }
+  if (status == PENDRES_OK)
+    status = pendres_settle_unstable(ctx, j->n, lanes, outcome, state);
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    if (outcome[i].label != PENDRES_LABEL_UNSTABLE) continue;
+    pendres_lyapunov_take_orbit(&state[i], &j->out[i]);
+    j->out[i].label = PENDRES_LABEL_UNSTABLE;
+    j->runner[i].state = PENDRES_RUNNER_DONE;
+    j->runner[i].doubt = 0.0;
+  }
+  return pendres_room_close(&room, status);
+}
+
 /* ---- averages ------------------------------------------------------------------------------ */
 
 /* What the growth says, with an error of the steps of `off` in all. */
@@ -410,6 +439,7 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
   if (status == PENDRES_OK) status = run_on(ctx, j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
+  if (status == PENDRES_OK) status = tell_unstable(ctx, j);
   give_up(j, now.batch, 1);
   if (status == PENDRES_OK && j->care <= PENDRES_CARE_LABEL)
     status = look_at_rotations(ctx, j, &now);

@@ -114,12 +114,12 @@ static void judge_amplitudes(const pendres_small_end *end, const pendres_label_s
 }
 
 /* Whether all states that can be SA or LA are known at a point: both of them, or the one that
-   exists beyond the fold at which SA ends, or the only one where the two are not distinguished. */
+   exists beyond the fold at which SA ends. */
 static int enough(const pendres_small_end *end, const pendres_label_states *s,
                   const pendres_phase_point *p)
 {
-  if (!end->known) return s->count > 0;
-  return s->count > 1 || (s->count > 0 && pendres_small_end_from(end, &p->pendulum).beyond);
+  return s->count > 1 || (s->count > 0 && end->known &&
+                          pendres_small_end_from(end, &p->pendulum).beyond);
 }
 
 /* The points of a line at which states are looked for, and the values of its parameter there. */
@@ -208,22 +208,27 @@ static pendres_branch_options options_of(const pendres_pendulum *first,
   return options;
 }
 
-/* Find the branches through the orbits of all responses; at each point, orbits with more members
-   come first. */
+/* Find the branches through the orbits of all responses, and then those that may be detached from
+   these; at each point, orbits with more members come first. */
 static pendres_status find_branches(pendres_context *ctx, size_t n, const pendres_response *r,
                                     const pendres_phase_options *o, pendres_branches **out)
 {
   size_t count = 0;
   const pendres_branch_options options = options_of(&r[0].pendulum, &r[n - 1].pendulum, o);
-  pendres_orbit *orbits = malloc((n * PENDRES_RESPONSE_STATES + 1) * sizeof *orbits);
-  if (orbits == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  pendres_room room = pendres_room_open(ctx, "orbits");
+  pendres_orbit *more = NULL;
+  size_t others = 0;
+  pendres_status status = pendres_phase_detached(ctx, n, r, &room, &more, &others);
+  pendres_orbit *orbits =
+    pendres_room_take(&room, n * PENDRES_RESPONSE_STATES + others, sizeof *orbits);
+  if (status == PENDRES_OK) status = room.status;
+  if (status != PENDRES_OK) return pendres_room_close(&room, status);
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < r[i].states && k < PENDRES_RESPONSE_STATES; k++)
       if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC) orbits[count++] = r[i].state[k].orbit;
-  const pendres_status status = pendres_branches_find(ctx, count, orbits, &options, out);
-  free(orbits);
-  return status;
+  for (size_t i = 0; i < others; i++) orbits[count++] = more[i];
+  status = pendres_branches_find(ctx, count, orbits, &options, out);
+  return pendres_room_close(&room, status);
 }
 
 /* Judge all points of a line whose branches are known, from its responses: by all orbits, those

@@ -6,6 +6,7 @@
 
 #include <pendres/phase_diagram.h>
 
+#include "engine/room.h"
 #include "orbits/label.h"
 
 /* Whether an orbit, stable or not, lies on the sheets of SA, of LA, or of the unstable state
@@ -29,6 +30,14 @@ int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter);
 /* Whether a value of the parameter across the lines lies beyond the cusp, where SA and LA are one:
    at stronger damping, higher frequencies or weaker drives; never for any other parameter. */
 int pendres_phase_beyond(pendres_parameter across, double value, double cusp);
+
+/*
+ * Stable orbits of one drive period from guesses that swing about as far as free oscillations of
+ * the drive's frequency, at some points of a line: of branches that are detached from all that
+ * members reach. Their array is in the room.
+ */
+pendres_status pendres_phase_detached(pendres_context *ctx, size_t n, const pendres_response *r,
+                                      pendres_room *room, pendres_orbit **out, size_t *count);
 
 /*
  * A line of the diagram: n pendulums that differ in options->parameter alone, whose values ascend.

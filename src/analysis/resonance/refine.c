@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"
+#include "orbits/orbit_same.h"
 #include "analysis/resonance/response_parts.h"
 #include "orbits/numbers.h"
 
@@ -191,8 +192,7 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
   for (size_t i = 0; *same && i < r->states; i++) {
     const pendres_orbit *o = &there.state[i].orbit;
     *same = there.state_members[i] == r->state_members[i] &&
-            pendres_model_distance(&r->pendulum, o->x - r->state[i].orbit.x,
-                                   o->v - r->state[i].orbit.v) < pendres_same_orbit;
+            pendres_orbit_same(o, &r->state[i].orbit);
     r->state[i].label = there.state[i].label;
   }
   return pendres_response_renew(ctx, r);

@@ -211,7 +211,9 @@ static void count_states(const pendres_attractor_set *c, size_t n, const pendres
   for (size_t a = 0; a < c->count; a++) members[a] = 0, listed[a] = 0;
   for (size_t i = 0; i < n; i++) {
     if (outcome[i].attractor < 0) {
-      r->unresolved++;
+      const int stays = outcome[i].attractor == PENDRES_ATTRACTOR_UNSTABLE;
+      r->unstable += stays;
+      r->unresolved += !stays;
       r->escaped += outcome[i].attractor == PENDRES_ATTRACTOR_ESCAPED;
       continue;
     }

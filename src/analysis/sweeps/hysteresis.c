@@ -71,6 +71,17 @@ static int rotates_freely(const pendres_attractor *a)
   return a->label == PENDRES_LABEL_RUNNING && !pendres_settled_closed(a);
 }
 
+/* The last value at which the old state has not ended. An unstable one may end right at its last
+   value, where it attracts from one side: then it is the value before. */
+static double last_before(const path *w, size_t step, const pendres_settled *old)
+{
+  if (old->attractor.label != PENDRES_LABEL_UNSTABLE || step < 2 ||
+      w->h->point[step - 2].attractor.label != PENDRES_LABEL_UNSTABLE ||
+      pendres_path_direction(w, step) != pendres_path_direction(w, step - 1))
+    return w->at;
+  return w->value[step - 2];
+}
+
 /* Chaos has ended between the last value and this one, at which the pendulum is on an orbit.
    w->state becomes the first orbit that it goes to, at this value or an earlier one. */
 static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old)
@@ -82,7 +93,7 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
   pendres_status status = PENDRES_OK;
   const int back = (to - w->at) * j.direction <= 0.0; /* from trials beyond the value */
   if (w->tries <= TRIES && !(back && pendres_settled_closed(&old->attractor))) {
-    status = pendres_chaos_end(w->ctx, w->parameter, old, w->at, &w->state, &j);
+    status = pendres_chaos_end(w->ctx, w->parameter, old, last_before(w, step, old), &w->state, &j);
   } else { /* chaos and windows of orbits in turn, or one orbit and another: somewhere between */
     j.from = old->attractor.label;
     j.to = w->state.attractor.label;

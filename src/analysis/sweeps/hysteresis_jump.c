@@ -27,7 +27,7 @@ int pendres_settled_closed(const pendres_attractor *a)
 {
   return a->label != PENDRES_LABEL_CHAOTIC && a->label != PENDRES_LABEL_UNRESOLVED &&
          a->label != PENDRES_LABEL_ESCAPE && a->label != PENDRES_LABEL_QUASI_PERIODIC &&
-         a->orbit.period > 0;
+         a->label != PENDRES_LABEL_UNSTABLE && a->orbit.period > 0;
 }
 
 int pendres_settled_alike(const pendres_attractor *a, const pendres_attractor *b)
@@ -193,8 +193,7 @@ static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const s
     const size_t number = outcome[k].attractor >= 0 ? (size_t)outcome[k].attractor : (size_t)-1;
     const pendres_attractor *a = pendres_attractors_get(found, number);
     if (a != NULL) s[which[k]].attractor = *a;
-    if (outcome[k].attractor == PENDRES_ATTRACTOR_ESCAPED)
-      s[which[k]].attractor.label = PENDRES_LABEL_ESCAPE;
+    if (a == NULL) s[which[k]].attractor.label = outcome[k].label;
     s[which[k]].certain = outcome[k].certain;
   }
   pendres_attractors_free(found);

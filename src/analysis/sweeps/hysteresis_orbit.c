@@ -7,6 +7,7 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
+#include "orbits/orbit_same.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
 #include "analysis/sweeps/numbers.h"
@@ -46,7 +47,7 @@ static int about_one_place(const pendres_orbit *a, const pendres_orbit *b)
 {
   const double turn = pendres_model_turn(&a->pendulum);
   const double middle = 0.5 * (a->mean_angle + b->mean_angle);
-  const double bound = orbit_same_point + a->amplitude_error + b->amplitude_error;
+  const double bound = pendres_orbit_slack(a->amplitude_error + b->amplitude_error);
   if (fabs(remainder(a->mean_angle - b->mean_angle, turn)) < bound) return 1;
   if (!pendres_pendulum_symmetric(&a->pendulum)) return 0;
   const double aside = middle - pendres_model_centre(&a->pendulum, middle);
@@ -73,8 +74,7 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
     status = pendres_part_orbits(w->ctx, &back, 1, &value, &there, &found);
   pendres_part_free(&back);
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
-  *same = found && fabs(there.amplitude - old->orbit.amplitude) <
-                     orbit_same_point + there.amplitude_error + old->orbit.amplitude_error &&
+  *same = found && pendres_orbit_as_wide(&there, &old->orbit) &&
           about_one_place(&there, &old->orbit);
   return status;
 }
@@ -158,6 +158,18 @@ static size_t held(const pendres_path *w, size_t i)
   return i;
 }
 
+/* The orbit at a value that cannot be told from that of a bifurcation at which the part begins or
+   ends: it is the bifurcation's, where Newton's method finds none. NULL: there is none. */
+static const pendres_orbit *at_bifurcation(const pendres_path *w, double value)
+{
+  const pendres_part *s = &w->part;
+  const double same = pendres_part_same(s);
+  const double beginning = pendres_parameter_get(w->parameter, &s->at.pendulum);
+  if (fabs(value - beginning) <= same) return &s->at;
+  const int ends = s->end == PENDRES_PART_BIFURCATION && fabs(value - s->end_value) <= same;
+  return ends ? &s->bifurcation.orbit : NULL;
+}
+
 static pendres_status put_part(pendres_path *w, size_t first, size_t last)
 {
   const size_t n = last - first;
@@ -173,6 +185,12 @@ static pendres_status put_part(pendres_path *w, size_t first, size_t last)
     status = pendres_part_orbits(w->ctx, &w->part, n, w->value + first, orbit, found);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum p = pendres_path_pendulum(w, w->value[first + i]);
+    const pendres_orbit *there = found[i] ? NULL : at_bifurcation(w, w->value[first + i]);
+    if (there != NULL) {
+      orbit[i] = *there;
+      orbit[i].pendulum = p;
+      found[i] = 1;
+    }
     const pendres_attractor a =
       found[i] ? pendres_settled_orbit(&orbit[i]) : pendres_settled_nothing(&p);
     pendres_path_put(w, first + i, &a);
