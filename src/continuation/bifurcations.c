@@ -156,8 +156,7 @@ static pendres_status curve_follow(pendres_context *ctx, const pendres_bifurcati
                                        .high = {o->high[0], o->high[1]},
                                        .wildest =
                                          o->wildest > 0.0 ? o->wildest : bifurcations_wildest,
-                                       .most_points = o->most_points > 0 ? o->most_points
-                                                                         : PENDRES_CURVE_POINTS};
+                                       .most_points = o->most_points};
   pendres_curve_start start;
   start.kind = pendres_followed_at(
     b, o->second, o->spacing > 0.0 ? o->spacing : pendres_curve_spacing, start.u);

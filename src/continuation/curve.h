@@ -24,6 +24,7 @@ typedef struct pendres_curve_zero {
 typedef struct pendres_curve_special {
   pendres_curve_zero at;
   pendres_condition condition;
+  int flat; /* a fold that cannot be told from a cusp: the branch goes on through it */
   pendres_located located;
 } pendres_curve_special;
 
@@ -39,6 +40,7 @@ typedef struct pendres_curve_way {
   pendres_follower at;
   int taken, going; /* of the follower's nodes ahead; whether there may be more */
   size_t count, capacity;
+  size_t stretch, counted; /* nodes since the first parameter turned, and those that count */
   size_t unstable; /* the latest nodes that do not attract */
   pendres_curve_node start, *node; /* outwards, without the start */
   pendres_branch_end end;
@@ -123,7 +125,7 @@ typedef struct pendres_curve_start {
 typedef struct pendres_curve_bounds {
   double low[2], high[2];
   double wildest;
-  size_t most_points; /* each way */
+  size_t most_points; /* each way; 0: PENDRES_CURVE_POINTS, of long stretches not all counted */
   size_t most_unstable; /* a way ends, as if by points, at so many in turn that do not attract; 0:
                            at none */
 } pendres_curve_bounds;

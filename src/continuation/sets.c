@@ -132,7 +132,8 @@ static pendres_status really_lies_on(pendres_context *ctx, pendres_curve *b,
     const double e = pendres_same_orbit + pendres_several_errors * (o->x_error + there[i].x_error);
     if (there[i].period == o->period && same_winding(&there[i], o) &&
         fabs(there[i].amplitude - o->amplitude) < e &&
-        fabs(there[i].loop_area - o->loop_area) < e)
+        fabs(there[i].loop_area - o->loop_area) <
+          e + pendres_several_errors * (o->loop_area_error + there[i].loop_area_error))
       *on = 1;
   }
   return pendres_room_close(&room, status);
