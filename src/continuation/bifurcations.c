@@ -65,7 +65,8 @@ static pendres_status locate_cusp(pendres_context *ctx, const pendres_curve *c, 
   return pendres_curve_locate(ctx, &c->kind, out->condition, u, reach, &out->located);
 }
 
-static const pendres_curve_test cusps = {.function = pendres_curve_bending, .locate = locate_cusp};
+static const pendres_curve_test cusps = {
+  .function = pendres_curve_bending, .touch = 1, .locate = locate_cusp};
 
 /* ---- points ---- */
 

@@ -181,7 +181,7 @@ static pendres_status locate_flip(pendres_context *ctx, const pendres_curve *t, 
 static const pendres_curve_test tests[] = {
   {.find = pendres_curve_find_births, .locate = locate_birth},
   {.find = pendres_curve_find_crossings, .locate = locate_crossing},
-  {.function = pendres_curve_fold, .refine = 1, .locate = locate_fold},
+  {.function = pendres_curve_fold, .refine = 1, .touch = 1, .locate = locate_fold},
   {.function = test_flip, .refine = 1, .locate = locate_flip}};
 
 /* ---- points ---- */

@@ -372,7 +372,7 @@ pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *
     pendres_curve_zero zeros[PENDRES_CURVE_ZEROS];
     size_t count = 0;
     if (tests[i].find != NULL) status = tests[i].find(ctx, c, zeros, &count);
-    else count = pendres_curve_zeros(c, tests[i].function, zeros);
+    else count = pendres_curve_zeros(c, &tests[i], zeros);
     for (size_t k = 0; k < count && status == PENDRES_OK; k++)
       status = add_special(ctx, &tests[i], &zeros[k], c);
   }

@@ -161,6 +161,8 @@ enum { PENDRES_CURVE_ZEROS = 256 /* at most, of one function */ };
 typedef struct pendres_curve_test {
   pendres_curve_function *function;
   int refine; /* whether it may touch 0, or have two zeros between nodes: these are added then */
+  int touch;  /* whether a minimum of about 0 counts: where a branch is born from another the
+                 determinant touches 0. The other sign's comes close to it wherever damping is weak */
   pendres_status (*find)(pendres_context *ctx, const pendres_curve *curve,
                          pendres_curve_zero zeros[PENDRES_CURVE_ZEROS], size_t *count);
   pendres_status (*locate)(pendres_context *ctx, const pendres_curve *curve, const pendres_u u,
@@ -197,9 +199,8 @@ pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_cur
 pendres_status pendres_curve_refine(pendres_context *ctx, pendres_curve *curve,
                                     pendres_curve_function *function);
 
-/* Find the zeros of a function, in order; returns their number. A minimum of about 0 counts as one:
-   where a branch is born from another the determinant touches 0. */
-size_t pendres_curve_zeros(const pendres_curve *curve, pendres_curve_function *function,
+/* Find the zeros of a test's function, in order; returns their number. */
+size_t pendres_curve_zeros(const pendres_curve *curve, const pendres_curve_test *of,
                            pendres_curve_zero zeros[PENDRES_CURVE_ZEROS]);
 
 /* The point at a zero, by linear interpolation, and the length of the chord. */

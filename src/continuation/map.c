@@ -113,6 +113,10 @@ pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the branch leaves the parameters: %s",
                                 why);
   const double speed = pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
+  /* A large orbit's resonance is as narrow as its damping: what the steps add must be less. */
+  const pendres_map map = {.force = force};
+  const double large = pendres_arc_large(&map, u), decay = two_pi * p.damping / p.drive_frequency;
+  if (large > 1.0 && decay > 0.0) tolerance = fmin(tolerance, map_undamped * large * decay);
   const pendres_status status = pendres_steps_choose(ctx, &p, speed, tolerance, steps);
   *steps += *steps % 2;
   return status;

@@ -73,6 +73,9 @@ static const double scale_logarithmic = 20.0;
    this on, where folds are of order one, lengths are counted. */
 static const double scale_weak = 20.0, scale_least = 1e-5;
 
+/* Steps may change the way of a large orbit in a period by this share of what damping does. */
+static const double map_undamped = 0.01;
+
 /* ---- curves ---- */
 
 /* The largest spacing of points along curves that callers see, unless they choose another: eight

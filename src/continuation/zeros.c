@@ -114,15 +114,16 @@ static size_t chords_of(const pendres_curve *t)
   return t->nodes < 2 ? 0 : pendres_curve_closed(t) ? t->nodes : t->nodes - 1;
 }
 
-size_t pendres_curve_zeros(const pendres_curve *t, pendres_curve_function *test,
+size_t pendres_curve_zeros(const pendres_curve *t, const pendres_curve_test *of,
                            pendres_curve_zero zeros[PENDRES_CURVE_ZEROS])
 {
+  pendres_curve_function *const test = of->function;
   size_t count = 0;
   for (size_t i = 0; i < chords_of(t) && count < PENDRES_CURVE_ZEROS; i++) {
     const double a = test(&t->node[i]), b = test(&t->node[(i + 1) % t->nodes]);
     if (a == 0.0 || a * b < 0.0)
       zeros[count++] = (pendres_curve_zero){.i = i, .part = part_of(t, test, i, a, b)};
-    else if (touches(t, test, i, &zeros[count])) count++;
+    else if (of->touch && touches(t, test, i, &zeros[count])) count++;
   }
   return count;
 }
