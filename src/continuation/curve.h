@@ -161,8 +161,8 @@ enum { PENDRES_CURVE_ZEROS = 256 /* at most, of one function */ };
 typedef struct pendres_curve_test {
   pendres_curve_function *function;
   int refine; /* whether it may touch 0, or have two zeros between nodes: these are added then */
-  int touch;  /* whether a minimum of about 0 counts: where a branch is born from another the
-                 determinant touches 0. The other sign's comes close to it wherever damping is weak */
+  int touch;  /* whether a minimum of about 0 counts: where a branch is born from another det(N - I)
+                 touches 0. At weak damping det(N + I) comes close to it without a flip */
   pendres_status (*find)(pendres_context *ctx, const pendres_curve *curve,
                          pendres_curve_zero zeros[PENDRES_CURVE_ZEROS], size_t *count);
   pendres_status (*locate)(pendres_context *ctx, const pendres_curve *curve, const pendres_u u,
