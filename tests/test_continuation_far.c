@@ -117,8 +117,8 @@ static void strong_drives_have_their_upper_branch(void **state)
   double off = 0.0, upper = 0.0;
   for (size_t k = 0; k < found; k++) {
     const pendres_orbit *o = &there[k];
-    pendres_reference_cycle e;
-    check_ok(pendres_reference_orbit(&o->pendulum, o->x, o->v, 1, 0, &e));
+    reference_cycle e;
+    check_ok(reference_orbit(&o->pendulum, o->x, o->v, 1, 0, &e));
     note(&off, o->x, o->x_error, e.y);
     note(&off, o->v, o->v_error, e.v);
     note(&off, o->amplitude, o->amplitude_error, e.amplitude);
