@@ -179,6 +179,35 @@ static void slower_and_slower(void **state)
   pendres_hysteresis_free(h);
 }
 
+/*
+ * Chaos gives way to running orbits of two drive periods between 1.28 and 1.285 (Taylor, Classical
+ * Mechanics, section 12.6). To find where takes more than a value may; what it gave way to is known
+ * all the same, and the end is between the values.
+ */
+static void where_chaos_ends_takes_too_much(void **state)
+{
+  static const double value[] = {1.28, 1.285, 1.29};
+  const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 2.0 / 3.0};
+  pendres_hysteresis *h = NULL;
+  check_ok(pendres_hysteresis_find(*state, &p, &(pendres_state){0.1, 0.1},
+                                   &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 3, value},
+                                   &h));
+  for (size_t i = 0; i < 3; i++) {
+    const pendres_hysteresis_point *at = pendres_hysteresis_get(h, i);
+    assert_int_equal(at->outcome, PENDRES_OK);
+    assert_int_equal(at->attractor.label, i > 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_CHAOTIC);
+    if (i == 0) continue;
+    assert_int_equal(at->attractor.orbit.period, 2);
+    assert_int_equal(abs(at->attractor.orbit.winding), 2);
+  }
+  assert_int_equal(pendres_hysteresis_jump_count(h), 1);
+  const pendres_jump *j = pendres_hysteresis_jump_get(h, 0);
+  assert_int_equal(j->kind, PENDRES_JUMP_OTHER);
+  assert_int_equal(j->step, 1);
+  assert_true(j->value - j->value_error >= 1.28 && j->value + j->value_error <= 1.285);
+  pendres_hysteresis_free(h);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -187,6 +216,7 @@ int main(void)
     cmocka_unit_test(end_that_nothing_follows),
     cmocka_unit_test(beyond_an_end),
     cmocka_unit_test_setup_teardown(slower_and_slower, setup, teardown),
+    cmocka_unit_test_setup_teardown(where_chaos_ends_takes_too_much, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

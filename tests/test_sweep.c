@@ -49,6 +49,18 @@ static void ranges_hold_the_decimals(void **state)
     assert_true(pendres_range_value(&narrow, i) > pendres_range_value(&narrow, i - 1));
 }
 
+/* Between ends times a power of two values are those times it but for rounding, which what is said
+   of units of the same digits leaves to ranges. */
+static void scaled_ranges_differ_by_rounding(void **state)
+{
+  (void)state;
+  for (int k = -40; k <= 40; k++) {
+    const pendres_range one = {0.1, 0.8, 5}, scaled = {ldexp(0.1, k), ldexp(0.8, k), 5};
+    for (size_t i = 0; i < 5; i++)
+      check_near(ldexp(pendres_range_value(&scaled, i), -k), pendres_range_value(&one, i), 3e-16);
+  }
+}
+
 static void check_values(size_t listed, const double *list, const pendres_range *range, size_t n,
                          const double *expected)
 {
@@ -201,6 +213,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(range_has_exact_ends),
     cmocka_unit_test(ranges_hold_the_decimals),
+    cmocka_unit_test(scaled_ranges_differ_by_rounding),
     cmocka_unit_test(union_is_sorted_and_has_no_twins),
     cmocka_unit_test(listed_values_stand_for_the_ranges),
     cmocka_unit_test(values_that_are_wrong),

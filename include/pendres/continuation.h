@@ -68,7 +68,8 @@ typedef struct pendres_bifurcation {
    * For a fold: second derivative of the parameter by arclength of the Poincaré point in
    * the plane of x and v times the pendulum's unit of time (pendres_units_of), along the
    * branch. Negative: the two orbits exist below `value`, positive: above. 0 at a cusp. NaN for
-   * the other kinds.
+   * the other kinds. A fold that cannot be told from a cusp has 0, and an error that says how
+   * large it may be: the branch goes on through it and does not turn.
    */
   double curvature;
   double curvature_error;      /**< its error */
@@ -111,7 +112,8 @@ typedef struct pendres_branch_options {
   double high;          /**< highest value */
   double spacing;       /**< of points in arclength, up to twice this in bends; default 0.05 */
   double wildest;       /**< growth of errors in one map at which a branch is given up; 1e3 */
-  size_t most_points;   /**< each way from the start; default 2000 */
+  size_t most_points;   /**< each way from the start; default 2000, of which a stretch on which the
+                             parameter does not turn counts as 200 at most, and 20000 in all */
 } pendres_branch_options;
 
 /** Why a branch ends where it does. */
@@ -143,9 +145,11 @@ typedef struct pendres_branch_point {
   pendres_special kind;   /**< what happens there; PENDRES_REGULAR: nothing */
   int bifurcation;        /**< its number in the branch's list, -1 for a regular point */
   double arclength;       /**< from the first point, in the pendulum's units (pendres_units_of):
-                               y = x - pi/2 and v/omega count as they are, the drive frequency in
-                               units of 0.3, other parameters of 0.1, but none in less than a
-                               twentieth of its value */
+                               y = x - pi/2 and v/omega count as they are, those of a force without
+                               a period by their ratios where they are larger than 2, and at
+                               dampings below 0.05 where they are smaller than 1; the drive
+                               frequency in units of 0.3, other parameters of 0.1, but none in less
+                               than a twentieth of its value */
   double parameter_error; /**< across the branch */
   pendres_orbit orbit;    /**< its pendulum has the parameter; slopes are NaN */
   int doubt;              /**< bits of pendres_doubt */
@@ -275,7 +279,7 @@ typedef struct pendres_curve_options {
   double high[2];                /**< highest values: the curve is followed while both lie within */
   double spacing;                /**< of points in arclength, as for branches; default 0.05 */
   double wildest;                /**< growth of errors in a map at which a curve is given up; 300 */
-  size_t most_points;            /**< each way from the start; default 2000 */
+  size_t most_points;            /**< each way from the start; default as for branches */
 } pendres_curve_options;
 
 /** A point of a curve. */

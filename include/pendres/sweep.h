@@ -34,7 +34,9 @@ typedef struct pendres_range {
 
 /**
  * The values of an axis: the union of a list and a range, ascending, repeated values dropped:
- * those of the range within their rounding error of a listed one.
+ * those of the range within their rounding error of a listed one. A value of the range is the
+ * shortest decimal within its rounding error: those of a range whose ends are multiplied by a power
+ * of two may differ from its values times that in the last place.
  *
  * @param listed how many values list has
  * @param list   in any order; may be NULL if there are none

@@ -116,7 +116,7 @@ static int between(const pendres_system *s, const pendres_curve_node *a,
   double slope[PENDRES_UNKNOWNS], bend[PENDRES_UNKNOWNS];
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
-    slope[k] = a->tangent[k] * pendres_arc_scale(i, a->u);
+    slope[k] = a->tangent[k] * pendres_arc_scale(&s->map, i, a->u);
     bend[k] = (b->u[i] - a->u[i] - slope[k] * h) / (h * h);
   }
   const double square = slope[last] * slope[last] + 4.0 * bend[last] * away;
@@ -183,7 +183,7 @@ static pendres_status correct(pendres_context *ctx, const pendres_followed *kind
   if (status == PENDRES_OK) status = pendres_follow_correct(ctx, l->found, c);
   for (size_t k = 0; k < l->found && status == PENDRES_OK; k++) {
     if (isnan(pendres_correction_rounding(&c[k])) ||
-        !(pendres_arc_distance(c[k].u, l->node[k].u) < kind->spacing))
+        !(pendres_arc_distance(&kind->system.map, c[k].u, l->node[k].u) < kind->spacing))
       continue;
     l->node[kept] = l->node[k];
     memcpy(l->node[kept].u, c[k].u, sizeof c[k].u);

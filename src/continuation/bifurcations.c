@@ -65,7 +65,8 @@ static pendres_status locate_cusp(pendres_context *ctx, const pendres_curve *c, 
   return pendres_curve_locate(ctx, &c->kind, out->condition, u, reach, &out->located);
 }
 
-static const pendres_curve_test cusps = {.function = pendres_curve_bending, .locate = locate_cusp};
+static const pendres_curve_test cusps = {
+  .function = pendres_curve_bending, .touch = 1, .locate = locate_cusp};
 
 /* ---- points ---- */
 
@@ -156,8 +157,7 @@ static pendres_status curve_follow(pendres_context *ctx, const pendres_bifurcati
                                        .high = {o->high[0], o->high[1]},
                                        .wildest =
                                          o->wildest > 0.0 ? o->wildest : bifurcations_wildest,
-                                       .most_points = o->most_points > 0 ? o->most_points
-                                                                         : PENDRES_CURVE_POINTS};
+                                       .most_points = o->most_points};
   pendres_curve_start start;
   start.kind = pendres_followed_at(
     b, o->second, o->spacing > 0.0 ? o->spacing : pendres_curve_spacing, start.u);

@@ -181,7 +181,7 @@ static pendres_status locate_flip(pendres_context *ctx, const pendres_curve *t, 
 static const pendres_curve_test tests[] = {
   {.find = pendres_curve_find_births, .locate = locate_birth},
   {.find = pendres_curve_find_crossings, .locate = locate_crossing},
-  {.function = pendres_curve_fold, .refine = 1, .locate = locate_fold},
+  {.function = pendres_curve_fold, .refine = 1, .touch = 1, .locate = locate_fold},
   {.function = test_flip, .refine = 1, .locate = locate_flip}};
 
 /* ---- points ---- */
@@ -198,7 +198,7 @@ static pendres_status set_crossing(pendres_context *ctx, const pendres_curve *t,
   const pendres_status status =
     pendres_crossing_direction(ctx, &system, p->fine, t->node[s->at.i].tangent, way);
   if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
-  for (int k = 0; k < 3; k++) way[k] *= pendres_arc_scale(unknown[k], p->fine);
+  for (int k = 0; k < 3; k++) way[k] *= pendres_arc_scale(&p->map, unknown[k], p->fine);
   way[1] *= p->fine[PENDRES_U_OMEGA]; /* of w = v / omega */
   if (unknown[2] == PENDRES_U_OMEGA) way[1] += p->fine[PENDRES_U_W] * way[2];
   memcpy(b->crossing, way, sizeof way);
@@ -217,6 +217,10 @@ static pendres_status fill(pendres_context *ctx, pendres_curve *c)
       ctx, s->condition, pendres_curve_parameter(c, 0), &s->located, &c->bifurcation[k]);
     if (status == PENDRES_OK && s->condition == PENDRES_CONDITION_CROSSING)
       status = set_crossing(ctx, c, s, &c->bifurcation[k]);
+    if (s->flat) {
+      c->bifurcation[k].curvature_error += fabs(c->bifurcation[k].curvature);
+      c->bifurcation[k].curvature = 0.0;
+    }
     if (status != PENDRES_OK) return status;
   }
   for (size_t k = 0; k < c->count; k++) {
@@ -232,9 +236,45 @@ static pendres_status fill(pendres_context *ctx, pendres_curve *c)
   return PENDRES_OK;
 }
 
+/* Sign of (1 - m1)(1 - m2) at a node; 0 where rounding decides it. */
+static int sign_at(const pendres_curve_node *p)
+{
+  const double half = 0.5 * p->image.trace, square = half * half - p->image.determinant;
+  const double leading = square > 0.0 ? half + sqrt(square) : 0.0;
+  if (square > 0.0 && fabs(1.0 - leading) < curve_untold) return 0;
+  return pendres_curve_fold(p) > 0.0 ? 1 : -1;
+}
+
+/*
+ * Next to a cusp two folds may be so close that orbits between them cannot be told from folds, and
+ * one is found. Of an odd number of folds between nodes that tell the same sign one is flat.
+ */
+static void find_flat(pendres_curve *c)
+{
+  size_t first = 0, last = 0;
+  int sign = 0;
+  for (size_t i = 0; i < c->nodes; i++) {
+    const int here = sign_at(&c->node[i]);
+    size_t folds = 0, fold = 0;
+    if (here == 0) continue;
+    while (last < c->specials && c->special[last].at.i < i) last++;
+    for (; first < last; first++) {
+      const pendres_condition condition = c->special[first].condition;
+      if (condition != PENDRES_CONDITION_FOLD && condition != PENDRES_CONDITION_CROSSING) continue;
+      if (folds++ < 2) fold = first; /* of three the one in the middle */
+    }
+    if (sign == here && folds % 2 != 0)
+      c->special[fold].flat = c->special[fold].condition == PENDRES_CONDITION_FOLD;
+    sign = here;
+  }
+}
+
 static pendres_status find_bifurcations(pendres_context *ctx, pendres_curve *c)
 {
-  return pendres_curve_find_specials(ctx, c, sizeof tests / sizeof *tests, tests);
+  const pendres_status status =
+    pendres_curve_find_specials(ctx, c, sizeof tests / sizeof *tests, tests);
+  if (status == PENDRES_OK && c->specials > 0) find_flat(c);
+  return status;
 }
 
 static pendres_status finish(pendres_context *ctx, pendres_curve *c)
@@ -278,7 +318,7 @@ static pendres_status branch_follow(pendres_context *ctx, const pendres_orbit *o
     .low = {o->low},
     .high = {o->high},
     .wildest = o->wildest > 0.0 ? o->wildest : pendres_curve_wildest,
-    .most_points = o->most_points > 0 ? o->most_points : PENDRES_CURVE_POINTS};
+    .most_points = o->most_points};
   pendres_curve_start start;
   pendres_curve *curve = NULL;
   start.kind = pendres_followed_of(orbit, PENDRES_CONDITION_NONE, &o->parameter,

@@ -37,10 +37,10 @@ static int own(const pendres_curve *b, const pendres_bifurcation *f)
   return f->orbit.period == b->kind.system.map.period;
 }
 
-/* Whether the sign changes at a bifurcation. */
+/* Whether the sign changes at a bifurcation. At a cusp, a fold without curvature, it does not. */
 static int changes(const pendres_curve *b, const pendres_bifurcation *f, double s)
 {
-  return own(b, f) && (f->kind == PENDRES_PERIOD_DOUBLING) == (s < 0.0);
+  return own(b, f) && (f->kind == PENDRES_PERIOD_DOUBLING) == (s < 0.0) && f->curvature != 0.0;
 }
 
 /* From one point that tells to the next an odd number of bifurcations changes the sign. */
@@ -97,8 +97,9 @@ static void check_turns(pendres_curve *b)
       continue;
     }
     const pendres_bifurcation *f = &b->bifurcation[b->branch_point[i].bifurcation];
-    if (f->kind == PENDRES_FOLD ? !turns || (f->curvature > 0.0) != (before > 0)
-                                : own(b, f) && turns)
+    if (f->kind == PENDRES_FOLD && f->curvature != 0.0
+          ? !turns || (f->curvature > 0.0) != (before > 0)
+          : own(b, f) && turns)
       b->branch_point[i].doubt |= PENDRES_DOUBT_BIFURCATION;
   }
 }

@@ -159,7 +159,7 @@ static void add_beyond(stencil *s, const pendres_curve *c, size_t from, size_t o
     at = (at + (side < 0 ? c->count - 1 : 1)) % c->count;
     if (at == other) return;
     next_to(c, at, here, beyond);
-    away += pendres_arc_distance(here, beyond);
+    away += pendres_arc_distance(&c->kind.system.map, here, beyond);
     memcpy(here, beyond, sizeof here);
   }
   memcpy(s->u[s->nodes], here, sizeof here);
@@ -173,7 +173,7 @@ static stencil stencil_of(const pendres_curve *c, size_t i)
   stencil s = {.nodes = 2};
   memcpy(s.u[0], c->u[i], sizeof s.u[0]);
   next_to(c, k, s.u[0], s.u[1]);
-  s.length = s.t[1] = pendres_arc_distance(s.u[0], s.u[1]);
+  s.length = s.t[1] = pendres_arc_distance(&c->kind.system.map, s.u[0], s.u[1]);
   add_beyond(&s, c, i, k, -1);
   add_beyond(&s, c, k, i, 1);
   return s;
@@ -256,6 +256,7 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
   *found = 0;
   const pendres_condition condition = c->kind.system.condition;
+  const pendres_map *map = &c->kind.system.map;
   const int second = c->kind.system.unknown[3];
   pendres_u guess, last_guess, last;
   for (size_t i = 0; i < chords_of(c); i++) {
@@ -276,8 +277,8 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
       if (!pendres_located_found(status)) return status;
       /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
       const int again = *found > 0 &&
-                        pendres_arc_distance(located.pair.fine, last) <
-                          crossed_together * pendres_arc_distance(guess, last_guess);
+                        pendres_arc_distance(map, located.pair.fine, last) <
+                          crossed_together * pendres_arc_distance(map, guess, last_guess);
       memcpy(last_guess, guess, sizeof last_guess);
       memcpy(last, located.pair.fine, sizeof last);
       if (again) continue;

@@ -72,11 +72,11 @@ static void row_of(const pendres_image *image, int parameter, int i, double out[
 }
 
 /* The scales of y, w and p at a place. */
-static void scales_at(const pendres_u u, int parameter, double out[3])
+static void scales_at(const pendres_system *s, const pendres_u u, double out[3])
 {
   for (int k = 0; k < 3; k++) {
-    const int place = place_of(parameter, k);
-    out[k] = pendres_arc_scale(place, u);
+    const int place = place_of(s->unknown[2], k);
+    out[k] = pendres_arc_scale(&s->map, place, u);
   }
 }
 
@@ -116,7 +116,7 @@ static pendres_status bend_of(pendres_context *ctx, const pendres_system *system
   const int parameter = system->unknown[2];
   pendres_image image[4];
   double points[4][PENDRES_U_COUNT], scale[3], way[2][3];
-  scales_at(u, parameter, scale);
+  scales_at(system, u, scale);
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 3; k++) way[i][k] = plane[i][k] * scale[k];
   for (int i = 0; i < 4; i++) {
@@ -154,7 +154,7 @@ pendres_status pendres_crossing_direction(pendres_context *ctx, const pendres_sy
   l[1 - pivot.row] = 1.0;
   l[pivot.row] = -image.j[1 - pivot.row][place] / image.j[pivot.row][place];
   row_of(&image, parameter, pivot.row, row);
-  scales_at(u, parameter, scale);
+  scales_at(system, u, scale);
   for (int k = 0; k < 3; k++) row[k] *= scale[k];
   if (!plane_of(row, own, plane)) return PENDRES_NOT_CONVERGED;
   status = bend_of(ctx, system, u, l, plane, bend);

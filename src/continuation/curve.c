@@ -98,6 +98,7 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
 {
   pendres_system system = kind->system;
   const int k = out->unknown, place = system.unknown[k];
+  const pendres_map *map = &kind->system.map;
   const double bound = out->bound, way_out = outside->u[place] - inside->u[place];
   const double part = (bound - inside->u[place]) / way_out;
   pendres_curve_node *node = &out->node;
@@ -111,14 +112,14 @@ static pendres_status land(pendres_context *ctx, const pendres_followed *kind,
   c.tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
   int found = 0;
   pendres_status status = pendres_follow_place(ctx, kind->tolerance, &c, &found);
-  const double chord = pendres_arc_distance(inside->u, outside->u);
-  if (!found || pendres_arc_distance(inside->u, c.u) > chord ||
+  const double chord = pendres_arc_distance(map, inside->u, outside->u);
+  if (!found || pendres_arc_distance(map, inside->u, c.u) > chord ||
       fabs(c.u[place] - bound) > curve_on_bound)
     return status;
   memcpy(node->u, c.u, sizeof node->u);
   node->u[place] = bound;
   node->held = k + 1;
-  node->arclength = inside->arclength + pendres_arc_distance(inside->u, c.u);
+  node->arclength = inside->arclength + pendres_arc_distance(map, inside->u, c.u);
   node->bending = inside->bending + part * (outside->bending - inside->bending);
   /* The tangent of the curve is interpolated; that of the correction is the plane of the bound. */
   for (int i = 0; i < system.unknowns; i++)
@@ -149,13 +150,14 @@ static int passes(const pendres_system *s, const pendres_curve_node *start,
   for (int k = 0; k < s->unknowns; k++) {
     const int i = s->unknown[k];
     const double t = start->tangent[k];
-    before += t * (a->u[i] - here[i]) / pendres_arc_scale(i, here);
-    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(i, here);
+    before += t * (a->u[i] - here[i]) / pendres_arc_scale(&s->map, i, here);
+    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(&s->map, i, here);
     along += t * b->tangent[k];
   }
-  const double chord = pendres_arc_distance(a->u, b->u);
+  const double chord = pendres_arc_distance(&s->map, a->u, b->u);
   return before < 0.0 && behind >= 0.0 && along > curve_back_along &&
-         pendres_arc_distance(a->u, here) <= chord && pendres_arc_distance(b->u, here) <= chord;
+         pendres_arc_distance(&s->map, a->u, here) <= chord &&
+         pendres_arc_distance(&s->map, b->u, here) <= chord;
 }
 
 static void end_way(pendres_curve_way *w, pendres_branch_end end)
@@ -170,29 +172,40 @@ static int attracts(const pendres_curve_node *node)
   return pendres_map_fold(&node->image) > 0.0 && pendres_map_flip(&node->image) > 0.0;
 }
 
+/* Whether a way has as many points as it may. What goes on and on in one direction comes to the end
+   of its range, however long it is: only curves that turn again and again are endless. */
+static int is_full(const pendres_curve_bounds *b, const pendres_curve_way *w)
+{
+  if (b->most_points > 0) return w->count >= b->most_points;
+  return w->counted >= PENDRES_CURVE_POINTS || w->count >= CURVE_LONGEST;
+}
+
 /* Take over what the follower has found ahead of it. */
 static pendres_status take(pendres_context *ctx, const pendres_curve_bounds *b,
                            pendres_curve_way *w)
 {
   const pendres_follower *f = &w->at;
+  const pendres_system *s = &f->kind.system;
   if (f->stuck) end_way(w, PENDRES_END_STUCK);
   while (w->taken < f->found && w->going) {
     const pendres_curve_node *p = &f->ahead[w->taken++];
     const pendres_curve_node *last = w->count > 0 ? &w->node[w->count - 1] : &w->start;
     landing at;
-    if (out_of_bounds(&f->kind.system, b, p->u, &at)) {
+    if (out_of_bounds(s, b, p->u, &at)) {
       end_way(w, PENDRES_END_RANGE);
       const pendres_status status = land(ctx, &f->kind, last, p, &at);
       if (status != PENDRES_OK) return status;
       if (at.landed && add(w, &at.node) != 0) return no_memory(ctx);
-    } else if (p->arclength > curve_another_pass * pendres_arc_distance(last->u, p->u) &&
-               passes(&f->kind.system, &w->start, last, p)) {
+    } else if (p->arclength > curve_another_pass * pendres_arc_distance(&s->map, last->u, p->u) &&
+               passes(s, &w->start, last, p)) {
       end_way(w, PENDRES_END_CLOSED);
     } else {
+      w->stretch = last->tangent[2] * p->tangent[2] > 0.0 ? w->stretch + 1 : 0;
+      w->counted += w->stretch < CURVE_STRETCH;
       if (add(w, p) != 0) return no_memory(ctx);
       w->unstable = attracts(p) ? 0 : w->unstable + 1;
       if (p->growth > b->wildest) end_way(w, PENDRES_END_WILD);
-      else if (w->count >= b->most_points) end_way(w, PENDRES_END_POINTS);
+      else if (is_full(b, w)) end_way(w, PENDRES_END_POINTS);
       else if (b->most_unstable > 0 && w->unstable >= b->most_unstable)
         end_way(w, PENDRES_END_POINTS);
     }
@@ -265,7 +278,7 @@ pendres_status pendres_curve_extend(pendres_context *ctx, pendres_curve *c,
   pendres_status status = PENDRES_OK;
   for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
     pendres_curve_way *w = &c->way[k];
-    w->going |= w->end == PENDRES_END_POINTS && w->count < bounds->most_points;
+    w->going |= w->end == PENDRES_END_POINTS && !is_full(bounds, w);
     status = take(ctx, bounds, w);
   }
   while (status == PENDRES_OK) {
@@ -359,7 +372,7 @@ pendres_status pendres_curve_find_specials(pendres_context *ctx, pendres_curve *
     pendres_curve_zero zeros[PENDRES_CURVE_ZEROS];
     size_t count = 0;
     if (tests[i].find != NULL) status = tests[i].find(ctx, c, zeros, &count);
-    else count = pendres_curve_zeros(c, tests[i].function, zeros);
+    else count = pendres_curve_zeros(c, &tests[i], zeros);
     for (size_t k = 0; k < count && status == PENDRES_OK; k++)
       status = add_special(ctx, &tests[i], &zeros[k], c);
   }

@@ -24,6 +24,7 @@ typedef struct pendres_curve_zero {
 typedef struct pendres_curve_special {
   pendres_curve_zero at;
   pendres_condition condition;
+  int flat; /* a fold that cannot be told from a cusp: the branch goes on through it */
   pendres_located located;
 } pendres_curve_special;
 
@@ -39,6 +40,7 @@ typedef struct pendres_curve_way {
   pendres_follower at;
   int taken, going; /* of the follower's nodes ahead; whether there may be more */
   size_t count, capacity;
+  size_t stretch, counted; /* nodes since the first parameter turned, and those that count */
   size_t unstable; /* the latest nodes that do not attract */
   pendres_curve_node start, *node; /* outwards, without the start */
   pendres_branch_end end;
@@ -123,7 +125,7 @@ typedef struct pendres_curve_start {
 typedef struct pendres_curve_bounds {
   double low[2], high[2];
   double wildest;
-  size_t most_points; /* each way */
+  size_t most_points; /* each way; 0: PENDRES_CURVE_POINTS, of long stretches not all counted */
   size_t most_unstable; /* a way ends, as if by points, at so many in turn that do not attract; 0:
                            at none */
 } pendres_curve_bounds;
@@ -159,6 +161,8 @@ enum { PENDRES_CURVE_ZEROS = 256 /* at most, of one function */ };
 typedef struct pendres_curve_test {
   pendres_curve_function *function;
   int refine; /* whether it may touch 0, or have two zeros between nodes: these are added then */
+  int touch;  /* whether a minimum of about 0 counts: where a branch is born from another det(N - I)
+                 touches 0. At weak damping det(N + I) comes close to it without a flip */
   pendres_status (*find)(pendres_context *ctx, const pendres_curve *curve,
                          pendres_curve_zero zeros[PENDRES_CURVE_ZEROS], size_t *count);
   pendres_status (*locate)(pendres_context *ctx, const pendres_curve *curve, const pendres_u u,
@@ -195,9 +199,8 @@ pendres_status pendres_curve_find_births(pendres_context *ctx, const pendres_cur
 pendres_status pendres_curve_refine(pendres_context *ctx, pendres_curve *curve,
                                     pendres_curve_function *function);
 
-/* Find the zeros of a function, in order; returns their number. A minimum of about 0 counts as one:
-   where a branch is born from another the determinant touches 0. */
-size_t pendres_curve_zeros(const pendres_curve *curve, pendres_curve_function *function,
+/* Find the zeros of a test's function, in order; returns their number. */
+size_t pendres_curve_zeros(const pendres_curve *curve, const pendres_curve_test *of,
                            pendres_curve_zero zeros[PENDRES_CURVE_ZEROS]);
 
 /* The point at a zero, by linear interpolation, and the length of the chord. */

@@ -244,7 +244,7 @@ static pendres_status approach_orbit(pendres_context *ctx, const pendres_system 
     const pendres_status status = pendres_equations_at(ctx, &orbits, 1, (const pendres_u *)u, &e);
     if (status != PENDRES_OK) return status;
     for (int k = 0; k < s->unknowns; k++) {
-      scale[k] = pendres_arc_scale(s->unknown[k], u);
+      scale[k] = pendres_arc_scale(&s->map, s->unknown[k], u);
       for (int r = 0; r < 2; r++) a[r][k] = e.j[r][s->unknown[k]] * scale[k];
       b[0] += a[0][k] * a[0][k];
       b[1] += a[0][k] * a[1][k];
@@ -285,7 +285,8 @@ pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_syste
       for (int k = 0; k < n; k++) a[r][k] = at->j[r][s->unknown[k]];
     }
     if (!pendres_equations_linear(n, a, d)) return PENDRES_NOT_CONVERGED;
-    for (int k = 0; k < n; k++) length = hypot(length, d[k]);
+    const double large = pendres_arc_large(&s->map, u);
+    for (int k = 0; k < n; k++) length = hypot(length, k < 2 ? d[k] / large : d[k]);
     if (!(length < newton_lost)) return PENDRES_NOT_CONVERGED;
     const double part = length > longest ? longest / length : 1.0;
     for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];

@@ -27,15 +27,15 @@ pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_conditi
 /* The scale of unknown number k at a place. */
 static double scale_at(const pendres_system *s, int k, const pendres_u u)
 {
-  return s->lengths && k < 2 ? 1.0 : pendres_arc_scale(s->unknown[k], u);
+  return s->lengths && k < 2 ? 1.0 : pendres_arc_scale(&s->map, s->unknown[k], u);
 }
 
 /* From a to b along unknown number k, in the scale between them. */
 static double way_between(const pendres_system *s, int k, const pendres_u a, const pendres_u b)
 {
   const int i = s->unknown[k];
-  const double scale = s->lengths && k < 2 ? 1.0 : pendres_arc_scale_between(i, a, b);
-  return (b[i] - a[i]) / scale;
+  return (b[i] - a[i]) /
+         (s->lengths && k < 2 ? 1.0 : pendres_arc_scale_between(&s->map, i, a, b));
 }
 
 /* The equations at u, and the plane across a direction, linearised in the scaled unknowns. */
@@ -108,7 +108,11 @@ static void correct(pendres_correction *c)
   if (!(length < 1.0)) return;
   for (int k = 0; k < n; k++) c->u[s->unknown[k]] += scale_at(s, k, c->u) * d[k];
   if (!is_possible(c)) return;
-  c->state = length < follow_last_step ? PENDRES_CORRECTION_CONVERGED : PENDRES_CORRECTION_ACTIVE;
+  c->state = PENDRES_CORRECTION_CONVERGED;
+  if (length < follow_last_step) return;
+  /* Of a large orbit in a narrow resonance rounding may be longer. */
+  if (!(pendres_arc_large(&s->map, c->u) > 1.0 && length < pendres_correction_rounding(c)))
+    c->state = PENDRES_CORRECTION_ACTIVE;
 }
 
 /* The inverse of the linearised equations, by columns, tells how rounding moves the point. */
@@ -117,13 +121,12 @@ double pendres_correction_rounding(const pendres_correction *c)
   const pendres_system *s = &c->kind->system;
   const int n = s->unknowns;
   const double grown = fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1]));
-  const double unit =
-    pendres_step_rounding * grown * sqrt(c->steps * c->kind->system.map.period);
+  const double unit = pendres_step_rounding * grown * sqrt(c->steps * s->map.period);
   double sum = 0.0;
   if (c->state != PENDRES_CORRECTION_CONVERGED) return NAN;
   for (int column = 0; column + 1 < n; column++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
-    linearise(&c->kind->system, &c->at, c->u, c->tangent, a);
+    linearise(s, &c->at, c->u, c->tangent, a);
     b[column] = column < 2 ? unit : 4.0 * unit;
     if (!pendres_equations_linear(n, a, b)) return NAN;
     for (int k = 0; k < n; k++)
@@ -422,7 +425,7 @@ static pendres_status stays(pendres_context *ctx, const pendres_follower *w,
   const pendres_system crossings =
     pendres_system_of(&s->map, PENDRES_CONDITION_CROSSING, s->unknown);
   status = pendres_locate(
-    ctx, &crossings, u, 2.0 * pendres_arc_distance(last->u, node->u), &at);
+    ctx, &crossings, u, 2.0 * pendres_arc_distance(&s->map, last->u, node->u), &at);
   *same = !(status == PENDRES_NOT_CONVERGED && at.parted);
   return pendres_located_found(status) || status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
 }

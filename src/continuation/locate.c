@@ -46,17 +46,18 @@ static int moved_by_each(const pendres_equations *e, const int *unknown,
 
 /* What rounding of the map adds to each equation. The derivatives of the map are a few times less
    exact than the map itself, and change with what rounding makes of the orbit; the third equation
-   of a cusp comes from differences over a hundredth. */
-static void rounding_of(const pendres_equations *e, pendres_condition condition, int steps,
-                        int period, double off[PENDRES_EQUATIONS_MOST])
+   of a cusp comes from differences over a hundredth. Of a state far out rounding is larger. */
+static void rounding_of(const pendres_system *s, const pendres_equations *e, const pendres_u u,
+                        double off[PENDRES_EQUATIONS_MOST])
 {
-  const double along = pendres_step_rounding * sqrt(steps * period);
+  const double large = pendres_arc_large(&s->map, u);
+  const double along = pendres_step_rounding * sqrt(s->steps * s->map.period);
   const double unit = along * fmax(1.0, pendres_map_growth(&e->image));
-  off[0] = off[1] = unit;
-  off[2] = hypot(4.0 * unit, along * hypot(e->j[2][PENDRES_U_Y], e->j[2][PENDRES_U_W]));
+  off[0] = off[1] = large * unit;
+  off[2] = hypot(4.0 * unit, large * along * hypot(e->j[2][PENDRES_U_Y], e->j[2][PENDRES_U_W]));
   off[3] = 400.0 * unit;
-  if (condition == PENDRES_CONDITION_CROSSING)
-    off[1] = hypot(4.0 * unit, along * hypot(e->j[1][PENDRES_U_Y], e->j[1][PENDRES_U_W]));
+  if (s->condition == PENDRES_CONDITION_CROSSING)
+    off[1] = hypot(4.0 * unit, large * along * hypot(e->j[1][PENDRES_U_Y], e->j[1][PENDRES_U_W]));
 }
 
 /* What the equations of the place differ by from those that it solves; the last one of a cusp
@@ -219,7 +220,7 @@ static pendres_status solve_finely(pendres_context *ctx, const pendres_system *s
   out->parted =
     system->condition == PENDRES_CONDITION_CROSSING && !crosses(system, few, &at.image);
   if (out->parted) return PENDRES_NOT_CONVERGED;
-  rounding_of(&at, system->condition, pair->fine_steps, pair->map.period, off);
+  rounding_of(system, &at, pair->fine, off);
   if (!moved_by_each(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
   status = distance_of(ctx, system, pair, &at, &away);
   if (status != PENDRES_OK) return status;
@@ -251,7 +252,7 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system, c
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status =
     pendres_equations_solve(ctx, &system, fmin(reach, locate_longest), pair->coarse, &at);
-  if (status == PENDRES_OK && !(pendres_arc_distance(u, pair->coarse) <= reach))
+  if (status == PENDRES_OK && !(pendres_arc_distance(&pair->map, u, pair->coarse) <= reach))
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);

@@ -84,12 +84,13 @@ pendres_map pendres_map_of(const pendres_orbit *o, int unknowns, const int *unkn
   const double centre = pendres_model_centre(&still, isfinite(o->mean_angle) ? o->mean_angle : s.y);
   int kept = isfinite(centre);
   point_of(&o->pendulum, s.y, s.w, u);
+  if (isfinite(o->mean_angle) && o->winding == 0) map.middle = o->mean_angle;
   for (int k = 0; k < unknowns && kept; k++) kept = !breaks_symmetry(unknown[k], centre);
   if (!kept) return map;
   map.reflects = is_reflected(&o->pendulum, unknowns, unknown);
   map.symmetric = o->pendulum.parametric_amplitude == 0.0 &&
                   !is_among(PENDRES_U_MODULATION, unknowns, unknown);
-  if (map.symmetric || map.reflects) map.centre = centre;
+  if (map.symmetric || map.reflects) map.centre = map.middle = centre;
   if (map.symmetric && o->symmetric && o->period % 2 != 0 && o->winding == 0)
     map.mirror = PENDRES_MIRROR_HALF;
   else if (map.reflects && is_own_reflection(o, centre))
@@ -112,6 +113,10 @@ pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the branch leaves the parameters: %s",
                                 why);
   const double speed = pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
+  /* A large orbit's resonance is as narrow as its damping: what the steps add must be less. */
+  const pendres_map map = {.force = force};
+  const double large = pendres_arc_large(&map, u), decay = two_pi * p.damping / p.drive_frequency;
+  if (large > 1.0 && decay > 0.0) tolerance = fmin(tolerance, map_undamped * large * decay);
   const pendres_status status = pendres_steps_choose(ctx, &p, speed, tolerance, steps);
   *steps += *steps % 2;
   return status;
@@ -151,34 +156,42 @@ double pendres_arc_least_scale(int i)
   return i == PENDRES_U_OMEGA ? 0.3 : 0.1;
 }
 
-/* Of y and w. At weak damping branches turn where orbits are small: there these count by their
-   ratios. */
-static double state_scale(const pendres_u u)
+double pendres_arc_large(const pendres_map *map, const pendres_u u)
 {
-  const double least = fmax(scale_least, scale_weak * fabs(u[PENDRES_U_GAMMA]));
-  if (!(least < 1.0)) return 1.0;
-  const double orbit = fmax(hypot(u[PENDRES_U_Y], u[PENDRES_U_W]), fabs(u[PENDRES_U_DRIVE]));
-  return fmin(1.0, fmax(least, orbit));
+  if (pendres_model_of(map->force)->angle) return 1.0;
+  return fmax(1.0, hypot(u[PENDRES_U_Y] - map->middle, u[PENDRES_U_W]) - 1.0);
 }
 
-double pendres_arc_scale(int i, const pendres_u u)
+/* Of y and w. At weak damping branches turn where orbits are small: there these count by their
+   ratios. */
+static double state_scale(const pendres_map *map, const pendres_u u)
 {
-  if (i < PENDRES_U_OMEGA) return state_scale(u);
+  const double least = fmax(scale_least, scale_weak * fabs(u[PENDRES_U_GAMMA]));
+  const double large = pendres_arc_large(map, u);
+  if (!(least < 1.0) || large > 1.0) return large;
+  const double orbit = hypot(u[PENDRES_U_Y] - map->middle, u[PENDRES_U_W]);
+  return fmin(1.0, fmax(least, fmax(orbit, fabs(u[PENDRES_U_DRIVE]))));
+}
+
+double pendres_arc_scale(const pendres_map *map, int i, const pendres_u u)
+{
+  if (i < PENDRES_U_OMEGA) return state_scale(map, u);
   return fmax(pendres_arc_least_scale(i), fabs(u[i]) / scale_logarithmic);
 }
 
-double pendres_arc_scale_between(int i, const pendres_u a, const pendres_u b)
+double pendres_arc_scale_between(const pendres_map *map, int i, const pendres_u a,
+                                 const pendres_u b)
 {
   pendres_u middle;
   for (int k = 0; k < PENDRES_U_COUNT; k++) middle[k] = 0.5 * (a[k] + b[k]);
-  return pendres_arc_scale(i, middle);
+  return pendres_arc_scale(map, i, middle);
 }
 
-double pendres_arc_distance(const pendres_u a, const pendres_u b)
+double pendres_arc_distance(const pendres_map *map, const pendres_u a, const pendres_u b)
 {
   double sum = 0.0;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
-    if (a[i] != b[i]) sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale_between(i, a, b));
+    if (a[i] != b[i]) sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale_between(map, i, a, b));
   return sum;
 }
 

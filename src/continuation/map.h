@@ -63,6 +63,7 @@ typedef struct pendres_map {
   int period;    /* q */
   int winding;   /* p */
   double centre; /* c, where there is a mirror symmetry of either kind; otherwise 0 */
+  double middle; /* about which orbits are small: c, or the mean of the one that was begun with */
 } pendres_map;
 
 /* What one evaluation of the map finds. */
@@ -149,18 +150,23 @@ double pendres_map_flip(const pendres_image *image);
 /* The length that counts as one in arclength, of entry `i` of u where u is. Of parameters it is a
    constant at first, but never less than a twentieth of the value: beyond twenty of the constant
    they count by their logarithms, and a curve over decades is not a long one. Of the state it is 1,
-   at dampings below 0.05 the distance from the origin of y, or the drive if that is more: the
-   narrow folds of weak resonances about that origin are then as long as others. */
-double pendres_arc_scale(int i, const pendres_u u);
+   at dampings below 0.05 the distance from the middle of the orbits, or the drive if that is more:
+   the narrow folds of weak resonances about it are then as long as others. */
+double pendres_arc_scale(const pendres_map *map, int i, const pendres_u u);
+
+/* What of it is due to a place far out, from 1 up: a state more than two lengths from the middle
+   counts by its ratio to its distance less one. An angle does not, since its force has a period. */
+double pendres_arc_large(const pendres_map *map, const pendres_u u);
 
 /* The same half way from a to b. */
-double pendres_arc_scale_between(int i, const pendres_u a, const pendres_u b);
+double pendres_arc_scale_between(const pendres_map *map, int i, const pendres_u a,
+                                 const pendres_u b);
 
 /* The constant. */
 double pendres_arc_least_scale(int i);
 
 /* Distance in the scale of arclength. What is the same in both points does not count. */
-double pendres_arc_distance(const pendres_u a, const pendres_u b);
+double pendres_arc_distance(const pendres_map *map, const pendres_u a, const pendres_u b);
 
 /* Norm of DG: by how much the map may enlarge an error of the state. */
 double pendres_map_growth(const pendres_image *image);

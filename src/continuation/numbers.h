@@ -70,6 +70,9 @@ static const double scale_logarithmic = 20.0;
    this on, where folds are of order one, lengths are counted. */
 static const double scale_weak = 20.0, scale_least = 1e-5;
 
+/* Steps may change the way of a large orbit in a period by this share of what damping does. */
+static const double map_undamped = 0.01;
+
 /* ---- curves ---- */
 
 /* The largest spacing of points along curves that callers see, unless they choose another: eight
@@ -84,7 +87,12 @@ static const double pendres_curve_spacing = 0.05, pendres_search_spacing = 0.1;
 static const double pendres_curve_wildest = 1e3, bifurcations_wildest = 300.0;
 
 enum {
-  PENDRES_CURVE_POINTS = 2000, /* each way, unless callers choose: a curve of length 100 */
+  /* Each way, unless callers choose: a length of 100. Of a stretch between two turns the first 200
+     count, a length of ten, more than most have that turn. A curve over twenty decades has no more
+     points than the last number. */
+  PENDRES_CURVE_POINTS = 2000,
+  CURVE_STRETCH = 200,
+  CURVE_LONGEST = 20000,
   PENDRES_SEARCH_ADVANCES = 300, /* a search ends after 2400 points, more than a curve may have */
   FOLLOW_ITERATIONS = 6,         /* of Newton's method from a point that was predicted */
   FOLLOW_WIDEST_GAP = 3          /* steps that lie between one point and the next, at most */

@@ -16,7 +16,7 @@ double pendres_parameter_scale_at(pendres_parameter parameter, double value)
 {
   pendres_u u = {0.0};
   u[PENDRES_U_OMEGA + (int)parameter] = value;
-  return pendres_arc_scale(PENDRES_U_OMEGA + (int)parameter, u);
+  return pendres_arc_scale(NULL, PENDRES_U_OMEGA + (int)parameter, u);
 }
 
 double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance)

@@ -172,6 +172,7 @@ size_t pendres_part_take(pendres_part *s, double limit)
   s->points = 1;
   for (; (p = pendres_part_point(s, k)) != NULL; k++) {
     if (!is_regular(p)) {
+      if (bifurcation_at(s, p)->curvature == 0.0) continue; /* a cusp */
       met = bifurcation_at(s, p);
       met_at = k;
       if (met->kind == PENDRES_FOLD) break;

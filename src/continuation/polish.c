@@ -15,12 +15,12 @@
 #include "orbits/attractor_set.h"
 #include "orbits/orbit_measure.h"
 
-/* The share of a branch's way that goes along its parameter, where the state counts as it is:
-   errors are such lengths. */
+/* The share of a branch's way that goes along its parameter, where the state counts as it is, or
+   far out by its ratio: errors are such lengths. */
 static double along_parameter(const pendres_system *s, const pendres_curve_node *at)
 {
-  const double size = pendres_arc_scale(s->unknown[0], at->u);
-  if (size == 1.0) return at->tangent[2];
+  const double size = pendres_arc_scale(&s->map, s->unknown[0], at->u);
+  if (size >= 1.0) return at->tangent[2];
   const double state = size * hypot(at->tangent[0], at->tangent[1]);
   return at->tangent[2] / hypot(state, at->tangent[2]);
 }
@@ -36,17 +36,18 @@ static void to_one_parameter(const pendres_system *s, const pendres_curve_node *
 {
   const int place = s->unknown[2];
   const double along = along_parameter(s, at);
-  const double scale = pendres_arc_scale(place, pair->fine);
+  const double scale = pendres_arc_scale(&s->map, place, pair->fine);
   const double off = (pair->fine[place] - pair->coarse[place]) / scale;
+  const double large = pendres_arc_large(&s->map, pair->fine);
   if (!(fabs(off) < polish_before_fold * along * along)) {
-    pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
+    pair->rounding += large * fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
     return;
   }
   for (int k = 0; k < s->unknowns; k++)
-    pair->coarse[s->unknown[k]] +=
-      pendres_arc_scale(s->unknown[k], pair->fine) * at->tangent[k] * off / at->tangent[2];
+    pair->coarse[s->unknown[k]] += pendres_arc_scale(&s->map, s->unknown[k], pair->fine) *
+                                   at->tangent[k] * off / at->tangent[2];
   pair->coarse[place] = pair->fine[place];
-  pair->rounding /= fmax(fabs(along), polish_flattest);
+  if (large == 1.0) pair->rounding /= fmax(fabs(along), polish_flattest);
 }
 
 /* Nodes that are still to be made more exact: their numbers, and what their correction needs. */
@@ -80,8 +81,23 @@ static double rounded_size(const pendres_correction *c)
   const pendres_system *s = &c->kind->system;
   const double whole = pendres_model_of(s->map.force)->angle ? angle : 1.0;
   const double far = hypot(c->u[PENDRES_U_Y], c->u[PENDRES_U_W]);
+  const double large = pendres_arc_large(&s->map, c->u);
   const int critical = pendres_condition_rules_of(s->condition)->critical;
-  return critical ? 1.0 : fmax(least, fmin(1.0, far / whole));
+  return critical || large > 1.0 ? large : fmax(least, fmin(1.0, far / whole));
+}
+
+/* What rounding makes of a corrected point, across its tangent. Far out it is far more than of the
+   parameter, and what a branch has at the parameter is meant: next to a fold it is bounded. */
+static double rounding_of(const pendres_correction *c)
+{
+  const pendres_system *s = &c->kind->system;
+  const double large = pendres_arc_large(&s->map, c->u);
+  const double rounding = pendres_correction_rounding(c) * rounded_size(c);
+  pendres_correction at = *c;
+  if (large == 1.0 || s->unknowns > 3) return rounding;
+  memset(at.tangent, 0, sizeof at.tangent);
+  at.tangent[2] = 1.0;
+  return fmin(pendres_correction_rounding(&at) * large, rounding / polish_flattest);
 }
 
 /* Correct all nodes that are left, with the coarser number of steps or with the finer one. */
@@ -114,7 +130,7 @@ static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish
     /* A node that cannot be corrected stays where the follower left it, with an error that says
        so. */
     const pendres_correction *c = &w->point[i];
-    const double rounding = pendres_correction_rounding(c) * rounded_size(c);
+    const double rounding = rounding_of(c);
     memcpy(fine ? p->fine : p->coarse, w->point[i].u, sizeof p->fine);
     p->rounding = isnan(rounding) ? curve->kind.tolerance : rounding;
   }
@@ -137,15 +153,20 @@ static double errors_at(const pendres_curve *c, size_t i, double error[2])
   /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
   const double along = along_parameter(s, &c->node[i]);
   const double turning = across(c, i) ? fmax(fabs(along), polish_flattest) : 1.0;
+  const double large = pendres_arc_large(&s->map, p->fine);
+  const double less = large > 1.0 ? turning / large : 1.0; /* what the parameter has of it */
   const double chance = s->condition == PENDRES_CONDITION_LAG ? polish_agree_in_lag : polish_agree;
   double worst = 0.0;
   for (int k = 0; k < s->unknowns; k++) {
     const int place = s->unknown[k];
-    const double scale = k >= 2 ? pendres_arc_scale(place, p->fine) : 1.0;
-    const double e = pendres_solution_error(p->coarse[place], p->fine[place],
-                                            scale * p->rounding + (k >= 2 ? chance * point : 0.0));
+    const double scale = k >= 2 ? less * pendres_arc_scale(&s->map, place, p->fine) : 1.0;
+    const double e =
+      pendres_solution_error(p->coarse[place], p->fine[place],
+                             scale * p->rounding + (k >= 2 ? less * chance * point : 0.0));
     if (k >= 2) error[k - 2] = e;
-    worst = fmax(worst, k == 2 && s->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
+    worst = fmax(worst, k != 2                               ? e
+                        : s->unknowns == 3 && turning < 1.0 ? 10.0 * large * e / turning
+                                                             : large * e);
   }
   return worst;
 }

@@ -133,7 +133,8 @@ static pendres_status really_lies_on(pendres_context *ctx, pendres_curve *b,
     if (there[i].period == o->period && same_winding(&there[i], o) &&
         pendres_orbit_as_wide(&there[i], o) &&
         fabs(there[i].loop_area - o->loop_area) <
-          pendres_orbit_slack(there[i].loop_area_error + o->loop_area_error))
+          orbit_same_point +
+            pendres_several_errors * (o->loop_area_error + there[i].loop_area_error))
       *on = 1;
   }
   return pendres_room_close(&room, status);

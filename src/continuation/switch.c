@@ -39,8 +39,10 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
   memcpy(way, at->crossing, sizeof at->crossing);
   if (unknown[2] == PENDRES_U_OMEGA) way[1] -= u[PENDRES_U_W] * way[2];
   way[1] /= u[PENDRES_U_OMEGA];
-  for (int k = 0; k < 3; k++) scale[k] = pendres_arc_scale(unknown[k], u);
-  for (int k = 0; k < 3; k++) way[k] /= scale[k];
+  for (int k = 0; k < 3; k++) {
+    scale[k] = pendres_arc_scale(&orbits.system.map, unknown[k], u);
+    way[k] /= scale[k];
+  }
   for (int k = 0; k < 3; k++) length = hypot(length, way[k]);
   for (int k = 0; k < 3; k++) way[k] /= length;
   for (int halving = 0; halving < SWITCH_HALVINGS; halving++) {
@@ -57,7 +59,8 @@ static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurc
       pendres_status status = meet_plane(ctx, &orbits, &node, &pair, &error);
       if (status == PENDRES_NOT_CONVERGED) continue;
       const int good = status == PENDRES_OK && error < curve_untold &&
-                       pendres_arc_distance(pair.fine, node.u) <= switch_straight * away;
+                       pendres_arc_distance(&pair.map, pair.fine, node.u) <=
+                         switch_straight * away;
       if (good) status = pendres_solution_measure(ctx, 1, &pair, &here);
       if (status != PENDRES_OK) return status;
       if (good && (!found || here.stable)) *out = here;

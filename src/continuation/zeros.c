@@ -18,7 +18,7 @@ double pendres_curve_between(const pendres_curve *t, const pendres_curve_zero *z
   memcpy(end, b->u, sizeof end);
   if (z->i + 1 == t->nodes) end[PENDRES_U_Y] += t->round;
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (end[i] - a->u[i]);
-  return pendres_arc_distance(a->u, end);
+  return pendres_arc_distance(&t->kind.system.map, a->u, end);
 }
 
 /* ---- parabolas through three points ---- */
@@ -92,15 +92,20 @@ static int dips(const double g[3])
          fabs(g[1]) <= fabs(g[2]);
 }
 
-/* Whether the function has a least value of about 0 at point i. */
-static int touches(const pendres_curve *t, pendres_curve_function *test, size_t i)
+/* Whether the function has a least value of about 0 at point i, or before or behind it: where. */
+static int touches(const pendres_curve *t, pendres_curve_function *test, size_t i,
+                   pendres_curve_zero *at)
 {
   double s[3], g[3];
   if (i == 0 || i + 1 >= t->nodes) return 0;
   three(t, test, i - 1, s, g);
   if (!dips(g)) return 0;
   const parabola p = parabola_of(s, g);
-  return fabs(value_of(&p, vertex_of(&p))) < zero_touching * fmin(fabs(g[0]), fabs(g[2]));
+  const double vertex = vertex_of(&p);
+  const int behind = vertex >= s[1];
+  *at = (pendres_curve_zero){
+    .i = behind ? i : i - 1, .part = (vertex - s[behind]) / (s[behind + 1] - s[behind])};
+  return fabs(value_of(&p, vertex)) < zero_touching * fmin(fabs(g[0]), fabs(g[2]));
 }
 
 /* How many chords a curve has. */
@@ -109,16 +114,16 @@ static size_t chords_of(const pendres_curve *t)
   return t->nodes < 2 ? 0 : pendres_curve_closed(t) ? t->nodes : t->nodes - 1;
 }
 
-size_t pendres_curve_zeros(const pendres_curve *t, pendres_curve_function *test,
+size_t pendres_curve_zeros(const pendres_curve *t, const pendres_curve_test *of,
                            pendres_curve_zero zeros[PENDRES_CURVE_ZEROS])
 {
+  pendres_curve_function *const test = of->function;
   size_t count = 0;
   for (size_t i = 0; i < chords_of(t) && count < PENDRES_CURVE_ZEROS; i++) {
     const double a = test(&t->node[i]), b = test(&t->node[(i + 1) % t->nodes]);
     if (a == 0.0 || a * b < 0.0)
       zeros[count++] = (pendres_curve_zero){.i = i, .part = part_of(t, test, i, a, b)};
-    else if (touches(t, test, i))
-      zeros[count++] = (pendres_curve_zero){.i = i, .part = 0.0};
+    else if (of->touch && touches(t, test, i, &zeros[count])) count++;
   }
   return count;
 }

@@ -182,14 +182,16 @@ typedef struct sight {
   int growing;
   int unbound; /* probes may be on their way to infinity: what is wild from the start is left out */
   size_t first, lanes; /* probes in the block */
-  double omega;
+  double omega, rate; /* of the drive, and of the unit of time in which errors grow */
   double y[PROBE_POINTS][PROBES], v[PROBE_POINTS][PROBES], growth[PROBE_POINTS][PROBES];
 } sight;
 
-static sight sight_of(const pendres_pendulum *p, int steps, int stride, int growing)
+static sight sight_of(const probed *of, int steps, int stride, int growing)
 {
-  sight s = {.steps = steps, .stride = stride, .growing = growing,
-             .unbound = open_ended(p), .omega = p->drive_frequency};
+  const double omega = of->pendulum.drive_frequency;
+  const int unbound = open_ended(&of->pendulum);
+  sight s = {.steps = steps, .stride = stride, .growing = growing, .unbound = unbound,
+             .omega = omega, .rate = unbound ? omega / of->pace : omega};
   s.dense = steps / stride < PROBE_POINTS - 1 ? steps / stride : PROBE_POINTS - 1;
   s.points = s.dense + (s.dense * stride < steps);
   return s;
@@ -217,8 +219,8 @@ static void look(void *arg, int step, const pendres_rows *rows)
     double m[2][2];
     pendres_rows_tangent(rows, i, m);
     *growth = fmax(fabs(m[0][0]), fabs(m[1][1]));
-    *growth = fmax(*growth, s->omega * fabs(m[1][0]));
-    *growth = fmax(*growth, fabs(m[0][1]) / s->omega);
+    *growth = fmax(*growth, s->rate * fabs(m[1][0]));
+    *growth = fmax(*growth, fabs(m[0][1]) / s->rate);
   }
 }
 
@@ -296,16 +298,18 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
   if (p->drive_frequency == 0.0 || shaken(p)) return PENDRES_TOLERANCE_UNREACHABLE;
   of.reach = open_ended(p) ? reach_of(p, of.speed) : probe_reach;
   of.pace = pace_of(p, of.speed, of.reach);
+  /* Of what leads far out rounding is larger. */
+  const double far = open_ended(p) ? fmax(1.0, of.speed / probe_fast) : 1.0;
   double wanted = fmax(STEPS_FEWEST, least_steps(&of)), last_error = INFINITY;
   while (wanted <= PENDRES_MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
     const int stride = stride_of(&of, n);
-    sight coarse = sight_of(p, n, stride, 0), fine = sight_of(p, 2 * n, 2 * stride, 1);
+    sight coarse = sight_of(&of, n, stride, 0), fine = sight_of(&of, 2 * n, 2 * stride, 1);
     pendres_status status = run_probes(ctx, &of, &coarse);
     if (status == PENDRES_OK) status = run_probes(ctx, &of, &fine);
     if (status != PENDRES_OK) return status;
     const double error = largest_error(&coarse, &fine);
-    const int rounding = error < probe_rounding && error > 0.5 * last_error;
+    const int rounding = error < probe_rounding * far && error > 0.5 * last_error;
     if (error <= tolerance || rounding) {
       *steps = n;
       return PENDRES_OK;

@@ -27,6 +27,8 @@ static const section sections[] = {
   {"models", accuracy_models},
   {"scales", accuracy_scales},
   {"weak", accuracy_weak},
+  {"linear_curves", accuracy_linear_curves},
+  {"strong_curves", accuracy_strong_curves},
   {"linear", accuracy_linear},
   {"advance", accuracy_advance},
   {"resonance", accuracy_resonance},

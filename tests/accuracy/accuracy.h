@@ -89,6 +89,8 @@ int accuracy_settled_guess(pendres_context *ctx, accuracy_random *r, pendres_orb
    multipliers. */
 void accuracy_note_orbit(accuracy *a, const pendres_orbit *o, const reference_cycle *e,
                          const char *how);
+/* What is true of the orbit of a linear oscillator. */
+void accuracy_linear_exact(const pendres_pendulum *p, reference_cycle *e);
 /* Of the two pairs of multipliers, the farther: as they are ordered, or the other way round. */
 double accuracy_multipliers_apart(const pendres_orbit *o, const reference_cycle *e);
 
@@ -146,6 +148,8 @@ void accuracy_branches(accuracy *a);
 void accuracy_models(accuracy *a);
 void accuracy_scales(accuracy *a);
 void accuracy_weak(accuracy *a);
+void accuracy_linear_curves(accuracy *a);
+void accuracy_strong_curves(accuracy *a);
 void accuracy_linear(accuracy *a);
 void accuracy_advance(accuracy *a);
 void accuracy_resonance(accuracy *a);

@@ -71,7 +71,7 @@ static void multipliers(const pendres_pendulum *p, reference_cycle *e)
   e->multiplier_re[1] = expl(-fast * time);
 }
 
-static void exact_of(const pendres_pendulum *p, reference_cycle *e)
+void accuracy_linear_exact(const pendres_pendulum *p, reference_cycle *e)
 {
   const long double a = p->force_coefficients[0], w = p->drive_frequency, f = p->drive_amplitude;
   const long double stiff = a - w * w, friction = p->damping * w;
@@ -128,7 +128,7 @@ static void compute(accuracy_random *r, void *of, long number)
   t->there = status == PENDRES_OK && outcome != PENDRES_NOT_CONVERGED;
   if (!t->there) return;
   t->orbit = accuracy_out_of_units(&t->orbit, u);
-  exact_of(&t->orbit.pendulum, &t->exact);
+  accuracy_linear_exact(&t->orbit.pendulum, &t->exact);
   t->off = off_by(t, x, v);
 }
 

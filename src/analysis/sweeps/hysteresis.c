@@ -83,8 +83,9 @@ static double last_before(const path *w, size_t step, const pendres_settled *old
 }
 
 /* Chaos has ended between the last value and this one, at which the pendulum is on an orbit.
-   w->state becomes the first orbit that it goes to, at this value or an earlier one. */
-static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old)
+   w->state becomes the first orbit that it goes to, at this value or an earlier one, where that is
+   looked for; otherwise it stays. */
+static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old, int look)
 {
   const double to = w->value[step];
   pendres_jump j = {
@@ -92,7 +93,7 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
     .share = NAN};
   pendres_status status = PENDRES_OK;
   const int back = (to - w->at) * j.direction <= 0.0; /* from trials beyond the value */
-  if (w->tries <= TRIES && !(back && pendres_settled_closed(&old->attractor))) {
+  if (look && w->tries <= TRIES && !(back && pendres_settled_closed(&old->attractor))) {
     status = pendres_chaos_end(w->ctx, w->parameter, old, last_before(w, step, old), &w->state, &j);
   } else { /* chaos and windows of orbits in turn, or one orbit and another: somewhere between */
     j.from = old->attractor.label;
@@ -173,11 +174,19 @@ static pendres_status tell_way(path *w, size_t i, const pendres_settled *old)
   pendres_status status = PENDRES_OK;
   if (!w->settled) return status;
   if (ends && !w->states_only) {
+    const pendres_settled settled = w->state;
+    const size_t jumps = w->h->jumps;
     if (w->tried != i) w->tries = 0;
     w->tried = i;
     w->tries++;
-    pendres_path_allow(w); /* where it ended is a question of its own */
-    status = end_chaos(w, i, old);
+    pendres_path_allow(w); /* where it ended is a question of its own, */
+    status = end_chaos(w, i, old, 1);
+    if (pendres_path_spent(w, status)) { /* and what it has ended in is known without the answer */
+      w->h->jumps = jumps;
+      w->state = settled;
+      pendres_path_allow(w);
+      status = end_chaos(w, i, old, 0);
+    }
   } else if (from->label == PENDRES_LABEL_CHAOTIC && to->label == PENDRES_LABEL_CHAOTIC &&
              !w->states_only) {
     status = go_on_in_chaos(w, i, old);

@@ -90,12 +90,17 @@ static void leave_out(pendres_path *w, pendres_path_left *left, size_t i, pendre
   w->n -= end - i;
 }
 
+/* The work decides, not when it was noticed, which would depend on the size of blocks. */
+int pendres_path_spent(const pendres_path *w, pendres_status status)
+{
+  return pendres_context_slopes(w->ctx) > w->ctx->most_slopes &&
+         (status == PENDRES_OK || status == PENDRES_INTERRUPTED);
+}
+
 int pendres_path_came(pendres_path *w, pendres_path_left *left, const pendres_path_mark *mark,
                       size_t i, pendres_status *status)
 {
-  /* The work decides, not when it was noticed, which would depend on the size of blocks. */
-  const int spent = pendres_context_slopes(w->ctx) > w->ctx->most_slopes &&
-                    (*status == PENDRES_OK || *status == PENDRES_INTERRUPTED);
+  const int spent = pendres_path_spent(w, *status);
   if (!spent && !pendres_path_own(*status)) return 1;
   const int beyond = w->beyond;
   const double end = w->end;

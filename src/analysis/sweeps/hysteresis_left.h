@@ -34,6 +34,9 @@ void pendres_path_left_close(pendres_path_left *left);
 void pendres_path_allow(pendres_path *w);
 void pendres_path_allow_all(pendres_path *w);
 
+/* Whether what ended with this status has taken more than the limit. */
+int pendres_path_spent(const pendres_path *w, pendres_status status);
+
 /* Note that the search for what there is beyond a state's end has begun; a direction of 0: it is
    over. */
 void pendres_path_search_beyond(pendres_path *w, int direction, double end);
