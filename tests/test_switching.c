@@ -75,6 +75,7 @@ static void counts_are_what_plain_counting_gives(void **state)
   pendres_context *ctx = make(5, 24, 8);
   double events[2][2] = { { 0.0 } }, wells[2] = { 0.0 }, exposure[2] = { 0.0 };
   double passage[2][2] = { { 0.0 } }, absence2[2] = { 0.0 }, ends[2] = { 0.0 };
+  double forward[2] = { 0.0 }, passed[2] = { 0.0 };
   pendres_cores cores;
   pendres_switching_tally tally;
   (void)state;
@@ -105,6 +106,8 @@ static void counts_are_what_plain_counting_gives(void **state)
         passage[home][at] += since;
         events[home][at] += 1.0;
         wells[home] += well != home_well;
+        forward[home] += well > home_well;
+        if (well != home_well) passed[home] += fabs((double)(well - home_well)) - 1.0;
       }
       home = at;
       home_well = well;
@@ -117,6 +120,8 @@ static void counts_are_what_plain_counting_gives(void **state)
     check_near(tally.exposure[s], exposure[s], 0.0);
     check_near(tally.events[s][PENDRES_SWITCHING_WELL], wells[s], 0.0);
     check_near(tally.absence2[s], absence2[s], 0.0);
+    check_near(tally.forward[s], forward[s], 0.0);
+    check_near(tally.passed[s], passed[s], 0.0);
     check_near(tally.ends[s], ends[s], 0.0);
     for (int t = 0; t < 2; t++) {
       check_near(tally.events[s][t], events[s][t], 0.0);

@@ -282,6 +282,11 @@ static const scene_column of_rates[] = {
   {SCENE_TYPED(SCENE_PLAIN, "events_*", pendres_switching_rate, events, "transitions counted")},
   {SCENE_TYPED(SCENE_PLAIN, "dispersion_*", pendres_switching_rate, dispersion,
                "variance of the trajectories' counts by that of independent events,")},
+  {.name = "missed_*",
+   .long_name = "share of the transitions that was not seen, which the rate allows for; its error "
+                "is in the rate's, whatever the statistics;",
+   .value = offsetof(pendres_switching_rate, missed),
+   .error = offsetof(pendres_switching_rate, missed_error)},
 };
 
 static const scene_column of_fits[] = {

@@ -99,10 +99,11 @@ static const double cores_lengths = 100.0;
    attractor's by this multiple of the temperature: one of exp(30) would return. */
 static const double switching_no_return = 30.0;
 
-/* The fraction of the missed share of transitions that is added to the error, for effects of second
-   order: in a double well with barriers of 3 to 5 temperatures they were a tenth. Where half of the
-   transitions are missed, second order is not known, and all of the share is added. */
-static const double switching_second_order = 0.125, switching_most_missed = 0.5;
+/* The fraction of the missed share of transitions that is added to the error, for what is wrong
+   with its first order: in double wells with barriers of 3 to 5 temperatures and dampings of 0.1 to
+   2 it was a tenth. Of second order are half of the share's square at most, at 2 temperatures.
+   Where half of the transitions are missed, this is not known, and all of the share is added. */
+static const double switching_first_order = 0.125, switching_most_missed = 0.5;
 
 /* A barrier below this multiple of the temperature is not an activation energy. */
 static const double switching_least_barrier = 2.0;

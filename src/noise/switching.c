@@ -38,7 +38,8 @@ typedef struct counting {
   double *x;         /* [2 trajectories] positions, velocities */
   uint64_t *ids;
   pendres_pendulum *pendulums;
-  double passage[STATES][STATES + 1], absence2[STATES]; /* of the tally */
+  double passage[STATES][STATES + 1], absence2[STATES]; /* of the tally, */
+  double forward[STATES], passed[STATES];               /* too */
   double bottom;     /* outside, none returns from below this potential; NaN: none escapes */
 } counting;
 
@@ -89,6 +90,8 @@ static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *str
     if (well != t->well && well != PENDRES_NO_WELL && t->well != PENDRES_NO_WELL) {
       ++*number(c, trajectory, from, c->states);
       c->passage[from][WELL] += (double)t->since;
+      c->forward[from] += well > t->well;
+      c->passed[from] += (double)(labs(well - t->well) - 1);
     }
     *t = (track){.state = s->attractor, .well = well};
   }
@@ -225,6 +228,8 @@ static pendres_status count(pendres_context *ctx, const pendres_switching_reques
   sum_up(&c, n, tally);
   memcpy(tally->passage, c.passage, sizeof c.passage);
   memcpy(tally->absence2, c.absence2, sizeof c.absence2);
+  memcpy(tally->forward, c.forward, sizeof c.forward);
+  memcpy(tally->passed, c.passed, sizeof c.passed);
   return pendres_room_close(&room, look_at_ends(ctx, request, &c, tally));
 }
 
@@ -255,6 +260,8 @@ void pendres_switching_add(pendres_switching_tally *into, const pendres_switchin
     into->exposure2[s] += other->exposure2[s];
     into->ends[s] += other->ends[s];
     into->absence2[s] += other->absence2[s];
+    into->forward[s] += other->forward[s];
+    into->passed[s] += other->passed[s];
     for (size_t t = 0; t <= STATES; t++) {
       into->events[s][t] += other->events[s][t];
       into->events2[s][t] += other->events2[s][t];
@@ -278,9 +285,14 @@ static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
   return square * n / (n - 1.0) / events;
 }
 
+/* The share of transitions that is missed, and how much that may be off. */
+typedef struct share {
+  double value, error;
+} share;
+
 /*
- * The share of the transitions that is missed: a trajectory is seen on its new state only when it
- * has come to the core, and may be back by then, which for the exact rates are two transitions.
+ * A trajectory is seen on its new state only when it has come to the core, and may be back by then,
+ * which for the exact rates are two transitions.
  *
  * Between two states with rates a and b the slowest decay of the shares, which is what a + b stands
  * for, is a root of F G = 1, F and G the Laplace transforms of the times until transitions there
@@ -288,19 +300,35 @@ static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
  * trajectories leaves finally, and of a last one, the passage t. To first order a becomes
  * a / (1 - (a + b) late) with late = <t> - <u^2> / (2 <u>), the time since the transition.
  *
- * Among equal wells half of the trajectories that cross again go to the next well and not back, and
- * none returns from infinity.
+ * In a row of wells trajectories go on from where they were not seen, or back: by the directions of
+ * those that are seen, a share of 2 p (1 - p) goes back, half of them without a tilt, and none
+ * returns from infinity. Those that went on passed over a well, which shows how many there were:
+ * each was one transition more, and two more were missed for each that went back. That is exact
+ * where none passes over a well in one flight, as with much friction, although a trajectory needs
+ * time to come down from the barrier, which `late` takes for time in which it can leave. With
+ * little friction many do fly over wells, and `late` is the smaller account.
  */
-static double missed(const pendres_switching_tally *y, size_t s, size_t t)
+static share missed(const pendres_switching_tally *y, size_t s, size_t t)
 {
   const double events = y->events[s][t], rate = events / y->exposure[s];
-  double back = 0.0, wells = 0.0;
-  if (!(events > 0.0)) return 0.0;
-  for (size_t k = 0; k < STATES; k++) wells += y->events[s][k];
-  if (t == s || t == WELL) back = wells > 0.0 ? 0.5 * rate : 0.0;
-  else if (y->exposure[t] > 0.0) back = y->events[t][s] / y->exposure[t];
+  const double wells = y->events[s][WELL];
+  double back = 0.0, again = NAN, chance = 0.0;
+  if (!(events > 0.0)) return (share){0.0, 0.0};
+  if (t != s && t != WELL) {
+    back = y->exposure[t] > 0.0 ? y->events[t][s] / y->exposure[t] : 0.0;
+  } else if (wells > 0.0) {
+    const double p = y->forward[s] / wells, returns = 2.0 * p * (1.0 - p);
+    const double each = (1.0 + 2.0 * returns / (1.0 - returns)) / wells;
+    back = returns * rate;
+    again = each * y->passed[s] / (1.0 + each * y->passed[s]);
+    chance = each * sqrt(y->passed[s]);
+  }
   const double late = y->passage[s][t] / events - 0.5 * y->absence2[s] / y->exposure[s];
-  return fmin(fmax(0.0, late) * (rate + back), switching_most_missed);
+  const double lost = fmin(fmax(0.0, late) * (rate + back), switching_most_missed);
+  if (again < lost)
+    return (share){again, hypot(again * fmax(switching_first_order, 0.5 * again), chance)};
+  return (share){lost, lost * (lost < switching_most_missed
+                                 ? fmax(switching_first_order, 0.5 * lost) : 1.0)};
 }
 
 pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, size_t s, size_t t,
@@ -310,6 +338,7 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
     return PENDRES_INVALID_ARGUMENT;
   *rate = (pendres_switching_rate){.value = NAN, .error = NAN, .lower = NAN, .upper = NAN,
                                    .dispersion = NAN, .mean_time = NAN, .mean_time_error = NAN,
+                                   .missed = NAN, .missed_error = NAN,
                                    .events = tally->events[s][t],
                                    .exposure = tally->exposure[s] * tally->period};
   if (!(rate->exposure > 0.0)) return PENDRES_OK;
@@ -320,14 +349,15 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
   const pendres_status status =
     pendres_langevin_rate(rate->events / d, rate->exposure / d, level, &i);
   if (status != PENDRES_OK) return status;
-  const double lost = missed(tally, s, t);
-  const double off = lost < switching_most_missed ? switching_second_order * lost : lost;
-  rate->value = i.value / (1.0 - lost);
-  rate->lower = i.lower / (1.0 - lost) * (1.0 - off);
-  rate->upper = i.upper / (1.0 - lost) * (1.0 + off);
+  const share lost = missed(tally, s, t);
+  rate->value = i.value / (1.0 - lost.value);
+  rate->lower = i.lower / (1.0 - lost.value) * (1.0 - lost.error);
+  rate->upper = i.upper / (1.0 - lost.value) * (1.0 + lost.error);
   rate->error = i.error;
+  rate->missed = lost.value;
+  rate->missed_error = lost.error;
   if (rate->events > 0.0) {
-    const double share = hypot(sqrt(d / rate->events), off);
+    const double share = hypot(sqrt(d / rate->events), lost.error);
     rate->error = rate->value * share;
     rate->mean_time = 1.0 / rate->value;
     rate->mean_time_error = rate->mean_time * share;

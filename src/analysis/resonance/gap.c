@@ -3,6 +3,7 @@
 #include "analysis/resonance/search.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "model/model.h"
 #include "orbits/attractor_set.h"
@@ -261,17 +262,125 @@ void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, 
   census c;
   *out = (pendres_gap){.width = width};
   if (!(width > 0.0)) {
-    out->bound = fmax(a->response.mean_loop_area, b->response.mean_loop_area);
+    out->around = out->bound = fmax(a->response.mean_loop_area, b->response.mean_loop_area);
     return;
   }
   const int alone = find_families(&a->response, &b->response, width, &all);
   count_members(&all, end, width > wide || at_fold ? BESIDE : width > narrow ? MOVED : OWN,
                 asked, members, &c);
-  out->bound = bound_of(&all, &c, members, width);
+  out->around = out->bound = bound_of(&all, &c, members, width);
   out->loose = c.loose && width > narrow;
   out->mixed = c.up && c.down;
   if (a->jump_to_next || alone || c.up || c.down)
     out->kind = PENDRES_GAP_JUMP;
   else
     out->kind = a->slope > 0.0 && b->slope < 0.0 ? PENDRES_GAP_PEAK : PENDRES_GAP_PLAIN;
+}
+
+/* ---- states around a gap ---- */
+
+/* The states of a point beside a gap, and how large the area of each may be in the gap. */
+typedef struct beside {
+  const pendres_scan_point *of;
+  int family[PENDRES_RESPONSE_STATES]; /* which it is of the gap's; -1: none */
+  double most[PENDRES_RESPONSE_STATES];
+} beside;
+
+/* Whether a state is another frequency's state, or its mirror image, whose area is the same, or
+   what both become where they lose their symmetry, which bends the area. */
+static int belongs(const pendres_attractor *state, const pendres_attractor *other)
+{
+  const pendres_orbit *o = &state->orbit, *e = &other->orbit;
+  const double step = e->pendulum.drive_frequency - o->pendulum.drive_frequency;
+  const double slope = fmax(fabs(o->loop_area_slope), fabs(e->loop_area_slope));
+  if ((step > 0.0 ? goes_on(o, e) : goes_on(e, o)) || chaos_goes_on(state, other)) return 1;
+  return pendres_pendulum_symmetric(&o->pendulum) && o->period == e->period &&
+         fabs(e->loop_area - o->loop_area) <= gap_image * e->loop_area + fabs(step) * slope;
+}
+
+/* Put point number n beside a gap into out[], by the states of those nearer to it, of which the
+   first is the gap's end. */
+static void add_beside(const pendres_scan_point *p, int end, double reach, const families *all,
+                       beside out[], size_t n)
+{
+  out[n].of = p;
+  for (size_t i = 0; i < p->response.states; i++) {
+    const pendres_attractor *state = &p->response.state[i];
+    int known = 0;
+    out[n].family[i] = -1;
+    for (size_t k = n; k-- > 0 && !known;)
+      for (size_t j = 0; j < out[k].of->response.states && !known; j++) {
+        known = belongs(state, &out[k].of->response.state[j]);
+        if (known) out[n].family[i] = out[k].family[j];
+      }
+    const int in_gap = out[n].family[i];
+    const family f = in_gap < 0 ? one_end(&state->orbit, end, reach) : all->of[in_gap];
+    out[n].most[i] = fmax(f.area[0], f.area[1]) + f.residual;
+  }
+}
+
+/* The points on one side of a gap, from its end outwards, as far as so many of its widths or to a
+   fold, which ends states. */
+static size_t points_beside(const pendres_search *s, size_t i, int side, double widths,
+                            const families *all, beside out[])
+{
+  const pendres_scan_point *near = &s->points[i + (size_t)side], *p = near;
+  const pendres_scan_point *last = side ? &s->points[s->count - 1] : s->points;
+  const double width = s->points[i].gap.width;
+  size_t n = 1;
+  out[0].of = near;
+  memcpy(out[0].family, all->at[side], sizeof out[0].family);
+  for (; n < GAP_BESIDE && !p->at_fold && p != last; n++) {
+    p += side ? 1 : -1;
+    const double off = fabs(pendres_scan_frequency(p) - pendres_scan_frequency(near));
+    if (p->at_fold || off > widths * width) break;
+    add_beside(p, side, off + width, all, out, n);
+  }
+  return n;
+}
+
+/*
+ * How much larger than `least` the states are that a member is on at n points on one side of a gap,
+ * the first its end, other than own[]. Where it changes its state once there is a boundary of
+ * basins, and in a large ensemble the members beside it show whether that comes back; where it
+ * changes `often`, basins alternate.
+ */
+static double larger_beside(const beside *near, size_t n, size_t member, const int own[2],
+                            int often, double least)
+{
+  int changes = 0, before = 0;
+  double most = 0.0;
+  for (size_t j = 1; j < n; j++) {
+    const int state = near[j].of->where != NULL ? near[j].of->where[member] : -1;
+    if (state < 0) continue;
+    const int family = near[j].family[state];
+    const int other = family < 0 || (family != own[0] && family != own[1]);
+    changes += other != before;
+    before = other;
+    if (other) most = fmax(most, near[j].most[state] - least);
+  }
+  return changes >= often ? most : 0.0;
+}
+
+double pendres_gap_around(const pendres_search *s, size_t i, int far)
+{
+  const pendres_scan_point *const end[2] = {&s->points[i], &s->points[i + 1]};
+  const size_t members = s->ensemble->members;
+  const int often = far || members > GAP_FEW ? 2 : 1;
+  const double widths = far ? gap_around_far : gap_around;
+  beside near[2][GAP_BESIDE];
+  size_t n[2];
+  families all;
+  double more = 0.0;
+  (void)find_families(&end[0]->response, &end[1]->response, end[0]->gap.width, &all);
+  for (int e = 0; e < 2; e++) n[e] = points_beside(s, i, e, widths, &all, near[e]);
+  for (size_t k = 0; k < members; k++) {
+    const int own[2] = {family_at(&all, end[0], 0, k), family_at(&all, end[1], 1, k)};
+    const int largest = larger_of(&all, own[0], own[1]);
+    if (largest < 0) continue; /* it may be on any state as it is */
+    const double least = fmin(all.of[largest].area[0], all.of[largest].area[1]);
+    more += fmax(larger_beside(near[0], n[0], k, own, often, least),
+                 larger_beside(near[1], n[1], k, own, often, least));
+  }
+  return end[0]->gap.bound + more / (double)members;
 }

@@ -40,6 +40,22 @@ enum {
  */
 static const double gap_narrow = 2e-5, gap_narrowest = 1e-7;
 
+/*
+ * A member may be on a state in a gap that it is on at a distance of so many widths of the gap:
+ * where basins alternate with frequency they do so at all scales, and a state that a member is
+ * never on within some widths is hardly in between. So many points are looked at on either side.
+ * Finally what is left open is told from further away, where states alternate. Of more members than
+ * a few the members beside one show where its basin comes back, as in any gap.
+ */
+static const double gap_around = 3.0, gap_around_far = 6.0;
+enum {
+  GAP_BESIDE = 32,
+  GAP_FEW = 24
+};
+
+/* Areas of mirror images at neighbouring frequencies differ by their slopes and this share. */
+static const double gap_image = 0.01;
+
 /* ---- folds that end a state ---- */
 
 enum {

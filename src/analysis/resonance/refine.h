@@ -19,6 +19,8 @@ typedef struct pendres_gap {
   pendres_gap_kind kind;
   double width;
   double bound; /* no mean area within exceeds this */
+  double around; /* nor this if members may also be on the states that they are on beside the gap;
+                    the bound, unless that may exceed all that is known */
   int loose;    /* the bound allows for members near a basin boundary that appear to keep their
                    states */
   int mixed;    /* members change to larger areas and to smaller ones */

@@ -84,6 +84,10 @@ pendres_status pendres_search_scan(pendres_search *s);
 void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, size_t members,
                       pendres_gap *out);
 
+/* The same between points i and i + 1 if members may also be on the states that they are on beside
+   the gap or, if they alternate there, far from it: at least the gap's bound. */
+double pendres_gap_around(const pendres_search *s, size_t i, int far);
+
 /* Request the frequencies that a search needs next; if none, it is over, and *out its resonance. */
 pendres_status pendres_search_next(pendres_search *s, pendres_resonance *out);
 

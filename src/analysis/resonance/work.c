@@ -47,7 +47,8 @@ static int open_gap(const pendres_search *s, size_t i, double threshold)
 {
   const pendres_gap *g = &s->points[i].gap;
   const double width = g->width / s->rate;
-  if (!(g->bound > threshold)) return 0;
+  if (!(g->around > threshold)) return 0;
+  if (g->around > fmax(g->bound, threshold)) return width > gap_narrow;
   if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? gap_narrowest : gap_narrow);
   return g->loose || (g->kind == PENDRES_GAP_PLAIN && width > gap_narrow);
 }
@@ -57,7 +58,7 @@ static double largest_bound(const pendres_search *s, double threshold)
 {
   double largest = -INFINITY;
   for (size_t i = 0; i + 1 < s->count; i++)
-    if (open_gap(s, i, threshold)) largest = fmax(largest, s->points[i].gap.bound);
+    if (open_gap(s, i, threshold)) largest = fmax(largest, s->points[i].gap.around);
   return largest;
 }
 
@@ -157,7 +158,7 @@ static pendres_status resolve_gaps(pendres_search *s)
     for (size_t i = 0; i + 1 < s->count; i++) {
       const double first = pendres_scan_frequency(&s->points[i]), width = s->points[i].gap.width;
       /* Less promising gaps may be ruled out by what is found in the others. */
-      if (!open_gap(s, i, threshold) || s->points[i].gap.bound < 0.5 * (threshold + largest))
+      if (!open_gap(s, i, threshold) || s->points[i].gap.around < 0.5 * (threshold + largest))
         continue;
       for (int k = 1; k < SEARCH_SECTIONS && s->requests < PENDRES_SEARCH_POINTS; k++)
         s->request[s->requests++] = first + width * k / SEARCH_SECTIONS;
@@ -198,7 +199,11 @@ static pendres_status choose_from(pendres_search *s, size_t i, int jumps,
     *again = 1;
     return PENDRES_OK;
   }
-  if (status == PENDRES_OK && !(one.loop_area - one.loop_area_error <= out->loop_area)) *out = one;
+  /* Where the larger side of a jump is not certain, a point that is known may be larger. */
+  const double certain = one.loop_area - one.loop_area_error;
+  if (status == PENDRES_OK && !(certain <= out->loop_area) &&
+      (one.response.uncertain == 0 || certain >= best))
+    *out = one;
   return status;
 }
 
@@ -209,8 +214,9 @@ static pendres_status choose_from(pendres_search *s, size_t i, int jumps,
 static int unresolved(const pendres_search *s, size_t i, double area, int scanned)
 {
   const pendres_gap *g = &s->points[i].gap;
+  if (open_gap(s, i, area)) return 1;
   if (!(g->bound > area)) return 0;
-  if (open_gap(s, i, area) || g->mixed) return 1;
+  if (g->mixed) return 1;
   return g->kind != PENDRES_GAP_PLAIN && (scanned || pendres_search_ended(s));
 }
 
@@ -219,8 +225,23 @@ static double left_open(const pendres_search *s, double area, int scanned)
 {
   double largest = -INFINITY;
   for (size_t i = 0; i + 1 < s->count; i++)
-    if (unresolved(s, i, area, scanned)) largest = fmax(largest, s->points[i].gap.bound);
+    if (unresolved(s, i, area, scanned)) largest = fmax(largest, s->points[i].gap.around);
   return largest;
+}
+
+/* Let members be on the states that they are on beside gaps, where the mean may then exceed an
+   area; whether that leaves gaps open. far: also on those further away, if they alternate. */
+static int look_around(pendres_search *s, double area, int far)
+{
+  int open = 0;
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    pendres_gap *g = &s->points[i].gap;
+    if (!(g->width > gap_narrow * s->rate)) continue;
+    const double most = pendres_gap_around(s, i, far);
+    g->around = most > area ? most : g->bound;
+    open |= g->around > g->bound;
+  }
+  return open;
 }
 
 /* Raise an error to the distance between two values. */
@@ -278,7 +299,8 @@ static pendres_status at_the_end(const pendres_search *s, const pendres_scan_poi
     low ? "lower" : "upper", pendres_scan_frequency(p));
 }
 
-/* Choose the best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
+/* Choose the best of all smooth peaks and edges. *again: a jump turned up, or states beside gaps
+   may be larger, which is to be resolved first. */
 static pendres_status choose(pendres_search *s, pendres_resonance *out, int *again)
 {
   pendres_status status = PENDRES_OK;
@@ -293,12 +315,16 @@ static pendres_status choose(pendres_search *s, pendres_resonance *out, int *aga
   if (status != PENDRES_OK || *again) return status;
   const pendres_scan_point *best = best_point(s), *first = &s->points[0];
   const pendres_scan_point *last = &s->points[s->count - 1];
+  const double most = fmax(out->loop_area + out->loop_area_error, threshold_of(s));
+  *again = look_around(s, most, 0) && !pendres_search_over(s);
+  if (*again) return status;
   if (!(out->loop_area >= best->response.mean_loop_area)) {
     if (best == first || best == last) return at_the_end(s, best);
     *out = as_scanned(best);
   }
-  const double largest = left_open(s, out->loop_area + out->loop_area_error,
-                                   out->peak == PENDRES_PEAK_RAGGED);
+  const double area = out->loop_area + out->loop_area_error;
+  if (s->ensemble->members <= GAP_FEW) (void)look_around(s, area, 1);
+  const double largest = left_open(s, area, out->peak == PENDRES_PEAK_RAGGED);
   if (out->peak == PENDRES_PEAK_RAGGED || largest > -INFINITY)
     make_ragged(s, fmax(largest, out->loop_area), out);
   out->complete = !s->coarse && (out->peak != PENDRES_PEAK_RAGGED || !pendres_search_over(s));
