@@ -174,4 +174,27 @@ static double lab_normal(uint64_t *seed)
   return r * cos(2.0 * lab_pi * lab_uniform(seed));
 }
 
+/* Displacements at n ascending times of which the first is 0, by steps of 1/20 at most. */
+static inline void lab_decay(lab l, double y, double v, size_t n, const double *time, double *out)
+{
+  double s[6] = {y, v, 0.0, 0.0, 0.0, 0.0}, k[4][6], at[6];
+  l.drive = 0.0;
+  l.frequency = 1.0;
+  for (size_t i = 0; i < n; i++) {
+    const double span = time[i] - (i > 0 ? time[i - 1] : 0.0);
+    const int steps = (int)(20.0 * span) + 1;
+    const double h = span / steps;
+    for (int m = 0; m < steps; m++) {
+      lab_slope(&l, 0.0, s, k[0]);
+      for (int j = 1; j < 4; j++) {
+        for (int c = 0; c < 6; c++) at[c] = s[c] + (j < 3 ? 0.5 * h : h) * k[j - 1][c];
+        lab_slope(&l, 0.0, at, k[j]);
+      }
+      for (int c = 0; c < 6; c++)
+        s[c] += h / 6.0 * (k[0][c] + 2.0 * k[1][c] + 2.0 * k[2][c] + k[3][c]);
+    }
+    out[i] = s[0];
+  }
+}
+
 #endif

@@ -126,12 +126,12 @@ static void put_scalar(const fit_work *w, const char *name, const char *words, d
 
 static void write_summary(const fit_work *w)
 {
-  static const char *const names[] = {"no", "yes"};
+  static const char *const names[] = {"no", "yes", "to_no_possible_chi_square"};
   const pendres_fit_summary s = pendres_fit_summary_get(w->fit);
   const int8_t converged = (int8_t)s.converged;
   const pendres_store_spec spec = {.name = "converged", .type = PENDRES_STORE_INT8,
                                    .long_name = "whether the fit has converged",
-                                   .flag_count = 2, .flag_meanings = names};
+                                   .flag_count = 3, .flag_meanings = names};
   put_scalar(w, "chi_square", "chi-square of data, jumps and priors", s.chi_square);
   put_scalar(w, "degrees_of_freedom", "their number less that of the fitted quantities",
              s.degrees_of_freedom);

@@ -146,7 +146,8 @@ typedef struct pendres_fit_model {
 /** How to fit. Zero in a field: default. */
 typedef struct pendres_fit_options {
   size_t size;       /**< sizeof this struct, or 0: that of version 1.0 (see pendres.h) */
-  double huber;      /**< standard errors beyond which a residual counts linearly; 0: none does */
+  double huber;      /**< standard errors beyond which a residual counts linearly; 0: none does;
+                          errors then follow from how the data pull, outliers included */
   double jump_error; /**< standard error of the axis at a jump beside the spacing of the data, as
                           noise makes states jump early; in the data's unit */
   int starts;        /**< most starts that are tried; 6 */
@@ -182,7 +183,9 @@ typedef struct pendres_fit_summary {
   double degrees_of_freedom; /**< their number less that of the unknowns */
   double probability;    /**< of a larger chi_square by chance; NaN where errors are not known */
   double remaining;      /**< by how much chi_square may still fall, by the last derivatives */
-  int converged;         /**< 1: by less than a thousandth */
+  int converged;         /**< 1: by less than a thousandth; 2: so, but chance gives no such
+                              chi_square, or most data are outliers: errors are those by which
+                              data scatter, and the call returns PENDRES_NOT_CONVERGED */
   int determined;        /**< 0: the data leave a combination of the unknowns open */
   int iterations;        /**< steps, of all starts together */
   int evaluations;       /**< sets of parameters at which the model was computed */
@@ -214,8 +217,9 @@ void pendres_fit_free(pendres_fit *fit);
 pendres_fit_summary pendres_fit_summary_get(const pendres_fit *fit);
 /** Value of an unknown by its number among all unknowns of the call; NaN out of range. */
 double pendres_fit_value(const pendres_fit *fit, size_t unknown);
-/** Covariance of two of them; the square of an error where both are one; 0 of fixed ones; INFINITY
-    where the data do not determine it. NaN out of range. */
+/** Covariance of two of them; the square of an error where both are one; 0 of fixed ones. Where an
+    error is no small change it is widened by how far the value moves until chi-square has grown by
+    1, and INFINITY where the data do not determine it. NaN out of range. */
 double pendres_fit_covariance(const pendres_fit *fit, size_t first, size_t second);
 /** Datum number i in the order of the call, owned by the fit; NULL out of range. */
 const pendres_fit_point *pendres_fit_point_get(const pendres_fit *fit, size_t i);

@@ -159,6 +159,7 @@ void accuracy_sweeps(accuracy *a);
 void accuracy_ramps(accuracy *a);
 void accuracy_switching(accuracy *a);
 void accuracy_fits(accuracy *a);
+void accuracy_fit_errors(accuracy *a); /* of that section */
 
 /* ---- for main ---- */
 

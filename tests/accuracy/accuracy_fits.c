@@ -225,4 +225,5 @@ void accuracy_fits(accuracy *a)
   printf("\nfits: %s\n", how);
   if (sum.values >= 400 && !(fabs(mean) < farthest_mean && fabs(width - 1.0) < farthest_width))
     accuracy_complain(a, "standard errors are not what they say", how);
+  accuracy_fit_errors(a);
 }

@@ -27,9 +27,6 @@ typedef struct pendres_fit_call {
 /* Whether arguments can be fitted; the context says why not. */
 pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c);
 
-/* The probability of a larger chi-square. */
-double pendres_fit_probability(const fit_result *r);
-
 /* Give the caller what was found; the problem is that at the best values. PENDRES_NOT_CONVERGED is
    what a fit that is none returns with its results. */
 pendres_status pendres_fit_result(const pendres_fit_call *c, fit_problem *p,

@@ -95,6 +95,21 @@ static int row_of(const fit_model *m, int parameter)
   return PENDRES_ROW_BY_PARAMETERS + 2 * m->parameter[parameter];
 }
 
+/* The same of a derivative by the state at the period's beginning, whose second derivatives follow
+   from those of the force, by y and w at both samples: a linear motion is such derivatives times
+   its start, and what they were off by would seem to tell the one from the other. */
+static double by_start(const fit_samples *s, size_t lane, size_t k, double t, int row,
+                       double force[2][2])
+{
+  double f[2], slope[2], bend[2], unused;
+  for (size_t i = 0; i < 2; i++) {
+    f[i] = pendres_fit_sample(s, lane, k + i, row);
+    slope[i] = pendres_fit_sample(s, lane, k + i, row + 1);
+    bend[i] = force[i][0] * f[i] + force[i][1] * slope[i];
+  }
+  return quintic(two_pi / (double)s->steps, t, f, slope, bend, &unused);
+}
+
 /* ---- stations ---- */
 
 /* The motion at a station, which is in the period of this lane. */
@@ -106,11 +121,12 @@ static void measure(decay *d, const fit_samples *s, size_t lane, size_t period, 
   const size_t last = (size_t)d->steps - 1;
   const size_t k = theta > 0.0 ? (size_t)fmin(floor(theta / step), (double)last) : 0;
   const double t = theta / step - (double)k;
-  double y[2], w[2], bend[2], velocity;
+  double y[2], w[2], bend[2], force[2][2], velocity;
   for (size_t i = 0; i < 2; i++) {
     y[i] = pendres_fit_sample(s, lane, k + i, PENDRES_ROW_Y);
     w[i] = pendres_fit_sample(s, lane, k + i, PENDRES_ROW_W);
     bend[i] = pendres_pendulum_acceleration(&d->pendulum, y[i] + origin, w[i], 0.0);
+    pendres_model_jacobian(&d->pendulum, y[i] + origin, w[i], &force[i][0], &force[i][1]);
   }
   fit_lane *l = &m->lane[m->lanes];
   *l = (fit_lane){.border = {0.0, 0.0, 1.0}, .found = 1, .stable = 1};
@@ -119,8 +135,8 @@ static void measure(decay *d, const fit_samples *s, size_t lane, size_t period, 
   l->u[PENDRES_U_Y] = l->base[PENDRES_FIT_DISPLACEMENT];
   l->u[PENDRES_U_W] = velocity;
   l->time_slope = velocity * time;
-  const double of_y = between(s, lane, k, step, t, PENDRES_ROW_BY_Y);
-  const double of_w = between(s, lane, k, step, t, PENDRES_ROW_BY_W);
+  const double of_y = by_start(s, lane, k, t, PENDRES_ROW_BY_Y, force);
+  const double of_w = by_start(s, lane, k, t, PENDRES_ROW_BY_W, force);
   for (int c = 0; c < STARTS; c++) l->start_slope[c] = of_y * d->by[0][c] + of_w * d->by[1][c];
   for (int p = 0; p < m->parameters; p++)
     l->slope[PENDRES_FIT_DISPLACEMENT][m->parameter[p]] =

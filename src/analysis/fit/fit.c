@@ -150,6 +150,9 @@ static pendres_status take_room(fit_problem *p, fit_result *best, fit_result *no
     both[k]->covariance = pendres_room_take(room, n * n, sizeof *both[k]->covariance);
     both[k]->open = pendres_room_take(room, n, sizeof *both[k]->open);
     both[k]->at_bound = pendres_room_take(room, n, sizeof *both[k]->at_bound);
+    both[k]->far = pendres_room_take(room, n, sizeof *both[k]->far);
+    both[k]->weak = pendres_room_take(room, n, sizeof *both[k]->weak);
+    both[k]->spread = pendres_room_take(room, n, sizeof *both[k]->spread);
   }
   return room->status;
 }
@@ -276,8 +279,9 @@ static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int 
       own = k < c->own;
     }
     if (status == PENDRES_OK) compare(c, p, best, now);
-    const int good = best->computed && best->converged &&
-                     (!c->errors_known || pendres_fit_probability(best) > fit_good_enough);
+    /* Without errors of the data nothing but worse ones tells that a fit is good. */
+    const int good = best->computed && best->converged && c->errors_known &&
+                     pendres_fit_probability(best) > fit_good_enough;
     if (good && (p->m->decays || p->m->rotates || p->m->axis == PENDRES_DRIVE_FREQUENCY)) break;
   }
   return status;
@@ -353,8 +357,9 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
 {
   size_t open = 0;
   for (size_t i = 0; i < c->model->unknowns; i++) open += !c->model->unknown[i].fixed;
-  fit_problem p = {.m = m, .terms = {.jump_error = c->options.jump_error,
-                                     .huber = c->options.huber}};
+  fit_problem p = {.m = m, .errors_known = c->errors_known,
+                   .terms = {.jump_error = c->options.jump_error,
+                             .huber = c->options.huber}};
   fit_result best = {.computed = 0}, now = {.computed = 0};
   double *error = pendres_room_take(room, m->data, sizeof *error);
   double *work = pendres_room_take(room, m->data, sizeof *work);
@@ -377,11 +382,17 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
   forget_curves(&p);
   const int converged = best.converged; /* also where derivatives do not tell */
   status = pendres_fit_conclude(&p, &best);
-  if (status != PENDRES_OK) return status;
   best.converged |= converged;
+  if (status == PENDRES_OK)
+    status = pendres_fit_profile(&p, c->options.iterations, &best, &now);
+  if (best.impossible) best.converged *= 2;
+  if (!p.known) forget_curves(&p);
+  if (status == PENDRES_OK && !pendres_fit_evaluate(&p, best.v)) status = p.status;
+  if (status != PENDRES_OK) return status;
   status = pendres_fit_result(c, &p, &best);
   if (status == PENDRES_NOT_CONVERGED)
-    (void)pendres_context_fail(ctx, status, "the fit has not converged; the values are the best");
+    (void)pendres_context_fail(ctx, status, "the fit has not converged%s; the values are the best",
+                               best.converged ? " to a chi-square that can be" : "");
   return status;
 }
 

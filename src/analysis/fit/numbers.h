@@ -36,6 +36,8 @@ enum {
      latter takes a tenth of a second. */
   FIT_DECAY_FIRST = 32,
   FIT_DECAY_WINDOW = 1024,
+  FIT_PROFILE_PLACES = 64, /* at which chi-square is followed one way; a dozen is usual */
+  FIT_PROFILE_ITERATIONS = 20, /* to one of them, from values that went on as before */
   FIT_NOTES = 12,
   FIT_NOTE = 400
 };
@@ -96,10 +98,27 @@ static const double fit_at_bound = 1e-5, fit_inside = 1e-3;
    they are known to six digits or so. */
 static const double fit_undetermined = 1e-5;
 
+/* An error as large as this share of a positive number, or of the angle that a bounded one is seen
+   as, is no small change: chi-square is no parabola along it, and is followed. What goes with the
+   square of such a number is off from its tangent by a third three errors away. */
+static const double fit_far = 0.1;
+
+/* Steps along it, in the logarithm: the first, the longest, and the shortest, at which it ends;
+   chi-square is followed up to this rise, three standard deviations, and grows by no more than this
+   from step to step; and so far, a factor of 160,000. What still moves there has no end. */
+static const double fit_profile_first = 0.1, fit_profile_long = 2.0, fit_profile_short = 0.01,
+                    fit_profile_rise = 9.0, fit_profile_grows = 4.0, fit_profile_end = 12.0;
+
+/* Of what has an end at least two thirds of the way come in the first half of the steps. */
+static const double fit_profile_ends = 1.5;
+
 /* A fit whose chi-square is so improbable says that it is on a wrong minimum, or the model or the
    errors are wrong. A start whose probability is above the second number ends the search: one in
    twenty of the right ones goes on in vain, and few of the wrong ones end it. */
 static const double fit_improbable = 1e-6, fit_good_enough = 0.05;
+
+/* Outliers are few: where more than this share of the data are, it is the fit that is off. */
+static const double fit_outliers = 0.5;
 
 /* Residuals of neighbours are correlated beyond chance where the sum of their products is further
    from 0 than this many standard deviations. */

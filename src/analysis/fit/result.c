@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_cdf.h>
-
 #include <pendres/names.h>
 
 #include "base/angles.h"
@@ -21,11 +19,6 @@ void pendres_fit_free(pendres_fit *fit)
   free(fit->point);
   free(fit->jump);
   free(fit);
-}
-
-double pendres_fit_probability(const fit_result *r)
-{
-  return r->freedom > 0.0 ? gsl_cdf_chisq_Q(fmax(r->chi_square, 0.0), r->freedom) : NAN;
 }
 
 static void note(pendres_fit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -107,8 +100,9 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
          "fix some unknowns", s->remaining);
   if (c->errors_known && s->probability < fit_improbable)
     note(fit, "chi-square is %.4g with %g degrees of freedom, which chance gives with a "
-         "probability of %.1g: the model, the errors of the data or the minimum are wrong",
-         s->chi_square, s->degrees_of_freedom, s->probability);
+         "probability of %.1g: the model, the errors of the data or the minimum are wrong%s",
+         s->chi_square, s->degrees_of_freedom, s->probability,
+         s->converged == 2 ? "; errors are those by which it would be what is expected" : "");
   const double correlated = correlation_of(p);
   if (correlated > fit_correlated)
     note(fit, "residuals of neighbours are correlated (%.1f standard deviations): the model does "
@@ -149,10 +143,7 @@ static void take_covariance(const pendres_fit_call *c, const fit_problem *p, con
       *to = i < 0 || k < 0 ? 0.0
                            : best->covariance[(size_t)i * p->unknowns + (size_t)k] * p->m->unit[q] *
                                p->m->unit[c->model->unknown[b].quantity];
-      /* What takes part in an open combination has no finite error. */
-      if (i >= 0 && a == b && !best->determined &&
-          fabs(best->open[i]) > 1e-3 * fabs(best->v[q]) * 1e-3)
-        *to = INFINITY;
+      if (i >= 0 && a == b) *to += pow(best->spread[i] * p->m->unit[q], 2.0);
     }
   }
 }
@@ -275,7 +266,7 @@ pendres_status pendres_fit_result(const pendres_fit_call *c, fit_problem *p, con
   take_jumps(p, best, fit);
   take_notes(c, p, best, fit);
   *c->out = fit;
-  return best->converged ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+  return best->converged == 1 ? PENDRES_OK : PENDRES_NOT_CONVERGED;
 }
 
 /* ---- reading ---- */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
@@ -45,6 +46,14 @@ static double decode(const fit_free *f, double x, double *slope)
   }
 }
 
+double pendres_fit_moved(fit_free *f, double value, double by)
+{
+  double slope;
+  const double x = encode(f, value);
+  if (f->form != FIT_SINE) return value != 0.0 ? value * exp(by) : by;
+  return decode(f, fmin(fmax(x + by, -0.5 * pi), 0.5 * pi), &slope);
+}
+
 static void values_of(const fit_problem *p, const double *x, fit_values v, double *slope)
 {
   memcpy(v, p->v, sizeof(fit_values));
@@ -75,17 +84,15 @@ static void add_priors(fit_problem *p)
   }
 }
 
-/* Huber's loss as the square of another residual. */
-static void soften(fit_problem *p)
+/* Huber's loss of a row as the square of another residual, and how that grows with the row's. */
+static double soften(const fit_problem *p, size_t row, double *slope)
 {
-  const double bend = p->terms.huber;
-  for (size_t i = 0; i < pendres_fit_rows(p->m) && bend > 0.0; i++) {
-    const double r = p->rows.residual[i];
-    if (!(fabs(r) > bend)) continue;
-    const double soft = sqrt(bend * (2.0 * fabs(r) - bend));
-    p->rows.residual[i] = copysign(soft, r);
-    for (int q = 0; q < FIT_QUANTITIES; q++) p->rows.slope[i][q] *= bend / soft;
-  }
+  const double bend = p->terms.huber, r = p->rows.residual[row];
+  *slope = 1.0;
+  if (!(bend > 0.0 && fabs(r) > bend) || row >= pendres_fit_rows(p->m)) return r;
+  const double soft = sqrt(bend * (2.0 * fabs(r) - bend));
+  *slope = bend / soft;
+  return copysign(soft, r);
 }
 
 int pendres_fit_evaluate(fit_problem *p, const fit_values v)
@@ -101,16 +108,14 @@ int pendres_fit_evaluate(fit_problem *p, const fit_values v)
   if (p->lost) return 0;
   pendres_fit_residuals(p->m, v, &p->terms, &p->rows);
   add_priors(p);
-  soften(p);
   for (size_t i = 0; i < pendres_fit_all_rows(p); i++) p->lost |= !isfinite(p->rows.residual[i]);
   return !p->lost;
 }
 
 double pendres_fit_sum_of_squares(const fit_problem *p)
 {
-  double sum = 0.0;
-  for (size_t i = 0; i < pendres_fit_all_rows(p); i++)
-    sum += p->rows.residual[i] * p->rows.residual[i];
+  double sum = 0.0, slope;
+  for (size_t i = 0; i < pendres_fit_all_rows(p); i++) sum += pow(soften(p, i, &slope), 2.0);
   return sum;
 }
 
@@ -125,7 +130,7 @@ static int residuals(const gsl_vector *x, void *arg, gsl_vector *out)
   /* Where there is no model, all is worse than anywhere else. */
   const double worst = sqrt(10.0 * p->worst / (double)out->size);
   for (size_t i = 0; i < out->size; i++)
-    gsl_vector_set(out, i, found ? p->rows.residual[i] : worst);
+    gsl_vector_set(out, i, found ? soften(p, i, slope) : worst);
   return GSL_SUCCESS;
 }
 
@@ -133,14 +138,16 @@ static int slopes(const gsl_vector *x, void *arg, gsl_matrix *out)
 {
   fit_problem *p = arg;
   fit_values v;
-  double slope[FIT_QUANTITIES];
+  double slope[FIT_QUANTITIES], soft;
   values_of(p, x->data, v, slope);
   const int found = pendres_fit_evaluate(p, v);
-  for (size_t i = 0; i < out->size1; i++)
+  for (size_t i = 0; i < out->size1; i++) {
+    (void)soften(p, i, &soft);
     for (size_t k = 0; k < out->size2; k++) {
-      const double j = found ? p->rows.slope[i][p->free[k].quantity] * slope[k] : 0.0;
+      const double j = found ? p->rows.slope[i][p->free[k].quantity] * slope[k] * soft : 0.0;
       gsl_matrix_set(out, i, k, isfinite(j) ? j : 0.0);
     }
+  }
   return p->status == PENDRES_OK ? GSL_SUCCESS : GSL_EFAILED;
 }
 
@@ -207,18 +214,108 @@ pendres_status pendres_fit_solve(fit_problem *p, int iterations, fit_result *out
 
 /* ---- covariance ---- */
 
+/* What pulls at the values, and how stiffly: Huber's loss has a slope of its bend beyond it, and no
+   curvature there, so that the data resist a change by the share of them that is within. */
+static double pull_of(const fit_problem *p, size_t row)
+{
+  double slope;
+  const double soft = soften(p, row, &slope);
+  return soft * slope;
+}
+
+static double stiffness_of(const fit_problem *p)
+{
+  double within = 0.0, all = 0.0;
+  if (!(p->terms.huber > 0.0)) return 1.0;
+  for (size_t i = 0; i < pendres_fit_rows(p->m); i++) {
+    if (p->rows.residual[i] == 0.0) continue; /* a row that is not used */
+    all += 1.0;
+    within += fabs(p->rows.residual[i]) <= p->terms.huber;
+  }
+  return all > 0.0 ? fmax(within, 1.0) / all : 1.0;
+}
+
+static double weight_of(const fit_problem *p, size_t row)
+{
+  return row < pendres_fit_rows(p->m) ? sqrt(p->stiffness) : 1.0;
+}
+
 /* The derivatives in a matrix, columns of length 1; those of quantities at a bound are 0. */
 static void scale_columns(const fit_problem *p, gsl_matrix *j, double *length)
 {
   for (size_t k = 0; k < p->unknowns; k++) {
     const int q = p->free[k].quantity;
     double sum = 0.0;
-    for (size_t i = 0; i < j->size1; i++) sum = hypot(sum, p->rows.slope[i][q]);
+    for (size_t i = 0; i < j->size1; i++) {
+      const double slope = p->rows.slope[i][q] * weight_of(p, i);
+      gsl_matrix_set(j, i, k, slope);
+      sum = hypot(sum, slope);
+    }
     length[k] = sum;
     const int open = sum > 0.0 && !p->free[k].at_bound;
     for (size_t i = 0; i < j->size1; i++)
-      gsl_matrix_set(j, i, k, open ? p->rows.slope[i][q] / sum : 0.0);
+      gsl_matrix_set(j, i, k, open ? gsl_matrix_get(j, i, k) / sum : 0.0);
   }
+}
+
+/* Widen errors by a scatter of the data over the expected one, in squares; priors stay. */
+static void scale_errors(const fit_problem *p, double scatter, fit_result *out)
+{
+  const size_t n = p->unknowns;
+  double was[FIT_QUANTITIES * FIT_QUANTITIES], held;
+  memcpy(was, out->covariance, n * n * sizeof *was);
+  for (size_t a = 0; a < n; a++) {
+    out->weak[a] *= scatter;
+    for (size_t b = 0; b < n; b++) {
+      out->covariance[a * n + b] *= scatter;
+      for (size_t k = 0; k < n; k++) {
+        held = p->free[k].prior_error > 0.0 ? pow(p->free[k].prior_error, -2.0) : 0.0;
+        out->covariance[a * n + b] += (1.0 - scatter) * was[a * n + k] * held * was[k * n + b];
+      }
+    }
+  }
+  out->scatter *= scatter;
+}
+
+double pendres_fit_probability(const fit_result *r)
+{
+  return r->freedom > 0.0 ? gsl_cdf_chisq_Q(fmax(r->chi_square, 0.0), r->freedom) : NAN;
+}
+
+/* Errors by how data scatter. With outliers they are the inverse of what resists, about what the
+   data pull by chance (Huber and Ronchetti, Robust Statistics, section 7.6), and most of the data
+   are none. Without, chi-square tells whether the errors of data are theirs. */
+static void judge_scatter(const fit_problem *p, fit_result *out)
+{
+  double sum = 0.0, freedom = fmax(1.0, out->freedom);
+  const int soft = p->terms.huber > 0.0;
+  for (size_t i = 0; i < pendres_fit_rows(p->m); i++) sum += pow(pull_of(p, i), 2.0);
+  out->scatter = 1.0;
+  out->impossible = soft ? p->stiffness < fit_outliers
+                         : p->errors_known && pendres_fit_probability(out) < fit_improbable;
+  if (soft) scale_errors(p, sum / freedom / p->stiffness, out);
+  else if (out->impossible) scale_errors(p, out->chi_square / freedom, out);
+}
+
+/* Note a combination of unknowns of which one error changes them by so much, if that is no small
+   change, or if it is not determined: what is seen plainly is only followed then. */
+static void note_far(const fit_problem *p, const double *change, int open, fit_result *out)
+{
+  size_t most = p->unknowns;
+  double largest = 0.0;
+  for (size_t a = 0; a < p->unknowns; a++) {
+    fit_free *f = &p->free[a];
+    double slope;
+    (void)decode(f, encode(f, out->v[f->quantity]), &slope);
+    const double seen = fabs(change[a] / slope) * (f->form == FIT_PLAIN ? 0.5 * open : 1.0);
+    if (f->at_bound || !(seen > largest)) continue;
+    most = a;
+    largest = seen;
+  }
+  if (most == p->unknowns || !(open || largest > fit_far)) return;
+  out->far[most] = open ? INFINITY : largest;
+  memcpy(out->open, change, p->unknowns * sizeof *change);
+  for (size_t a = 0; a < p->unknowns && !open; a++) out->weak[a] += change[a] * change[a];
 }
 
 /* What the decomposition says: the covariance, and what may still be gained. */
@@ -226,9 +323,13 @@ static void read_decomposition(const fit_problem *p, const gsl_matrix *u, const 
                                const gsl_vector *s, const double *length, fit_result *out)
 {
   const size_t n = p->unknowns;
+  double change[FIT_QUANTITIES];
   const double least = fit_undetermined * gsl_vector_get(s, 0);
   memset(out->covariance, 0, n * n * sizeof *out->covariance);
   memset(out->open, 0, n * sizeof *out->open);
+  memset(out->far, 0, n * sizeof *out->far);
+  memset(out->weak, 0, n * sizeof *out->weak);
+  memset(out->spread, 0, n * sizeof *out->spread);
   out->remaining = 0.0;
   out->determined = 1;
   for (size_t c = 0; c < n; c++) {
@@ -237,16 +338,19 @@ static void read_decomposition(const fit_problem *p, const gsl_matrix *u, const 
     for (size_t k = 0; k < n; k++)
       if (p->free[k].at_bound) held = fmax(held, fabs(gsl_matrix_get(v, k, c)));
     if (size <= least && held > 0.5) continue; /* the column of a quantity at its bound */
-    for (size_t i = 0; i < u->size1; i++) part += gsl_matrix_get(u, i, c) * p->rows.residual[i];
+    for (size_t i = 0; i < u->size1; i++)
+      part += gsl_matrix_get(u, i, c) * pull_of(p, i) / weight_of(p, i);
     if (size > least) out->remaining += part * part;
     for (size_t a = 0; a < n; a++) {
       const double at = gsl_matrix_get(v, a, c);
-      if (size <= least) out->open[a] = length[a] > 0.0 ? at / length[a] : at;
+      change[a] = length[a] > 0.0 ? at / length[a] : at;
+      if (size > least) change[a] /= size;
       for (size_t b = 0; b < n && size > least; b++)
         out->covariance[a * n + b] +=
           at * gsl_matrix_get(v, b, c) / (size * size * length[a] * length[b]);
     }
     out->determined &= size > least;
+    note_far(p, change, size <= least, out);
   }
 }
 
@@ -273,8 +377,11 @@ static void doubt_without_jumps(const fit_problem *p, fit_result *out)
   if (damping < 0 || gain < 0 || !out->determined) return;
   if (!pendres_rotation_onset_slope(out->v[PENDRES_DAMPING], &torque, &by_damping)) return;
   if (torque < 1.0) return;
-  out->open[damping] = out->v[PENDRES_DAMPING];
-  out->open[gain] = out->v[PENDRES_FIT_AMPLITUDE_SCALE];
+  double both[FIT_QUANTITIES] = {0.0};
+  both[damping] = out->v[PENDRES_DAMPING];
+  both[gain] = out->v[PENDRES_FIT_AMPLITUDE_SCALE];
+  note_far(p, both, 1, out);
+  out->spread[damping] = out->spread[gain] = INFINITY;
   out->determined = 0;
 }
 
@@ -292,6 +399,7 @@ pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out)
   const size_t n = p->unknowns, rows = pendres_fit_all_rows(p);
   double length[FIT_QUANTITIES];
   if (!pendres_fit_evaluate(p, out->v)) return p->status;
+  p->stiffness = stiffness_of(p);
   gsl_matrix *j = gsl_matrix_alloc(rows, n), *v = gsl_matrix_alloc(n, n);
   gsl_vector *s = gsl_vector_alloc(n);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
@@ -312,6 +420,7 @@ pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out)
     doubt_without_jumps(p, out);
     out->chi_square = pendres_fit_sum_of_squares(p);
     out->freedom = freedom_of(p);
+    judge_scatter(p, out);
     out->computed = 1;
     const double one = fmax(1.0, out->chi_square / fmax(1.0, out->freedom));
     out->converged = out->remaining < fit_converged * one;

@@ -16,6 +16,7 @@ typedef struct fit_free {
 typedef struct fit_problem {
   fit_model *m;
   fit_terms terms;
+  int errors_known; /* of the data */
   fit_rows rows; /* of the latest values */
   size_t unknowns;
   fit_free *free;
@@ -25,6 +26,7 @@ typedef struct fit_problem {
   int lost;       /* the model could not be computed there */
   pendres_status status; /* what ends the fit */
   int evaluations, iterations;
+  double stiffness; /* share of the data that resist a change at the values concluded last */
   double worst; /* sum of squares of the first values that could be computed */
   int has_twin; /* other values fit about as well: */
   fit_values twin;
@@ -35,10 +37,16 @@ typedef struct fit_problem {
 typedef struct fit_result {
   fit_values v;
   double chi_square, freedom, remaining;
+  double scatter; /* what chi-square rises by at one error, by how data scatter: 1 of normal ones */
   int computed, converged, determined;
+  int impossible; /* chance gives no such chi-square */
   double *covariance; /* [unknowns][unknowns], of the quantities in canonical units */
   double *open;       /* [unknowns] a combination that is not determined, in units of v */
   int *at_bound;      /* [unknowns] */
+  double *far;        /* [unknowns] not 0: along a combination of which this unknown is the
+                         largest part an error is no small change, but this one in its logarithm */
+  double *weak;       /* [unknowns] the share of such combinations in the variances */
+  double *spread;     /* [unknowns] what following says beyond the covariance; INFINITY: no end */
 } fit_result;
 
 /* Rows with those of priors. */
@@ -58,5 +66,19 @@ pendres_status pendres_fit_solve(fit_problem *p, int iterations, fit_result *out
 
 /* Chi-square and covariance at values. */
 pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out);
+
+/* The probability of a larger chi-square. */
+double pendres_fit_probability(const fit_result *r);
+
+/* A value moved by a factor of exp(by); one with bounds by that in what the solver sees, and not
+   beyond them. */
+double pendres_fit_moved(fit_free *f, double value, double by);
+
+/* ---- profile.c ---- */
+
+/* Follow chi-square from a fit's values along what is far, and widen errors by what moves; `work`
+   is overwritten. */
+pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_result *best,
+                                   fit_result *work);
 
 #endif
