@@ -103,7 +103,8 @@ static char *head_of(const deck *d)
 
 static int complain(progress *p, pendres_status status, const char *words, const char *advice)
 {
-  progress_error(p, "%s%s", words, status == PENDRES_INVALID_ARGUMENT ? advice : "");
+  progress_error(p, "%s%s", progress_words(words, status),
+                 status == PENDRES_INVALID_ARGUMENT ? advice : "");
   return status == PENDRES_INVALID_ARGUMENT ? BAD_USAGE : FAILED;
 }
 
@@ -152,7 +153,7 @@ static int open_at(const place *at, const char *path, const char *head, const op
   if (status != PENDRES_OK)
     return complain(p, status, words, " (without --resume all is computed, and that journal "
                     "kept under another name)");
-  if (words[0] != '\0') progress_error(p, "%s", words);
+  if (words[0] != '\0') progress_warning(p, "%s", words);
   const size_t own = journal_count(*out);
   if (own > 0)
     progress_note(p, "going on from %zu finished task%s in %s", own, own == 1 ? "" : "s", path);

@@ -301,8 +301,8 @@ void deck_free(deck *d);
  */
 pendres_status deck_dump(const deck *d, FILE *stream);
 
-/** The same as a text, to be freed by free(); NULL on failure. */
-pendres_status deck_resolved(const deck *d, char **text);
+/** The same as a text, to be freed by free(); NULL on failure: there is no memory. */
+pendres_status deck_resolved(const deck *d, char **out);
 
 /** The pendulum of a deck; parameters that are axes have their first values. */
 pendres_pendulum deck_pendulum(const deck *d);

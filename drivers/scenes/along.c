@@ -226,12 +226,13 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   head n;
   (void)task;
   memcpy(&n, in->data, sizeof n);
-  *path = (scene_along_path){.axis = s->way->axis, .points = n.points, .jumps = n.jumps,
-                             .steps = n.steps};
-  path->point = scene_array(s->run, n.points, sizeof *path->point);
-  path->jump = scene_array(s->run, n.jumps, sizeof *path->jump);
-  path->step = scene_array(s->run, n.steps, sizeof *path->step);
-  if (!scene_going(s->run)) return s->run->status;
+  scene_along_path whole = {.axis = s->way->axis, .points = n.points, .jumps = n.jumps,
+                            .steps = n.steps};
+  whole.point = scene_array(s->run, n.points, sizeof *whole.point);
+  whole.jump = scene_array(s->run, n.jumps, sizeof *whole.jump);
+  whole.step = scene_array(s->run, n.steps, sizeof *whole.step);
+  if (!scene_going(s->run)) return s->run->status; /* and *path holds nothing */
+  *path = whole;
   const char *from = (const char *)in->data + sizeof n;
   memcpy(path->point, from, n.points * sizeof *path->point);
   from += n.points * sizeof *path->point;

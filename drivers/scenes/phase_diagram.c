@@ -98,7 +98,7 @@ const scene_kind scene_phase_diagram = {
   .figures = "Fig. 8 and section III D",
   .references = "; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapters 9 and 10",
   .budget = 1,
-  .size = {.head = 60e3, .point = 17.0, .memory = 300.0, .stages = 3.0, .after = 1.2,
+  .size = {.head = 60e3, .point = 17.0, .memory = 300.0, .stages = 3.0, .after = 1.2, .members = 1,
            .seconds = 1e-3, .more = more},
   .describe = describe,
   .run = run_scene};

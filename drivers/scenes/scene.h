@@ -55,6 +55,7 @@ typedef struct scene_size {
   double head, point, memory, stages, after, seconds;
   double slowest;              /* how many times longer points take at most, at weak damping */
   double journal;              /* bytes a point where not even one task can be tried */
+  int members;                 /* each point has the deck's ensemble, of which some can be tried */
   double (*points)(const deck *d); /* where they are not those of the deck's axes */
   /* Values that are no points, such as strobe points: how many there are, and bytes of each. */
   double (*values)(const deck *d);
