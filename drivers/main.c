@@ -10,6 +10,7 @@
 
 #include "farm/ranks.h"
 #include "pages.h"
+#include "scenes/failed.h"
 #include "scenes/outer.h"
 #include "run.h"
 #include "shard.h"
@@ -170,17 +171,6 @@ static int watch(job *j)
   return FAILED;
 }
 
-/* Points that have failed. */
-static int tell_failed(job *j, const char *where)
-{
-  if (j->run.failed_points == 0) return DONE;
-  for (size_t i = 0; i < j->run.told_count; i++)
-    progress_error(&j->progress, "%s", j->run.told[i]);
-  progress_error(&j->progress, "%zu point%s failed, %s", j->run.failed_points,
-                 j->run.failed_points == 1 ? "" : "s", where);
-  return SOME_POINTS_FAILED;
-}
-
 static int look_ahead(job *j)
 {
   j->run = (scene_run){ .deck = &j->deck, .farm = j->farm };
@@ -189,7 +179,9 @@ static int look_ahead(job *j)
     return FAILED;
   if (estimate_dry_run(&j->run, j->scene, &j->progress) != DONE) return FAILED;
   if (signals_stop(NULL)) return STOPPED;
-  return check_stdout(j) == DONE ? tell_failed(j, "of those that were tried") : FAILED;
+  if (check_stdout(j) != DONE) return FAILED;
+  return scene_failures_told(&j->run, "of those that were tried", &j->progress)
+           ? SOME_POINTS_FAILED : DONE;
 }
 
 static int open_log(job *j)
@@ -370,7 +362,7 @@ static int report(job *j)
   }
   char where[DECK_PATH + 20];
   snprintf(where, sizeof where, "as marked in %s", j->deck.output);
-  return tell_failed(j, where);
+  return scene_failures_told(&j->run, where, &j->progress) ? SOME_POINTS_FAILED : DONE;
 }
 
 /* What is asked about decks, not of one. */

@@ -89,6 +89,7 @@ static char *head_of(const deck *d)
   deck same = *d;
   char *text = NULL, *head = NULL;
   same.output[0] = same.title[0] = '\0';
+  same.precision.unresolved_share = 0.0; /* as does what is tolerated */
   if (deck_resolved(&same, &text) != PENDRES_OK) return NULL;
   const char *version = pendres_version(), *build = pendres_build_info();
   static const char sources[] = SOURCES_SUM; /* the Makefile's checksum of all that is compiled */

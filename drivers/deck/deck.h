@@ -195,6 +195,7 @@ typedef struct deck {
     int64_t steps_per_period;
     int64_t block_lanes;
     int64_t period_budget;
+    double unresolved_share; /* of the points, that may stay unresolved without a failure */
     double exponent_error;  /* of chaos, relative; 0: the library's */
   } precision;
 
@@ -388,6 +389,9 @@ int deck_may_rest(const deck *d);
 
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */
 int deck_is_plain(const deck *d);
+
+/** Whether the force, at some point of the deck, lets pendulums go to infinity. */
+int deck_leaves(const deck *d);
 
 /** The row of a kind, and names in decks; NULL if out of range. */
 const deck_kind_info *deck_kind_of(deck_kind kind);

@@ -375,10 +375,11 @@ void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path 
 {
   static const char *const words[] = { "upwards", "downwards" };
   const size_t values = path->points / (size_t)ways;
+  run->points += path->points;
   for (size_t i = 0; i < path->points && scene_going(run); i++) {
     const scene_failure failed = failure_of(&path->point[i]);
     if (failed == SCENE_FAILURE_NONE) continue;
-    run->failed_points++;
+    scene_failure_count(run, failed, 1);
     scene_failure_tell(run, failed, remedy_of(failed), "%s %.10g, %s", deck_axis_name(axis),
                        path->point[i].value, words[i / values]);
   }

@@ -70,7 +70,7 @@ static void judge(scene_run *run, outer *o, size_t slice)
     o->left = 1;
   } else if (reason != SCENE_FAILURE_NONE) {
     o->failed[slice].reason = reason;
-    run->failed_points++;
+    scene_failure_count(run, reason, 1);
     scene_failure_tell(run, reason, run->message[0] != '\0' ? run->message : NULL, "%s",
                        deck_kind_name(o->whole->kind));
   } else {
