@@ -48,7 +48,8 @@ run()
     [ -f o.h5 ] || fail "$why no output" ;;
   1) grep -q 'error: .*[a-z]' err || fail "$why no message"
     grep -q 'has crashed\|ended the program' err && [ -z "$by" ] && fail "$why a crash"
-    [ ! -f o.h5 ] || grep -q 'are whole in\|cannot save the folder' err || fail "$why an output of a failed run" ;;
+    [ ! -f o.h5 ] || grep -q 'are whole in\|cannot save the folder\|no text is written' err ||
+      fail "$why an output of a failed run" ;;
   2) grep -q 'cannot read the deck: \|out of memory' err || fail "$why exit code 2" ;;
   *) fail "$why exit code $code" ;;
   esac

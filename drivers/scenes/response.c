@@ -393,7 +393,7 @@ const scene_kind scene_response = {
   .references = "; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert "
                 "and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .budget = 1,
-  .size = {.head = 50e3, .point = 128.0, .memory = 300.0, .stages = 2.0, .after = 1.0, .members = 1,
+  .size = {.head = 50e3, .point = 128.0, .memory = 300.0, .stages = 2.0, .after = 1.0,
            .seconds = 4e-4, .more = more},
   .describe = describe,
   .run = run_scene};
