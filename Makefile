@@ -7,7 +7,8 @@
 #   make accuracy   error estimates at random parameters against the reference, for an hour or so;
 #                   ACCURACY="--seed=3 --orbits=2000 --section=orbits" for less
 #   make fuzz       bytes that a fuzzer makes up (clang's libFuzzer), for the readers of decks, journals,
-#                   data and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz
+#                   data and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz.
+#                   And memory that is refused, of every kind of scene, for a quarter of an hour
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
@@ -381,6 +382,8 @@ fuzz:
 	  echo 'make fuzz needs clang with libFuzzer (Debian: make deps-fuzz)' >&2; exit 1; }
 	+@$(MAKE) --no-print-directory -k CC=$(CLANG) BUILD=build/fuzz \
 	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZ_NAMES:%=fuzz/%)
+	+@$(MAKE) --no-print-directory all
+	@$(RUN_ENVIRONMENT) FAULTS=6 tests/faults_memory_check.sh
 
 FIGURES := $(BUILD)/bench/figures.txt
 

@@ -455,8 +455,7 @@ int csv_write(const deck *d, int force, progress *p)
   if (t.status == PENDRES_OK) code = write_all(&t, d, force);
   if (t.status != PENDRES_OK) {
     const char *words = pendres_store_message(t.store);
-    progress_error(p, "no text of %s is written: %s", d->output,
-                   words[0] != '\0' ? words : pendres_status_message(t.status));
+    progress_error(p, "no text of %s is written: %s", d->output, progress_words(words, t.status));
     code = 1;
   }
   for (size_t i = 0; i < t.count; i++) drop(&t.list[i]);

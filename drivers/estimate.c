@@ -114,6 +114,7 @@ static void print_seconds(double seconds, FILE *out)
 static void print_basis(const farm_trial *t, int rule, FILE *out)
 {
   if (rule) fputs(", by a rule for scenes of this kind", out);
+  else if (t->members) fputs(", by what some members need at one point", out);
   if (t->what == NULL && !t->cut) fputs(": all of it was computed to see\n", out);
   else if (t->what == NULL) fputs(": what comes first takes longer than a trial\n", out);
   else if (t->tried == 0) fputs(": a task is too long to be tried\n", out);
@@ -122,15 +123,15 @@ static void print_basis(const farm_trial *t, int rule, FILE *out)
             t->cut ? ", and the next would have taken longer than a trial may" : "");
 }
 
-static void print_time(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)
+static void print_time(const deck *d, const farm_trial *t, int threads, FILE *out)
 {
   const scene_size *r = size_of(d);
   const int unknown = t->cut || (t->what != NULL && t->tried == 0);
   const double factor = t->what == NULL ? 1.0 : r->after;
-  const double seen = program_seconds + outside + factor * t->seconds;
+  const double seen = program_seconds + t->outside + factor * t->seconds;
   const double seconds =
     unknown ? fmax(seen, runs_of(d) * r->seconds * points_of(d) * slowness(d)) : seen;
-  fprintf(out, "time      %s ", t->cut && seconds == seen ? "at least" : "about");
+  fprintf(out, "time      %s ", t->cut && !t->members && seconds == seen ? "at least" : "about");
   print_seconds(seconds, out);
   fputs(" of processor time", out);
   if (threads > 1) {
@@ -141,10 +142,9 @@ static void print_time(const deck *d, const farm_trial *t, double outside, int t
   print_basis(t, seconds > seen, out);
 }
 
-static void print_estimate(const deck *d, const farm_trial *t, double outside, int threads,
-                           FILE *out)
+static void print_estimate(const deck *d, const farm_trial *t, int threads, FILE *out)
 {
-  print_time(d, t, outside, threads, out);
+  print_time(d, t, threads, out);
   if (t->cost.settled_pendulums > 0.0)
     fprintf(out, "work      about %.2g pendulums settle, after %.2g drive periods altogether\n",
             t->cost.settled_pendulums, t->cost.pendulum_periods);
@@ -213,6 +213,9 @@ static const double few_seconds = 1.0, most_seconds = 5.0;
 /* Costs of tasks differ by ten and more: a mean of two would not do. */
 enum { least_tasks = 6 };
 
+/* And enough members to meet what an ensemble meets, if they are spread over its range. */
+enum { few_members = 8 };
+
 static void print_line(const char *name, const char *text)
 {
   printf("%-9s ", name);
@@ -240,7 +243,8 @@ static void add_trial(const farm_trial *t, double times, farm_trial *sum)
   sum->changes += t->changes;
   sum->cost.pendulum_periods += times * t->cost.pendulum_periods;
   sum->cost.settled_pendulums += times * t->cost.settled_pendulums;
-  sum->spent += t->spent;
+  sum->spent += times * t->spent;
+  sum->periods += times * t->periods;
   sum->cut |= t->cut;
   if (t->what == NULL) return;
   sum->what = t->what;
@@ -248,16 +252,15 @@ static void add_trial(const farm_trial *t, double times, farm_trial *sum)
   sum->tried += t->tried;
 }
 
-void estimate_dry_run(scene_run *run, const scene_kind *scene)
+/* Try all that a trial tries of a deck, into a file that is let go of with the run. */
+static pendres_status try_deck(scene_run *run, const scene_kind *scene, farm_trial *sum)
 {
   char path[DECK_PATH];
-  farm_trial trial = { .seconds = 0.0 };
   const size_t tries = scene_trials(run->deck);
-  print_description(run, scene);
-  (void)fflush(stdout);
+  pendres_store_free(run->store);
   together_output(path, sizeof path);
-  if (pendres_store_create(path, NULL, &run->store) != PENDRES_OK) return;
-  double outside = 0.0;
+  if (scene_stored(run, pendres_store_create(path, NULL, &run->store)) != PENDRES_OK)
+    return run->status;
   for (size_t i = 0; i < tries; i++) {
     const double times = runs_of(run->deck) / (double)tries;
     farm_trial one = { .few = few_seconds / (double)tries, .most = most_seconds / (double)tries,
@@ -265,13 +268,55 @@ void estimate_dry_run(scene_run *run, const scene_kind *scene)
     farm_set_trial(run->farm, &one);
     const pendres_status status = scene_try(run, scene, i);
     farm_set_trial(run->farm, NULL);
-    if (status != PENDRES_OK && one.what == NULL && one.spent > 0.0) return; /* it fails early */
+    if (status != PENDRES_OK && status != PENDRES_INTERRUPTED) return status;
     /* Interrupted before there were tasks, or between them. */
     if (status == PENDRES_INTERRUPTED && one.what == NULL) one.cut = 1;
-    outside += times * farm_trial_outside(&one);
-    add_trial(&one, times, &trial);
+    sum->outside += times * farm_trial_outside(&one);
+    add_trial(&one, times, sum);
   }
+  return PENDRES_OK;
+}
+
+/* Some members at one point, in the place of tasks that are too long: how many drive periods they
+   take is known then, and from the tasks how many a second has. */
+static pendres_status try_members(scene_run *run, const scene_kind *scene, farm_trial *whole)
+{
+  const deck *d = run->deck;
+  deck few = *d;
+  if (!scene->size.members || whole->tried > 0 || !whole->cut) return PENDRES_OK;
+  for (int axis = 0; axis < DECK_AXIS_OUTER; axis++) {
+    deck_axis *a = &few.axis[axis];
+    a->value += a->count / 2;
+    a->count = a->count > 0;
+  }
+  if (few.ensemble.members > few_members) few.ensemble.members = few_members;
+  farm_trial t = { .seconds = 0.0 };
+  run->deck = &few;
+  run->status = PENDRES_OK;
+  const pendres_status status = try_deck(run, scene, &t);
+  run->deck = d;
+  const double times = points_of(d) * (double)d->ensemble.members /
+                       (points_of(&few) * (double)few.ensemble.members);
+  const double seconds = times * t.periods * whole->spent / fmax(whole->periods, 1.0);
+  if (status != PENDRES_OK || !(seconds > whole->seconds)) return status;
+  whole->seconds = seconds;
+  whole->members = !t.cut;
+  return status;
+}
+
+int estimate_dry_run(scene_run *run, const scene_kind *scene, progress *p)
+{
+  farm_trial trial = { .seconds = 0.0 };
+  print_description(run, scene);
+  (void)fflush(stdout);
+  pendres_status status = try_deck(run, scene, &trial);
+  if (status == PENDRES_OK) status = try_members(run, scene, &trial);
   putchar('\n');
-  print_estimate(run->deck, &trial, outside, farm_threads(run->farm), stdout);
+  if (status != PENDRES_OK) {
+    progress_error(p, "%s", progress_words(run->message, status));
+    return FAILED;
+  }
+  print_estimate(run->deck, &trial, farm_threads(run->farm), stdout);
   print_space(run->deck->output, stdout);
+  return DONE;
 }

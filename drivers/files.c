@@ -75,7 +75,7 @@ int files_writable(const deck *d, progress *p)
   char *target = NULL;
   const pendres_status status = pendres_store_target(d->output, &target, why, sizeof why);
   if (status != PENDRES_OK) {
-    progress_error(p, "%s", why[0] != '\0' ? why : pendres_status_message(status));
+    progress_error(p, "%s", progress_words(why, status));
     return 1;
   }
   (void)split(target, folder);

@@ -1,7 +1,7 @@
 /*
  * main.c -- the program `resonance`: a deck in, a file of results and a short table out.
  */
-#define _POSIX_C_SOURCE 200809L /* open_memstream, fdopen */
+#define _POSIX_C_SOURCE 200809L /* fdopen */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -10,12 +10,14 @@
 
 #include "farm/ranks.h"
 #include "pages.h"
+#include "scenes/failed.h"
 #include "scenes/outer.h"
 #include "run.h"
 #include "shard.h"
 #include "system/ending.h"
 #include "system/file.h"
 #include "system/grow.h"
+#include "system/text.h"
 #include "terminal/safe_text.h"
 #include "terminal/signals.h"
 
@@ -34,8 +36,7 @@ typedef struct job {
   farm *farm;
   journal *journal; /* NULL: none */
   scene_run run;
-  char *table;
-  size_t table_size;
+  text table;
 } job;
 
 /*
@@ -176,8 +177,11 @@ static int look_ahead(job *j)
   const int code = files_writable(&j->deck, &j->progress);
   if (code != DONE || watch(j) != DONE || !estimate_fits(&j->deck, j->farm, &j->progress))
     return FAILED;
-  estimate_dry_run(&j->run, j->scene);
-  return signals_stop(NULL) ? STOPPED : check_stdout(j);
+  if (estimate_dry_run(&j->run, j->scene, &j->progress) != DONE) return FAILED;
+  if (signals_stop(NULL)) return STOPPED;
+  if (check_stdout(j) != DONE) return FAILED;
+  return scene_failures_told(&j->run, "of those that were tried", &j->progress)
+           ? SOME_POINTS_FAILED : DONE;
 }
 
 static int open_log(job *j)
@@ -235,8 +239,9 @@ static int open_output(job *j)
      that alone can tell others that it is in use. */
   if (together_helping() || (j->options.shards > 0 && options.alone))
     pendres_store_drop_part(j->run.store);
-  j->run.table = open_memstream(&j->table, &j->table_size);
-  if (j->run.table != NULL) return DONE;
+  const int opened = text_open(&j->table);
+  j->run.table = j->table.stream;
+  if (opened) return DONE;
   progress_error(&j->progress, "out of memory for the table of results");
   return FAILED;
 }
@@ -290,8 +295,7 @@ static int compute(job *j)
   tell_without_effect(j);
   pendres_status status = scene_run_all(&j->run, j->scene);
   farm_dismiss(j->farm, status == PENDRES_OK || status == PENDRES_INTERRUPTED ? NULL
-               : j->run.message[0] != '\0' ? j->run.message
-               : pendres_status_message(status));
+               : progress_words(j->run.message, status));
   scene_write_identity(&j->run);
   scene_tell_units(&j->run);
   status = j->run.status;
@@ -304,8 +308,7 @@ static int compute(job *j)
                    advice[0] != '\0' ? advice : "nothing was written");
     return STOPPED;
   }
-  progress_error(&j->progress, "%s",
-                 j->run.message[0] != '\0' ? j->run.message : pendres_status_message(status));
+  progress_error(&j->progress, "%s", progress_words(j->run.message, status));
   return FAILED;
 }
 
@@ -329,7 +332,7 @@ static int finish_output(job *j)
   if (status == PENDRES_OK) status = pendres_store_close(store);
   files_keep_end(&kept, status == PENDRES_OK, &j->progress);
   if (status != PENDRES_OK) {
-    progress_error(&j->progress, "%s", pendres_store_message(store));
+    progress_error(&j->progress, "%s", progress_words(pendres_store_message(store), status));
     return FAILED;
   }
   ending_whole();
@@ -340,15 +343,16 @@ static int finish_output(job *j)
 
 static int report(job *j)
 {
-  if (fflush(j->run.table) != 0 || ferror(j->run.table)) {
-    progress_error(&j->progress, "out of memory for the table of results");
+  if (!text_whole(&j->table)) {
+    progress_error(&j->progress, "out of memory for the table of results, which are whole in %s",
+                   j->deck.output);
     return FAILED;
   }
   if (j->options.deck_count > 1) {
     safe_text_write(stdout, j->deck.name);
     puts(":");
   }
-  if (j->table_size > 0) (void)fwrite(j->table, 1, j->table_size, stdout);
+  (void)fwrite(j->table.data, 1, j->table.size, stdout);
   progress_note(&j->progress, "%s written after %.2f s", j->deck.output,
                 provenance_wall(&j->provenance));
   if (check_stdout(j) != DONE) return FAILED;
@@ -356,12 +360,9 @@ static int report(job *j)
     progress_error(&j->progress, "the log %s is not whole", j->options.log);
     return FAILED;
   }
-  if (j->run.failed_points == 0) return DONE;
-  for (size_t i = 0; i < j->run.told_count; i++)
-    progress_error(&j->progress, "%s", j->run.told[i]);
-  progress_error(&j->progress, "%zu point%s failed, as marked in %s", j->run.failed_points,
-                 j->run.failed_points == 1 ? "" : "s", j->deck.output);
-  return SOME_POINTS_FAILED;
+  char where[DECK_PATH + 20];
+  snprintf(where, sizeof where, "as marked in %s", j->deck.output);
+  return scene_failures_told(&j->run, where, &j->progress) ? SOME_POINTS_FAILED : DONE;
 }
 
 /* What is asked about decks, not of one. */
@@ -389,11 +390,8 @@ static void let_go(job *j)
   scene_room_end(&j->run.room);
   pendres_store_free(j->run.store);
   j->run.store = NULL;
-  if (j->run.table != NULL) (void)fclose(j->run.table);
   j->run.table = NULL;
-  free(j->table);
-  j->table = NULL;
-  j->table_size = 0;
+  text_drop(&j->table);
   farm_free(j->farm);
   j->farm = NULL;
   journal_close(j->journal);

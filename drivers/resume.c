@@ -89,6 +89,7 @@ static char *head_of(const deck *d)
   deck same = *d;
   char *text = NULL, *head = NULL;
   same.output[0] = same.title[0] = '\0';
+  same.precision.unresolved_share = 0.0; /* as does what is tolerated */
   if (deck_resolved(&same, &text) != PENDRES_OK) return NULL;
   const char *version = pendres_version(), *build = pendres_build_info();
   static const char sources[] = SOURCES_SUM; /* the Makefile's checksum of all that is compiled */
@@ -103,7 +104,8 @@ static char *head_of(const deck *d)
 
 static int complain(progress *p, pendres_status status, const char *words, const char *advice)
 {
-  progress_error(p, "%s%s", words, status == PENDRES_INVALID_ARGUMENT ? advice : "");
+  progress_error(p, "%s%s", progress_words(words, status),
+                 status == PENDRES_INVALID_ARGUMENT ? advice : "");
   return status == PENDRES_INVALID_ARGUMENT ? BAD_USAGE : FAILED;
 }
 
@@ -152,7 +154,7 @@ static int open_at(const place *at, const char *path, const char *head, const op
   if (status != PENDRES_OK)
     return complain(p, status, words, " (without --resume all is computed, and that journal "
                     "kept under another name)");
-  if (words[0] != '\0') progress_error(p, "%s", words);
+  if (words[0] != '\0') progress_warning(p, "%s", words);
   const size_t own = journal_count(*out);
   if (own > 0)
     progress_note(p, "going on from %zu finished task%s in %s", own, own == 1 ? "" : "s", path);

@@ -86,13 +86,15 @@ void together_silence(void);
  * the number of periods until pendulums settle and the number of neighbours in a grid that differ,
  * is found by computing a small part of the run (farm/trial.h). If that ends in the middle of a
  * task the reported time is a lower bound: the larger of two values, one as if no task took longer
- * than the part of that one, the other from a rule that depends on the damping.
+ * than the part of that one, the other from a rule that depends on the damping. Where each point
+ * has an ensemble, some members of it at one point tell how long they take.
  */
 
 /* Print on standard output what a deck would compute, and what that would take: a little of it is
    computed, into a file in TMPDIR. run->deck and run->farm are set; the file, in run->store, is the
-   caller's to free. Where nothing can be tried the time is left out. */
-void estimate_dry_run(scene_run *run, const scene_kind *scene);
+   caller's to free, and what is told of points that failed is in the run. 0, or 1 after an error:
+   what was tried fails, and so would the run. */
+int estimate_dry_run(scene_run *run, const scene_kind *scene, progress *p);
 
 /* Warn if the output will not fit on the disk; the run continues, since this is only an estimate.
    0, after an error message, if the machine has less memory than the rules say that the run needs;

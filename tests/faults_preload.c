@@ -2,13 +2,16 @@
  * faults_preload.c -- a library to preload (LD_PRELOAD) that makes one call fail, for
  * faults_check.sh. FAULT_CALL names the call and FAULT_AT which of its occurrences, from 1 on; 0:
  * none, and FAULT_COUNT names a file that gets the number of them. Of allocations those alone count
- * that are made by FAULT_BY, a part of the name of a library, or by the program itself ("").
+ * that are made by FAULT_BY, a part of the name of a library, or by the program itself (""); and
+ * FAULT_LIST names a file that gets a line for each of them: its number, and by which of the
+ * program's functions it was asked for, the last FAULT_DEPTH of them, as one number.
  * FAULT_CALL=clock: from then on clocks run backwards; FAULT_CALL=flock: all locks are denied.
  * glibc's own names are used.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <link.h>
 #include <stdarg.h>
@@ -31,20 +34,49 @@ static long at;
 static atomic_long count;
 static uintptr_t first[64], last[64]; /* where the code is that counts */
 static int parts;
+static uintptr_t own_first, own_last; /* where the program's code is */
+static int list = -1, depth = 4;
+static _Thread_local int listing;
 
 static int note_object(struct dl_phdr_info *info, size_t size, void *arg)
 {
   const int own = info->dlpi_name == NULL || *info->dlpi_name == '\0';
+  const int program = own && own_first == 0; /* it is the first */
   (void)size;
   (void)arg;
-  if (*by == '\0' ? !own : own || strstr(info->dlpi_name, by) == NULL) return 0;
   for (int i = 0; i < info->dlpi_phnum && parts < 64; i++) {
     if (info->dlpi_phdr[i].p_type != PT_LOAD || !(info->dlpi_phdr[i].p_flags & PF_X)) continue;
-    first[parts] = info->dlpi_addr + info->dlpi_phdr[i].p_vaddr;
-    last[parts] = first[parts] + info->dlpi_phdr[i].p_memsz;
-    parts++;
+    const uintptr_t from = info->dlpi_addr + info->dlpi_phdr[i].p_vaddr;
+    const uintptr_t to = from + info->dlpi_phdr[i].p_memsz;
+    if (program && own_first == 0) {
+      own_first = from;
+      own_last = to;
+    }
+    if (*by == '\0' ? !program : own || strstr(info->dlpi_name, by) == NULL) continue;
+    first[parts] = from;
+    last[parts++] = to;
   }
-  return *by == '\0'; /* the program is the first */
+  return 0;
+}
+
+/* Room for a line is on the stack: what is counted here may not allocate. */
+static void list_place(long number)
+{
+  void *frame[64];
+  char line[64];
+  uint64_t place = 0;
+  if (list < 0 || listing) return;
+  listing = 1;
+  const int n = backtrace(frame, 64);
+  for (int i = 0, own = 0; i < n && own < depth; i++) {
+    const uintptr_t at = (uintptr_t)frame[i];
+    if (at < own_first || at >= own_last) continue;
+    place = (place ^ (at - own_first)) * UINT64_C(1099511628211) + 1;
+    own++;
+  }
+  const int size = snprintf(line, sizeof line, "%ld %llx\n", number, (unsigned long long)place);
+  if (size < 0 || write(list, line, (size_t)size) != size) abort();
+  listing = 0;
 }
 
 __attribute__((constructor)) static void begin(void)
@@ -53,6 +85,12 @@ __attribute__((constructor)) static void begin(void)
   if (getenv("FAULT_BY") != NULL) by = getenv("FAULT_BY");
   if (which != NULL) at = atol(which);
   (void)dl_iterate_phdr(note_object, NULL);
+  if (getenv("FAULT_DEPTH") != NULL) depth = atoi(getenv("FAULT_DEPTH"));
+  if (getenv("FAULT_LIST") != NULL) {
+    void *frame[4];
+    (void)backtrace(frame, 4); /* what it allocates when it is first called does not count */
+    list = creat(getenv("FAULT_LIST"), 0666);
+  }
   if (getenv("FAULT_CALL") != NULL) call = getenv("FAULT_CALL");
 }
 
@@ -75,7 +113,10 @@ static int is(const char *name)
 
 static int fails(const char *name)
 {
-  return is(name) && atomic_fetch_add(&count, 1) + 1 == at;
+  if (!is(name)) return 0;
+  const long number = atomic_fetch_add(&count, 1) + 1;
+  list_place(number);
+  return number == at;
 }
 
 /* An allocation by the code at `caller`. */

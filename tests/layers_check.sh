@@ -37,9 +37,9 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   continuation/part.h continuation/follow.h continuation/numbers.h
   continuation/sets.h continuation/units.h
   analysis/resonance/response_parts.h analysis/chaos/lyapunov_move.h'
-drivers_doors='system/apart.h system/bytes.h system/clock.h system/ending.h system/file.h system/grow.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
+drivers_doors='system/apart.h system/bytes.h system/clock.h system/ending.h system/file.h system/grow.h system/text.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h scenes/scene.h scenes/outer.h
-  scenes/columns.h scenes/points.h oracle/reference.h'
+  scenes/columns.h scenes/failed.h scenes/points.h oracle/reference.h'
 
 # includes TOP: "file header" for every header of TOP itself that a file of TOP includes. What stands
 # beside the driver, validation, belongs to it.

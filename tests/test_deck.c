@@ -295,6 +295,7 @@ static void dump_is_complete(void **state)
                       "  steps_per_period = 0\n"
                       "  block_lanes = 0\n"
                       "  period_budget = 0\n"
+                      "  unresolved_share = 0.0\n"
                       "/\n");
   free(text);
   deck_free(&d);

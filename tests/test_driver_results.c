@@ -216,9 +216,70 @@ static void test_failed_points(void **state)
   check_says(err, "orbit: ");
 }
 
+/*
+ * Helmholtz' oscillator: members that escape are an answer, and no error is told. How many is what
+ * Runge and Kutta's method of order four at 400 steps a period finds, where x < -20 within 60
+ * periods. Means are those of the others, to their errors as everywhere, and there is none where
+ * all escape.
+ */
+static void test_escapes(void **state)
+{
+  enum { N = 12 };
+  static const double known[N] = {9, 10, 12, 14, 20, 20, 10, 5, 4, 4, 4, 4};
+  static const char *const kinds[] = {"response", "branches", "phase_diagram"};
+  double escaped[N], failed[N], area[N], error[N], other[N];
+  char text[400];
+  (void)state;
+  for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+    snprintf(text, sizeof text, "&scene kind = '%s' /\n&pendulum force = 'polynomial', "
+             "force_coefficients = 1, 1, drive_amplitude = 0.1 /\n"
+             "&sweep damping = 0.1, drive_frequency_range = 0.6, 1.2, 12 /\n"
+             "&ensemble members = 20, x_first = -1.2, x_last = 0.8 /\n", kinds[k]);
+    write_text("helmholtz.nml", text);
+    check_code(RUN("-q", "helmholtz.nml"), DONE);
+    assert_string_equal(err, "");
+    read_all("helmholtz.h5", "escaped_members", escaped, N);
+    read_all("helmholtz.h5", "failed", failed, N);
+    for (size_t i = 0; i < N; i++) {
+      check_near(escaped[i], known[i], 0.0);
+      check_near(failed[i], 0.0, 0.0);
+    }
+  }
+  read_all("helmholtz.h5", "other", other, N);
+  read_all("helmholtz.h5", "mean_loop_area", area, N);
+  read_all("helmholtz.h5", "mean_loop_area_error", error, N);
+  for (size_t i = 0; i < N; i++) {
+    assert_true(((int)other[i] & PENDRES_OTHER_ESCAPE) != 0);
+    if (known[i] == 20) assert_true(isnan(area[i]) && isnan(error[i]));
+    else assert_true(area[i] > 0.0 && error[i] < 1e-8);
+  }
+}
+
+/* Two of the ten points, resonances among them, are unresolved after twelve periods: the share that
+   a deck tolerates decides, and nothing that it tolerates is called an error. */
+static void test_unresolved_share(void **state)
+{
+  (void)state;
+  write_text("short.nml", "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
+                          "&sweep damping = 0.05, 0.24, drive_frequency_range = 0.7, 0.8, 4 /\n"
+                          "&ensemble members = 4 /\n&precision period_budget = 12 /\n");
+  check_code(RUN("short.nml"), 3);
+  check_says(err, "error: 2 points failed");
+  check_code(RUN("short.nml", "precision.unresolved_share=0.19"), 3);
+  check_says(err, "error: 2 points failed");
+  check_code(RUN("short.nml", "precision.unresolved_share=0.2"), DONE);
+  check_says(err, "2 of 10 points unresolved");
+  assert_null(strstr(err, "error:"));
+  double failed[8], marked = 0.0; /* all the same */
+  read_all("short.h5", "failed", failed, 8);
+  for (size_t i = 0; i < 8; i++) marked += failed[i] == 1.0;
+  assert_true(marked >= 1.0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    TEST(test_escapes), TEST(test_unresolved_share),
     TEST(test_run),        TEST(test_orbit), TEST(test_identity),      TEST(test_transient),
     TEST(test_hard_figures),
     TEST(test_method),

@@ -203,8 +203,7 @@ static void check_amplitude(deck_builder *b)
                 "'%s' of a pendulum must lie between 0 and pi (both excluded)", name);
 }
 
-/* Whether noise carries a pendulum of the deck to infinity. */
-static int leaves_somewhere(const deck *d)
+int deck_leaves(const deck *d)
 {
   const pendres_pendulum first = deck_pendulum(d);
   int leaves = pendres_pendulum_leaves(&first);
@@ -222,7 +221,7 @@ static int leaves_somewhere(const deck *d)
 static void check_noise(deck_builder *b)
 {
   const deck *d = b->d;
-  const int leaves = leaves_somewhere(d);
+  const int leaves = deck_leaves(d);
   const deck_given *temperature = deck_given_of(b, "sweep", "temperature");
   if (!deck_is_there(temperature)) temperature = deck_given_of(b, "pendulum", "temperature");
   if (deck_kind_of(d->kind)->steady && leaves && deck_has_noise(d))

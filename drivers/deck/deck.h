@@ -195,6 +195,7 @@ typedef struct deck {
     int64_t steps_per_period;
     int64_t block_lanes;
     int64_t period_budget;
+    double unresolved_share; /* of the points, that may stay unresolved without a failure */
     double exponent_error;  /* of chaos, relative; 0: the library's */
   } precision;
 
@@ -301,8 +302,8 @@ void deck_free(deck *d);
  */
 pendres_status deck_dump(const deck *d, FILE *stream);
 
-/** The same as a text, to be freed by free(); NULL on failure. */
-pendres_status deck_resolved(const deck *d, char **text);
+/** The same as a text, to be freed by free(); NULL on failure: there is no memory. */
+pendres_status deck_resolved(const deck *d, char **out);
 
 /** The pendulum of a deck; parameters that are axes have their first values. */
 pendres_pendulum deck_pendulum(const deck *d);
@@ -388,6 +389,9 @@ int deck_may_rest(const deck *d);
 
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */
 int deck_is_plain(const deck *d);
+
+/** Whether the force, at some point of the deck, lets pendulums go to infinity. */
+int deck_leaves(const deck *d);
 
 /** The row of a kind, and names in decks; NULL if out of range. */
 const deck_kind_info *deck_kind_of(deck_kind kind);

@@ -3,7 +3,7 @@
  * use, reals as the shortest decimals that come back to the last bit.
  */
 #ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* uselocale, open_memstream */
+#define _POSIX_C_SOURCE 200809L /* uselocale */
 #endif
 #include "deck/table.h"
 
@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "system/text.h"
 
 enum { LINE = 80 };
 
@@ -166,16 +168,11 @@ pendres_status deck_dump(const deck *d, FILE *stream)
   return ferror(stream) ? PENDRES_IO : PENDRES_OK;
 }
 
-pendres_status deck_resolved(const deck *d, char **text)
+pendres_status deck_resolved(const deck *d, char **out)
 {
-  size_t size = 0;
-  *text = NULL;
-  FILE *out = open_memstream(text, &size);
-  if (out == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_status status = deck_dump(d, out);
-  if (fclose(out) != 0) status = PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK) return status;
-  free(*text);
-  *text = NULL;
-  return status;
+  text t;
+  const int written = text_open(&t) && deck_dump(d, t.stream) == PENDRES_OK;
+  *out = written ? text_close(&t) : NULL;
+  if (!written) text_drop(&t);
+  return *out != NULL ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
 }

@@ -5,9 +5,6 @@
  *     dampng = 0.24
  *     ^~~~~~
  */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* open_memstream */
-#endif
 #include "deck/namelist.h"
 
 #include <stdarg.h>
@@ -16,6 +13,7 @@
 
 #include "terminal/safe_text.h"
 #include "system/grow.h"
+#include "system/text.h"
 
 /* What is shown of a long source line, and how much of it stands before the caret. */
 enum { WINDOW = 100, BEFORE = 60, MESSAGE = 600 };
@@ -59,10 +57,10 @@ static void write_source(FILE *out, const namelist *nl, namelist_place where)
 
 static char *format_error(const namelist *nl, namelist_place at, const char *message)
 {
-  char *text = NULL;
-  size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
+  text t;
   const char *name = nl->name != NULL ? nl->name : "deck";
+  (void)text_open(&t);
+  FILE *out = t.stream;
   if (out == NULL) return NULL;
   /* The deck's own words are in the message, and the name may be anything. */
   safe_text_write(out, name);
@@ -70,11 +68,7 @@ static char *format_error(const namelist *nl, namelist_place at, const char *mes
   else fprintf(out, ":%d:%d: error: ", at.line, at.column);
   safe_text_write(out, message);
   if (at.line >= 1 && at.line <= nl->lines) write_source(out, nl, at);
-  if (fclose(out) != 0) {
-    free(text);
-    text = NULL;
-  }
-  return text;
+  return text_close(&t);
 }
 
 const namelist_place namelist_whole = { 0, 0, 0 };

@@ -3,9 +3,6 @@
  * scene is computed once. Whatever reads a deck sees one of these scenes, that of the value of the
  * largest size; deck_slice() makes the deck of each.
  */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* open_memstream */
-#endif
 #include "deck/table.h"
 
 #include <math.h>

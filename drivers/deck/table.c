@@ -471,6 +471,9 @@ const deck_key deck_table[] = {
   { INTEGER("precision", "period_budget", precision.period_budget), IN(SETTLING),
     RANGE(0, 1e9), .number = 0, SAYS(NULL, "drive periods after which a pendulum that has not "
          "settled is called unresolved; 0: from damping and tolerance") },
+  { REAL("precision", "unresolved_share", precision.unresolved_share), IN(SETTLING),
+    RANGE(0, 1), .number = 0.0, SAYS("1", "share of the points, or of the states of a grid, that "
+         "may stay unresolved before the program ends with 3; they are marked all the same") },
   { REAL("precision", "exponent_error", precision.exponent_error), IN(DIAGRAM),
     RANGE(1e-6, 1), .number = 0.01, SAYS("1", "wanted standard error of the exponents of chaos, as "
          "a part of them; the longest averages have what error they have") },

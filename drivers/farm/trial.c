@@ -73,6 +73,7 @@ static pendres_status try_task(stage_trial *s, size_t task)
   const pendres_status status = pool_try(c, task, &record);
   const double seconds = clock_process() - start;
   c->farm->trial->spent += seconds;
+  c->farm->trial->periods += record.cost.pendulum_periods;
   s->cut += status == PENDRES_INTERRUPTED;
   s->seconds += seconds;
   if (status == PENDRES_OK) {

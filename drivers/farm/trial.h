@@ -26,9 +26,13 @@ typedef struct farm_trial {
   pendres_cost cost;
   double spent;        /* seconds in the tasks that were tried; the rest of the trial was outside of
                           tasks */
+  double periods;      /* of the drive, of all pendulums, in these seconds */
   const char *what;    /* tasks of the stage that ended it; NULL: the scene came to its end */
   size_t tasks, tried;
   int cut;             /* the trial ended in the middle of something: the times are lower bounds */
+  /* Of several trials: */
+  double outside;      /* seconds outside of tasks */
+  int members;         /* no lower bounds all the same: some members came to their end at a point */
 } farm_trial;
 
 /* From now on the stages of this farm are tried (NULL: no more); in *t, which is not owned, the

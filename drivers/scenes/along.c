@@ -226,12 +226,13 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   head n;
   (void)task;
   memcpy(&n, in->data, sizeof n);
-  *path = (scene_along_path){.axis = s->way->axis, .points = n.points, .jumps = n.jumps,
-                             .steps = n.steps};
-  path->point = scene_array(s->run, n.points, sizeof *path->point);
-  path->jump = scene_array(s->run, n.jumps, sizeof *path->jump);
-  path->step = scene_array(s->run, n.steps, sizeof *path->step);
-  if (!scene_going(s->run)) return s->run->status;
+  scene_along_path whole = {.axis = s->way->axis, .points = n.points, .jumps = n.jumps,
+                            .steps = n.steps};
+  whole.point = scene_array(s->run, n.points, sizeof *whole.point);
+  whole.jump = scene_array(s->run, n.jumps, sizeof *whole.jump);
+  whole.step = scene_array(s->run, n.steps, sizeof *whole.step);
+  if (!scene_going(s->run)) return s->run->status; /* and *path holds nothing */
+  *path = whole;
   const char *from = (const char *)in->data + sizeof n;
   memcpy(path->point, from, n.points * sizeof *path->point);
   from += n.points * sizeof *path->point;
@@ -374,10 +375,11 @@ void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path 
 {
   static const char *const words[] = { "upwards", "downwards" };
   const size_t values = path->points / (size_t)ways;
+  run->points += path->points;
   for (size_t i = 0; i < path->points && scene_going(run); i++) {
     const scene_failure failed = failure_of(&path->point[i]);
     if (failed == SCENE_FAILURE_NONE) continue;
-    run->failed_points++;
+    scene_failure_count(run, failed, 1);
     scene_failure_tell(run, failed, remedy_of(failed), "%s %.10g, %s", deck_axis_name(axis),
                        path->point[i].value, words[i / values]);
   }

@@ -402,7 +402,9 @@ static pendres_status run_scene(scene_run *run)
   compute_cut(&b);
   basins_write_results(&b);
   basins_write_clouds(run, b.set);
-  run->failed_points += b.unresolved;
+  run->points += b.grid.nx * b.grid.nv;
+  scene_failure_count(run, SCENE_FAILURE_UNRESOLVED, b.unresolved - b.given_up);
+  scene_failure_count(run, SCENE_FAILURE_OUT_OF_TIME, b.given_up);
   if (b.unresolved > 0) tell_unresolved(&b);
   pendres_attractors_free(b.set);
   pendres_basin_sums_free(b.sums);
@@ -444,6 +446,5 @@ const scene_kind scene_basins = {
   .budget = 1,
   .size = {.head = 75e3, .point = 0.12, .memory = STATE_MEMORY, .stages = 1.0, .after = 1.2,
            .seconds = 4e-6, .values = strobes_of, .value = 7.0, .more = more},
-  .counts_escapes = 1,
   .describe = describe,
   .run = run_scene};

@@ -281,7 +281,7 @@ static void write_failed(scene_run *run, const cloud_work *w)
                              "why there is no whole result for the noisy cloud");
   for (size_t i = 0; scene_going(run) && i < w->prepared.n; i++) {
     if (!is_broken(w, i)) continue;
-    run->failed_points++;
+    scene_failure_count(run, failed[i].reason, 1);
     scene_failure_tell(run, failed[i].reason, failed[i].words,
                        "noisy cloud at temperature %.10g, attractor %zu",
                        cloud_request(w, i).temperature, i % w->attractors);

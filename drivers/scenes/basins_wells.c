@@ -38,29 +38,34 @@ static void write_each(basins *b, size_t n, const pendres_basin_well *wells)
   SCENE_WRITE(b->run, &table, of_wells);
 }
 
-void basins_write_wells(basins *b)
+/* None where something has failed. */
+static const pendres_basin_well *wells_of(const basins *b, size_t *n)
 {
   const pendres_basin_well *wells = NULL;
-  size_t n = 0;
-  if (!scene_going(b->run)) return;
-  scene_asked(b->run, pendres_basin_sums_wells(b->sums, &n, &wells));
+  *n = 0;
+  if (scene_going(b->run)) scene_asked(b->run, pendres_basin_sums_wells(b->sums, n, &wells));
+  return wells;
+}
+
+void basins_write_wells(basins *b)
+{
+  size_t n;
+  const pendres_basin_well *wells = wells_of(b, &n);
   write_each(b, n, wells);
 }
 
 size_t basins_wells_of(const basins *b, int attractor)
 {
-  const pendres_basin_well *wells = NULL;
-  size_t n = 0, count = 0;
-  if (pendres_basin_sums_wells(b->sums, &n, &wells) != PENDRES_OK) return 0;
+  size_t n, count = 0;
+  const pendres_basin_well *wells = wells_of(b, &n);
   for (size_t i = 0; i < n; i++) count += wells[i].attractor == attractor;
   return count;
 }
 
 void basins_print_wells(const basins *b, FILE *out)
 {
-  const pendres_basin_well *wells = NULL;
-  size_t n = 0, least = 0, most = 0, several = 0;
-  if (pendres_basin_sums_wells(b->sums, &n, &wells) != PENDRES_OK) return;
+  size_t n, least = 0, most = 0, several = 0;
+  const pendres_basin_well *wells = wells_of(b, &n);
   for (size_t i = 0; i < n; i++) {
     if (wells[i].well < wells[least].well) least = i;
     if (wells[i].well > wells[most].well) most = i;

@@ -215,7 +215,7 @@ static void mark_more(scene_run *run, const work *w, const scene_points *p, cons
     const scene_failure reason = p->failed[i].reason;
     if (reason == SCENE_FAILURE_NONE) continue;
     /* What the path has not come to is counted there. */
-    run->failed_points += rows[i].failed == SCENE_FAILURE_NONE;
+    scene_failure_count(run, reason, rows[i].failed == SCENE_FAILURE_NONE);
     rows[i].failed = (int)reason;
     scene_failure_tell(run, reason, p->failed[i].words, "%s at %s %.10g", what,
                        deck_axis_name(w->way.axis), w->way.value[i]);

@@ -464,7 +464,7 @@ const scene_kind scene_branches = {
   .references = "; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapters 4, 9 and "
                 "10",
   .budget = 1,
-  .size = {.head = 60e3, .point = 470.0, .memory = 1e3, .stages = 2.0, .after = 1.1,
+  .size = {.head = 60e3, .point = 470.0, .memory = 1e3, .stages = 2.0, .after = 1.1, .members = 1,
            .seconds = 2e-3, .slowest = SCENE_SLOWEST_BRANCH},
   .describe = describe,
   .run = run_scene};

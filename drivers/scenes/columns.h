@@ -68,6 +68,12 @@ typedef struct scene_column {
   {SCENE_TYPED(SCENE_COUNT, "uncertain_members", row, field,  \
                "members that may belong to another state")}
 
+/* And the one where the force may drive them to infinity. */
+#define SCENE_ESCAPED(row, field)                                                    \
+  {SCENE_TYPED(SCENE_COUNT, "escaped_members", row, field,                           \
+               "members that escape to infinity; means are those of the others"),    \
+   .when = deck_leaves}
+
 typedef struct scene_table {
   const char *group;         /* NULL: the root */
   const char *dimensions[3]; /* of the rows, slowest first; none: one row of scalars */

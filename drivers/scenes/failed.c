@@ -108,14 +108,11 @@ void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id 
   }
 }
 
-/* What to do about pendulums that do not settle; a longer wait helps neither one that escapes nor
-   one that may rotate on no closed orbit. */
+/* What to do about pendulums that do not settle; a longer wait does not help one that may rotate on
+   no closed orbit. */
 static const char *advice(const deck *d)
 {
   const pendres_pendulum p = deck_pendulum(d);
-  if (pendres_pendulum_leaves(&p) && !scene_find(d->kind)->counts_escapes)
-    return "they may escape to infinity, as scene 'basins' tells; if not, raise "
-           "precision.period_budget";
   if (p.torque != 0.0 && pendres_model_of(p.force)->period > 0.0)
     return "they may rotate without locking to the drive, as scene 'hysteresis' tells; if not, "
            "raise precision.period_budget";
@@ -136,10 +133,17 @@ void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char 
 
 /* ---- the terminal -------------------------------------------------------------------------- */
 
+void scene_failure_count(scene_run *run, scene_failure reason, size_t n)
+{
+  run->failed_points += n;
+  if (reason == SCENE_FAILURE_UNRESOLVED) run->unresolved += n;
+}
+
 void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
                         const char *format, ...)
 {
   if (run->told_count == SCENE_MOST_TOLD) return;
+  run->told_open[run->told_count] = reason == SCENE_FAILURE_UNRESOLVED;
   char *line = run->told[run->told_count++];
   va_list args;
   snprintf(line, SCENE_TOLD, "%s%s", run->where, run->where[0] != '\0' ? ", " : "");
@@ -149,6 +153,22 @@ void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
   va_end(args);
   used = strlen(line);
   snprintf(line + used, SCENE_TOLD - used, ": %s", words != NULL ? words : reasons[reason].words);
+}
+
+int scene_failures_told(const scene_run *run, const char *where, progress *p)
+{
+  const double share = run->deck->precision.unresolved_share;
+  const int within = (double)run->unresolved <= share * (double)run->points;
+  const size_t tolerated = within ? run->unresolved : 0, failed = run->failed_points - tolerated;
+  for (size_t i = 0; i < run->told_count; i++)
+    if (tolerated > 0 && run->told_open[i]) progress_note(p, "%s", run->told[i]);
+    else progress_error(p, "%s", run->told[i]);
+  if (tolerated > 0)
+    progress_note(p, "%zu of %zu points unresolved, which precision.unresolved_share = %g "
+                  "tolerates, %s", tolerated, run->points, share, where);
+  if (failed > 0)
+    progress_error(p, "%zu point%s failed, %s", failed, failed == 1 ? "" : "s", where);
+  return failed > 0;
 }
 
 /* ---- the file ------------------------------------------------------------------------------ */

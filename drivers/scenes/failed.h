@@ -82,6 +82,13 @@ void scene_failure_mark(scene_run *run, scene_failed *point, scene_failure reaso
 /* The names of the codes, as columns take them; NULL beyond the last. */
 const char *scene_failure_names(int value);
 
+/* Count n points that have failed. */
+void scene_failure_count(scene_run *run, scene_failure reason, size_t n);
+
+/* Tell of the points that have failed, and `where`; 0: none. Where the deck tolerates as many that
+   are unresolved, these are no failure. */
+int scene_failures_told(const scene_run *run, const char *where, progress *p);
+
 /* A line for the terminal, unless there are many already. */
 void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
                         const char *format, ...) __attribute__((format(printf, 4, 5)));

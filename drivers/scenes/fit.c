@@ -179,7 +179,7 @@ static void find_fit(fit_work *w)
     (void)scene_fail(w->run, status, "%s: %s", w->data.path, pendres_context_message(ctx));
     return;
   }
-  w->run->failed_points++;
+  scene_failure_count(w->run, SCENE_FAILURE_NOT_CONVERGED, 1);
   scene_failure_tell(w->run, SCENE_FAILURE_NOT_CONVERGED, NULL, "the fit of %s", w->data.path);
 }
 

@@ -253,7 +253,7 @@ static void judge_curves(scene_lines *l)
   const pendres_phase_curves c = pendres_phase_diagram_get(l->diagram);
   const scene_failure reason = scene_failure_of(c.outcome);
   if (reason == SCENE_FAILURE_NONE) return;
-  l->run->failed_points++;
+  scene_failure_count(l->run, reason, 1);
   scene_failure_tell(l->run, reason, c.message, "curves of bifurcations");
 }
 
@@ -288,11 +288,12 @@ void scene_lines_free(scene_lines *l)
 
 void scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns)
 {
-  static const scene_column uncertain = SCENE_UNCERTAIN(pendres_phase_point, uncertain);
+  static const scene_column doubts[] = {SCENE_UNCERTAIN(pendres_phase_point, uncertain),
+                                        SCENE_ESCAPED(pendres_phase_point, escaped)};
   const scene_table table = scene_points_table(&l->points, l->run->deck);
   for (int i = 0; i < 2; i++) scene_dimension(l->run, "", l->points.axis[i]);
   scene_columns_write(l->run, &table, count, columns);
-  scene_columns_write(l->run, &table, 1, &uncertain);
+  SCENE_WRITE(l->run, &table, doubts);
   scene_points_write_failed(l->run, &l->points, "failed",
                             "why there is no whole result for the point");
 }

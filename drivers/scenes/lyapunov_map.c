@@ -134,6 +134,21 @@ static void tabulate(FILE *out, const work *w)
           deck_axis_name(axis[1]), fast->value[most % fast->count]);
 }
 
+/* Points of a task. In large tasks the few points that take long share their blocks, but where
+   damping is weak all take long. Small maps are two tasks. */
+static size_t chunk_of(const deck *d, size_t n)
+{
+  const deck_axis *a = &d->axis[DECK_AXIS_DAMPING];
+  const double damping = (a->count > 0 ? a->value[0] : d->pendulum.damping) *
+                         deck_pendulum_units(d).time;
+  size_t chunk = n / TASKS_OF_EXPONENTS, least = TASK_EXPONENTS;
+  if (damping < usual_damping) least = (size_t)((double)least * damping / usual_damping);
+  if (least < FEWEST_EXPONENTS) least = FEWEST_EXPONENTS;
+  if (chunk > 4 * least) chunk = 4 * least;
+  if (chunk < least) chunk = least;
+  return n < 2 * chunk ? (n + 1) / 2 : chunk;
+}
+
 /* ---- the scene ----------------------------------------------------------------------------- */
 
 static pendres_status run_scene(scene_run *run)
@@ -146,11 +161,7 @@ static pendres_status run_scene(scene_run *run)
   scene_points *p = &w.points;
   (void)deck_axes(run->deck, axis);
   scene_points_over(p, run->deck, AXES, axis);
-  /* In large tasks the few points that take long share their blocks. Small maps are two tasks. */
-  p->chunk = p->n / TASKS_OF_EXPONENTS;
-  if (p->chunk > 4 * TASK_EXPONENTS) p->chunk = 4 * TASK_EXPONENTS;
-  if (p->chunk < TASK_EXPONENTS) p->chunk = TASK_EXPONENTS;
-  if (p->n < 2 * p->chunk) p->chunk = (p->n + 1) / 2;
+  p->chunk = chunk_of(run->deck, p->n);
   SCENE_COMPUTE(run, p, "parts of the map", .last = 1);
   for (int i = 0; i < AXES; i++) scene_dimension(run, NULL, axis[i]);
   scene_points_write(run, p);

@@ -14,6 +14,8 @@ enum {
   RESONANCE_TASKS = 12,   /* ... as many tasks as this */
   TASK_EXPONENTS = 8192,  /* pendulums, at least; four times as many at most, and so few that ... */
   TASKS_OF_EXPONENTS = 32, /* ... there are as many tasks as this */
+  FEWEST_EXPONENTS = 256, /* where each takes long, so that a stopped run keeps what took some
+                             seconds; with 72 blocks are half empty, and take half as long again */
   TASK_SAMPLES = 65536,   /* of a record, or one period */
   TASK_STATES = 65536,    /* of a basin: whole rows of about this number, but so few that ... */
   BASINS_TASKS = 16,      /* ... there are as many tasks as this: for 3 % of the time two threads or
@@ -38,6 +40,9 @@ enum { BASINS_EXTENSIONS = 4 };
 
 /* Following branches and curves through a point takes as long as settling its members again. */
 enum { LINES_RUNS_A_POINT = 5 };
+
+/* A damping at which a thousand exponents take some seconds. */
+static const double usual_damping = 0.2;
 
 /* Where a weakly damped pendulum is driven no harder than this, in its units, hardly any start is
    in chaos, and the library's charts of the strobe map save nine tenths of the steps: 64 states

@@ -119,9 +119,11 @@ static void put_label(scene_run *run, const orbit_work *w)
   const scene_column label = {SCENE_TYPED(SCENE_FLAG, "label", verdict, label,
                                           "kind of attractor"),
     .names = scene_settled_names(&w->pendulum)};
-  run->failed_points = failed != SCENE_FAILURE_NONE;
-  if (run->failed_points > 0)
+  run->points++;
+  if (failed != SCENE_FAILURE_NONE) {
+    scene_failure_count(run, (scene_failure)failed, 1);
     scene_failure_tell(run, (scene_failure)failed, late->words, "orbit");
+  }
   scene_columns_write(run, &table, 1, &label);
   SCENE_WRITE(run, &table, of_failures);
   if (of.uncertain) SCENE_WRITE(run, &table, of_doubts);

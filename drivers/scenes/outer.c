@@ -70,7 +70,7 @@ static void judge(scene_run *run, outer *o, size_t slice)
     o->left = 1;
   } else if (reason != SCENE_FAILURE_NONE) {
     o->failed[slice].reason = reason;
-    run->failed_points++;
+    scene_failure_count(run, reason, 1);
     scene_failure_tell(run, reason, run->message[0] != '\0' ? run->message : NULL, "%s",
                        deck_kind_name(o->whole->kind));
   } else {
@@ -224,7 +224,9 @@ pendres_status scene_try(scene_run *run, const scene_kind *scene, size_t i)
   if (!begin(run, scene, &o)) return run->status;
   const size_t slice = tried > 1 ? i * (n - 1) / (tried - 1) : 0;
   farm_begin_slice(run->farm, slice, 0);
-  const pendres_status status = compute(run, &o, slice);
+  (void)compute(run, &o, slice);
+  judge(run, &o, slice);
+  const pendres_status status = run->status;
   run->status = PENDRES_OK;
   end(&o);
   return status;

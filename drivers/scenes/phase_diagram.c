@@ -20,7 +20,7 @@ static void describe(const deck *d, FILE *out)
 
 static const int8_t other_bits[] = {0, PENDRES_OTHER_ASYMMETRIC, PENDRES_OTHER_PERIODIC,
                                     PENDRES_OTHER_RUNNING, PENDRES_OTHER_CHAOTIC,
-                                    PENDRES_OTHER_UNRESOLVED};
+                                    PENDRES_OTHER_UNRESOLVED, PENDRES_OTHER_ESCAPE};
 
 static const char *others(int value)
 {
@@ -29,15 +29,30 @@ static const char *others(int value)
                                         : NULL;
 }
 
+/* Where nothing escapes. */
+static const char *others_that_stay(int value)
+{
+  return value + 1 < (int)sizeof other_bits ? others(value) : NULL;
+}
+
+static int stays(const deck *d)
+{
+  return !deck_leaves(d);
+}
+
+#define OTHER(which, names_of)                                                                     \
+  {SCENE_TYPED(SCENE_FLAG, "other", pendres_phase_point, other,                                    \
+               "what else members settle on: sum of the flags"), .names = names_of,                \
+   .codes = other_bits, .when = which}
+
 static const scene_column columns[] = {
   SCENE_CODE(pendres_phase_point, regime,
              "state of motion that the members of the ensemble settle on", scene_regime_names),
   {SCENE_TYPED(SCENE_FLAG, "regime_exact", pendres_phase_point, exact, "states of motion that "
                "are known as attractors, by the branches, whether members reach them or not"),
    .names = scene_regime_names},
-  {SCENE_TYPED(SCENE_FLAG, "other", pendres_phase_point, other,
-               "what else members settle on: sum of the flags"), .names = others,
-   .codes = other_bits},
+  OTHER(stays, others_that_stay),
+  OTHER(deck_leaves, others),
   SCENE_COLUMN(pendres_phase_point, sa_fraction,
                "share of the members on the small-amplitude state", NULL),
   SCENE_COLUMN(pendres_phase_point, la_fraction,
@@ -98,7 +113,7 @@ const scene_kind scene_phase_diagram = {
   .figures = "Fig. 8 and section III D",
   .references = "; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapters 9 and 10",
   .budget = 1,
-  .size = {.head = 60e3, .point = 17.0, .memory = 300.0, .stages = 3.0, .after = 1.2,
+  .size = {.head = 60e3, .point = 17.0, .memory = 300.0, .stages = 3.0, .after = 1.2, .members = 1,
            .seconds = 1e-3, .more = more},
   .describe = describe,
   .run = run_scene};

@@ -267,13 +267,14 @@ void scene_points_over(scene_points *p, const deck *d, int axes, const deck_axis
 void scene_points_tell(scene_run *run, const scene_points *p)
 {
   char name[SCENE_TOLD];
+  run->points += p->n;
   for (size_t i = 0; i < p->n && scene_going(run); i++) {
     const scene_failure reason = p->failed[i].reason;
     const char *words = p->failed[i].words;
     if (reason == SCENE_FAILURE_NONE) continue;
     if (words == NULL && p->words != NULL) words = p->words(reason);
     name_point(run, p, i, name, sizeof name);
-    run->failed_points++;
+    scene_failure_count(run, reason, 1);
     scene_failure_tell(run, reason, words, "%s", name);
   }
 }

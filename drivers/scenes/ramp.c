@@ -196,7 +196,7 @@ static void put_way(scene_run *run, const work *w)
   scene_numbering(run, "point", w->points, "number of the point of a way");
   SCENE_WRITE(run, &table, columns);
   if (!scene_going(run) || w->way.failed[0].reason == SCENE_FAILURE_NONE) return;
-  run->failed_points++;
+  scene_failure_count(run, w->way.failed[0].reason, 1);
   scene_failure_tell(run, w->way.failed[0].reason, w->way.failed[0].words,
                      "the ramp of %s in real time", w->name);
 }

@@ -69,22 +69,18 @@ static void no_response(const scene_points *p, size_t point, void *row)
   pendres_response_average(r);
 }
 
-/* Mark a point at which not all members have settled on what means are taken of. */
+/* Mark a point at which not all members have settled on what means are taken of. Those that escape
+   are an answer, and are counted. */
 static void judge(const scene_some *some, size_t i)
 {
   const grid *g = some->of->arg;
   const pendres_response *p = (const pendres_response *)some->rows + i;
   char words[SCENE_TOLD];
-  if (p->escaped > 0 && p->escaped == p->unresolved) {
-    const int all = p->escaped == g->ensemble.members;
-    snprintf(words, sizeof words, "%zu of %zu members escape to infinity%s", p->escaped,
-             g->ensemble.members, all ? "" : ": means are those of the others");
-    scene_mark(some, i, all ? SCENE_FAILURE_NO_MEAN : SCENE_FAILURE_UNRESOLVED, words);
-  } else if (p->unresolved > 0) {
+  if (p->unresolved > 0) {
     scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members",
                             pendres_response_weakest_multiplier(p), words);
     scene_mark(some, i, SCENE_FAILURE_UNRESOLVED, words);
-  } else if (isnan(p->mean_loop_area) && p->unstable < g->ensemble.members) {
+  } else if (isnan(p->mean_loop_area) && p->unstable + p->escaped < g->ensemble.members) {
     scene_mark(some, i, SCENE_FAILURE_NO_MEAN, NULL);
   }
 }
@@ -280,7 +276,8 @@ static const scene_column columns[] = {
                "1"),
 };
 
-static const scene_column uncertain = SCENE_UNCERTAIN(pendres_response, uncertain);
+static const scene_column doubts[] = {SCENE_UNCERTAIN(pendres_response, uncertain),
+                                      SCENE_ESCAPED(pendres_response, escaped)};
 
 static void write_points(const grid *g, size_t count, const scene_column *some)
 {
@@ -315,7 +312,7 @@ static void write_results(const grid *g)
     write_noise(g);
   else
     write_points(g, sizeof columns / sizeof *columns, columns);
-  write_points(g, 1, &uncertain);
+  write_points(g, sizeof doubts / sizeof *doubts, doubts);
   if (g->peaks.n > 0) scene_points_write(run, &g->peaks);
   scene_points_write_failed(run, &g->points, "failed",
                             "why there is no whole result for the response");

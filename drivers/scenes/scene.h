@@ -30,8 +30,11 @@ typedef struct scene_run {
   farm *farm;
   pendres_store *store;
   FILE *table;          /* where the short table of results goes; NULL: nowhere */
+  size_t points;        /* of the results, as far as they may fail one by one */
   size_t failed_points; /* points without a result (marked in the file): exit code 3 */
+  size_t unresolved;    /* those among them that are so: a deck may tolerate some */
   char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines about the first of them, see failed.h */
+  char told_open[SCENE_MOST_TOLD];        /* it is unresolved */
   size_t told_count;
   pendres_status status; /* the first failure; nothing is computed or written any more after it */
   char message[512];     /* what it was */
@@ -55,6 +58,7 @@ typedef struct scene_size {
   double head, point, memory, stages, after, seconds;
   double slowest;              /* how many times longer points take at most, at weak damping */
   double journal;              /* bytes a point where not even one task can be tried */
+  int members;                 /* each point has the deck's ensemble, of which some can be tried */
   double (*points)(const deck *d); /* where they are not those of the deck's axes */
   /* Values that are no points, such as strobe points: how many there are, and bytes of each. */
   double (*values)(const deck *d);
@@ -78,7 +82,6 @@ typedef struct scene_kind {
   int budget;             /* its tasks say which points they begin: --budget can end them */
   int timed;              /* it measures times, so that there is no journal, and no shards */
   int any_method;         /* it takes the deck's method for all it does: it has no orbits */
-  int counts_escapes;     /* it tells what escapes to infinity */
   int path;               /* what takes time is one path, a single task */
   int one_temperature;    /* its noise has a single temperature, which is no dimension of results */
   /* The library's options that only this kind sets; may be NULL. */

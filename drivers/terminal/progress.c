@@ -184,6 +184,20 @@ void progress_note(progress *p, const char *format, ...)
   va_end(args);
 }
 
+void progress_warning(progress *p, const char *format, ...)
+{
+  va_list args;
+  if (p == NULL) return;
+  va_start(args, format);
+  say(p, 0, "", format, args);
+  va_end(args);
+}
+
+const char *progress_words(const char *words, pendres_status status)
+{
+  return words[0] != '\0' ? words : pendres_status_message(status);
+}
+
 void progress_error(progress *p, const char *format, ...)
 {
   va_list args;

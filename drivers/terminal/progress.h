@@ -3,7 +3,7 @@
  *
  * Owns: a bar where stderr is a terminal, otherwise a line for each 10 % of work that takes longer
  * than a second, and at least every five minutes; notes and errors; the log file with the time in
- * front of each line. With --quiet only errors are shown; the log gets everything.
+ * front of each line. With --quiet only warnings and errors are shown; the log gets everything.
  *
  * Thread safety: one thread at a time; the farm takes care of that.
  */
@@ -12,6 +12,8 @@
 
 #include <stddef.h>
 #include <stdio.h>
+
+#include <pendres/pendres.h>
 
 typedef struct progress {
   FILE *stream;      /* usually stderr */
@@ -48,8 +50,13 @@ void progress_tick(progress *p, size_t done, const char *name, double seconds);
    shows for how long, once a second; otherwise there is a line after five minutes. */
 void progress_wait(progress *p);
 
-/* A message about the run; an error message. A line break is added. */
+/* A message about the run; one that --quiet shows as well, although nothing has failed; an error
+   message. A line break is added. */
 void progress_note(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void progress_warning(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void progress_error(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The words of a failure, or those of its status where there are none, as without memory. */
+const char *progress_words(const char *words, pendres_status status);
 
 #endif

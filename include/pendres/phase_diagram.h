@@ -72,7 +72,8 @@ typedef enum pendres_other {
   PENDRES_OTHER_PERIODIC = 2,   /**< an orbit that closes after several drive periods */
   PENDRES_OTHER_RUNNING = 4,    /**< an orbit that closes up to whole turns: its winding is not 0 */
   PENDRES_OTHER_CHAOTIC = 8,    /**< a chaotic attractor */
-  PENDRES_OTHER_UNRESOLVED = 16 /**< some member did not settle within its budget */
+  PENDRES_OTHER_UNRESOLVED = 16, /**< some member did not settle within its budget */
+  PENDRES_OTHER_ESCAPE = 32     /**< some member escapes to infinity */
 } pendres_other;
 
 /** One point of the diagram. Amplitudes are in rad, the loop area is the work of the drive in one
@@ -103,6 +104,7 @@ typedef struct pendres_phase_point {
                                    members settled on; NaN if they settled on none. Close to 1,
                                    members approach that orbit slowly, and unresolved ones may need
                                    a larger period_budget */
+  size_t escaped;             /**< members that escape to infinity: their share is in no other */
 } pendres_phase_point;
 
 /** How the points of a line are computed. */

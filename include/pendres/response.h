@@ -63,7 +63,8 @@ typedef struct pendres_response {
   double sa_fraction_error;         /**< share of members that are unresolved or uncertain */
   double la_fraction;               /**< share of the members on LA, likewise */
   double la_fraction_error;         /**< as sa_fraction_error */
-  size_t unresolved;                /**< members without an attractor; left out of means */
+  size_t unresolved;                /**< members that did not settle within their budget; left out
+                                         of means, and part of their errors */
   size_t states;                    /**< attractors listed: those that most members are on */
   pendres_attractor state[PENDRES_RESPONSE_STATES]; /**< [states] the attractors listed */
   size_t state_members[PENDRES_RESPONSE_STATES];    /**< [states] how many members are on each */
@@ -77,8 +78,8 @@ typedef struct pendres_response {
                                          standard errors: of counts for random starts, from the
                                          scatter between rows for a rectangle. In all errors of
                                          shares and means; 0 for a line */
-  size_t escaped;                   /**< members among the unresolved that are on their way to
-                                         infinity: nothing is left open of them */
+  size_t escaped;                   /**< members that are on their way to infinity: an answer,
+                                         which means leave out, as shares of all members do not */
   size_t unstable;                  /**< members at rest in an unstable state, which they never
                                          leave; left out of means and shares, and not unresolved */
 } pendres_response;
@@ -94,8 +95,8 @@ pendres_status pendres_response_find(pendres_context *ctx, size_t n,
                                      const pendres_ensemble *ensemble, pendres_response *out);
 
 /**
- * The means of a response whose state[], state_members[], unresolved, uncertain and unlisted are
- * set; what is unlisted can only count as unresolved here. NULL is allowed.
+ * The means of a response whose state[], state_members[], unresolved, escaped, uncertain and
+ * unlisted are set; what is unlisted can only count as unresolved here. NULL is allowed.
  */
 void pendres_response_average(pendres_response *r);
 

@@ -54,7 +54,9 @@ static void judge_ensemble(const pendres_small_end *end, const pendres_label_sta
       la += r->state_members[i];
   }
   if (r->unresolved > 0) p->other |= PENDRES_OTHER_UNRESOLVED;
+  if (r->escaped > 0) p->other |= PENDRES_OTHER_ESCAPE;
   p->unresolved = r->unresolved;
+  p->escaped = r->escaped;
   p->uncertain = r->uncertain;
   if (others > 0 || sa + la == 0)
     p->regime = PENDRES_REGIME_OTHER;

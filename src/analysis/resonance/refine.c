@@ -188,7 +188,7 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
   const pendres_status status = pendres_response_find(ctx, 1, &r->pendulum, ensemble, &there);
   if (status != PENDRES_OK) return status;
   *same = there.states == r->states && there.unresolved == r->unresolved &&
-          there.unlisted == r->unlisted;
+          there.escaped == r->escaped && there.unlisted == r->unlisted;
   for (size_t i = 0; *same && i < r->states; i++) {
     const pendres_orbit *o = &there.state[i].orbit;
     *same = there.state_members[i] == r->state_members[i] &&

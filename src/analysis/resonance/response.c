@@ -155,10 +155,11 @@ static void average(pendres_response *r, const parted *p)
     if (p->attractor[i].label == PENDRES_LABEL_SA) sa += (double)p->members[i];
     if (p->attractor[i].label == PENDRES_LABEL_LA) la += (double)p->members[i];
   }
-  const double members = (double)(resolved + p->lost), lost = (double)p->lost / members;
-  /* An uncertain member may belong to any of the states that are there. */
-  const double uncertain =
-    p->attractors > 1 ? (double)r->uncertain / members + r->sampling : 0.0;
+  const double members = (double)(resolved + p->lost + r->escaped);
+  const double lost = (double)p->lost / members;
+  /* An uncertain member may belong to any of the states that are there, or to none. */
+  const int several = p->attractors + (r->escaped > 0) > 1;
+  const double uncertain = several ? (double)r->uncertain / members + r->sampling : 0.0;
   const double area_error = lost * s.largest + uncertain * (s.most - s.least);
   r->mean_loop_area = s.area;
   /* A lost member may belong to any state, known or not. */
@@ -169,7 +170,7 @@ static void average(pendres_response *r, const parted *p)
     r->sa_fraction = sa / members;
     r->la_fraction = la / members;
     r->sa_fraction_error = r->la_fraction_error =
-      lost + (p->attractors > 1 ? uncertain : r->sampling);
+      lost + (several ? uncertain : r->sampling);
   }
   if (s.amplitude_share > 0.0) {
     r->mean_amplitude = s.amplitude / s.amplitude_share;
@@ -210,15 +211,13 @@ static void count_states(const pendres_attractor_set *c, size_t n, const pendres
   r->pendulum = c->pendulum;
   for (size_t a = 0; a < c->count; a++) members[a] = 0, listed[a] = 0;
   for (size_t i = 0; i < n; i++) {
-    if (outcome[i].attractor < 0) {
-      const int stays = outcome[i].attractor == PENDRES_ATTRACTOR_UNSTABLE;
-      r->unstable += stays;
-      r->unresolved += !stays;
-      r->escaped += outcome[i].attractor == PENDRES_ATTRACTOR_ESCAPED;
-      continue;
-    }
-    members[outcome[i].attractor]++;
-    r->uncertain += !outcome[i].certain;
+    const int a = outcome[i].attractor, escaped = a == PENDRES_ATTRACTOR_ESCAPED;
+    const int unstable = a == PENDRES_ATTRACTOR_UNSTABLE;
+    if (a >= 0) members[a]++;
+    r->escaped += escaped;
+    r->unstable += unstable;
+    r->unresolved += a < 0 && !escaped && !unstable;
+    r->uncertain += (a >= 0 || escaped) && !outcome[i].certain;
   }
   for (int k = 0; k < PENDRES_RESPONSE_STATES; k++) {
     const size_t a = most_members(c->count, members, listed);

@@ -71,7 +71,7 @@ pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
 void pendres_response_name_by(const pendres_small_end *end, pendres_response *r)
 {
   static const pendres_label_states alone = {.count = 0};
-  size_t sa = 0, la = 0, all = r->unresolved + r->unlisted;
+  size_t sa = 0, la = 0, all = r->unresolved + r->escaped + r->unlisted;
   if (!end->known || !pendres_response_nameless(r)) return;
   const pendres_label_border border = pendres_small_end_from(end, &r->pendulum);
   for (size_t i = 0; i < r->states; i++) {
@@ -82,7 +82,8 @@ void pendres_response_name_by(const pendres_small_end *end, pendres_response *r)
     all += r->state_members[i];
   }
   const double members = (double)all;
-  const size_t uncertain = r->unresolved + r->unlisted + (r->states > 1 ? r->uncertain : 0);
+  const int several = r->states > 1 || r->escaped > 0;
+  const size_t uncertain = r->unresolved + r->unlisted + (several ? r->uncertain : 0);
   r->sa_fraction = (double)sa / members;
   r->la_fraction = (double)la / members;
   r->sa_fraction_error = r->la_fraction_error = (double)uncertain / members + r->sampling;
