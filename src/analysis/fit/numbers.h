@@ -43,9 +43,9 @@ enum {
 /* So close to its bottom a well is linear. */
 static const double linear_near = 1e-4;
 
-/* Curves have this many nodes from rest to the largest amplitude, and steps along the axis are as
-   short as a resonance is wide or as the data are apart: a step longer than both might go over the
-   resonance. */
+/* Curves have this many nodes from rest to the largest amplitude, however weak it is, and steps
+   along the axis are as short as a resonance is wide or as the data are apart: a step longer than
+   both might go over the resonance. */
 static const double fit_nodes_high = 14.0, fit_steps_across = 150.0;
 
 /* A curve goes beyond the data by this share of their range, so that it begins and ends outside of
@@ -59,7 +59,7 @@ static const double fit_resonance_widths = 3.0;
    is not followed below the second: slow drives take many steps. */
 static const double fit_lowest = 0.8, fit_least = 0.05;
 
-/* What Newton's method corrects last leaves its square. */
+/* What Newton's method corrects last, as a share of an orbit's size, leaves its square. */
 static const double fit_last_step = 3e-5;
 
 /* Nodes of a curve moved to other parameters lie further apart by no more than this. */
