@@ -162,6 +162,29 @@ static void no_guesses(void **state)
   }
 }
 
+/* What the balance does not tell begins at 0 beside guesses of all else. */
+static void offset_beside_guesses(void **state)
+{
+  (void)state;
+  pendres_fit *found = NULL;
+  pendres_fit_datum data[SWEEP];
+  const pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.09},
+                                      {.quantity = PENDRES_FIT_OFFSET, .guess = NAN}};
+  const pendres_fit_model model = {
+    .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0},
+                 .drive_amplitude = 0.1}, .unknowns = 2, .unknown = open};
+  for (int i = 0; i < SWEEP; i++) {
+    const double w = 0.7 + 0.6 * i / (SWEEP - 1);
+    data[i] = (pendres_fit_datum){.observable = PENDRES_FIT_AMPLITUDE, .direction = 1, .axis = w,
+                                  .observed = 0.1 / hypot(1.0 - w * w, 0.1 * w) - 0.3,
+                                  .error = 0.01};
+  }
+  check_ok(fit(data, SWEEP, &model, &found));
+  check_relative(pendres_fit_value(found, 0), 0.1, exact);
+  check_relative(pendres_fit_value(found, 1), -0.3, exact);
+  pendres_fit_free(found);
+}
+
 /* ---- places ---- */
 
 /* Where weak drives find the resonance: at the frequency of the well, whatever the damping. */
@@ -195,6 +218,7 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(weakly_driven_pendulums),
                                      cmocka_unit_test(linear_springs),
                                      cmocka_unit_test(no_guesses),
+                                     cmocka_unit_test(offset_beside_guesses),
                                      cmocka_unit_test(weak_resonances)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

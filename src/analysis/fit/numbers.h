@@ -105,6 +105,10 @@ static const double fit_improbable = 1e-6, fit_good_enough = 0.05;
    from 0 than this many standard deviations. */
 static const double fit_correlated = 5.0;
 
+/* Amplitudes below 0 by more than so many errors, or, where none are known, by more than this share
+   of the largest one, which is noise that fits are not tested with, are none. */
+static const double fit_beyond_errors = 5.0, fit_beyond_noise = 0.5;
+
 /* Data below this share of the largest are left out of a guess: noise would count most there. */
 static const double fit_guess_least = 0.3;
 
