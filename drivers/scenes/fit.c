@@ -173,7 +173,11 @@ static void find_fit(fit_work *w)
                                        .starts = (int)d->fit.starts,
                                        .iterations = (int)d->fit.iterations};
   const pendres_fit_model model = {.pendulum = w->model, .unknowns = w->n, .unknown = w->unknown};
+  char doing[160];
+  snprintf(doing, sizeof doing, "the fit of %.100s has no answer yet", w->data.path);
+  farm_doing(w->run->farm, doing);
   const pendres_status status = pendres_fit_find(ctx, &w->data.of, &model, &options, &w->fit);
+  farm_doing(w->run->farm, "");
   if (status == PENDRES_OK) return;
   size_t datum = w->data.of.n;
   const char *why = NULL;

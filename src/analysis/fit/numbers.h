@@ -36,6 +36,7 @@ enum {
      latter takes a tenth of a second. */
   FIT_DECAY_FIRST = 32,
   FIT_DECAY_WINDOW = 1024,
+  FIT_DECAY_WAY = 64, /* places from rest to a guess of the start, between which a barrier may be */
   FIT_NOTES = 12,
   FIT_NOTE = 400
 };
