@@ -3,6 +3,8 @@
  */
 #include "check.h"
 
+#include <string.h>
+
 #include <pendres/pendres.h>
 
 static void refusals(void **state)
@@ -116,8 +118,59 @@ static void refusals(void **state)
   pendres_context_free(ctx);
 }
 
+/* Amplitudes that no error and no noise makes negative, and phases beyond a turn: which datum. */
+static void values(void **state)
+{
+  (void)state;
+  enum { N = 4 };
+  pendres_context *ctx = NULL;
+  pendres_fit *fit = NULL;
+  pendres_fit_datum data[N];
+  pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.1},
+                                {.quantity = PENDRES_FIT_OFFSET, .guess = 0.0}};
+  pendres_fit_data all = {N, data, PENDRES_DRIVE_FREQUENCY, PENDRES_PARAMETER_COUNT};
+  pendres_fit_model model = {.pendulum = {.damping = 0.1, .drive_amplitude = 0.01}, .unknowns = 1,
+                             .unknown = open};
+  size_t datum = 0;
+  const char *why = NULL;
+  check_ok(pendres_context_create(NULL, &ctx));
+  for (int i = 0; i < N; i++)
+    data[i] = (pendres_fit_datum){.observable = PENDRES_FIT_RMS, .direction = 1,
+                                  .axis = 0.7 + 0.2 * i, .observed = 0.1};
+#define AT(value, standard, refused)                                                               \
+  do {                                                                                             \
+    for (int i = 0; i < N; i++) data[i].error = (standard);                                        \
+    data[2].observed = (value);                                                                    \
+    const int is_refused = pendres_fit_data_check(&all, &model, &datum, &why) != PENDRES_OK;       \
+    assert_int_equal(is_refused, (refused));                                                       \
+    assert_int_equal(datum, (refused) ? 2 : N);                                                    \
+    assert_int_equal(why != NULL, (refused));                                                      \
+  } while (0)
+  AT(-0.049, 0.0, 0); /* noise of a tenth, as far as it goes */
+  AT(-0.051, 0.0, 1);
+  AT(-0.049, 0.01, 0);
+  AT(-0.051, 0.01, 1);
+  assert_int_equal(pendres_fit_find(ctx, &all, &model, NULL, &fit), PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(pendres_context_message(ctx), "datum 2: "));
+  model.unknowns = 2; /* an offset makes readings negative, not all of them, ... */
+  AT(-0.09, 0.01, 0);
+  AT(-0.11, 0.01, 1);
+  for (int i = 0; i < N; i++) data[i].observable = PENDRES_FIT_LOOP_AREA; /* ... nor areas */
+  AT(-0.09, 0.01, 1);
+  for (int i = 0; i < N; i++) data[i].observable = PENDRES_FIT_PHASE_LAG;
+  AT(-6.2, 0.0, 0);
+  AT(6.3, 0.0, 1);
+  AT(-6.3, 0.01, 0);
+  for (int i = 0; i < N; i++) data[i].observable = PENDRES_FIT_QUADRATURE;
+  AT(-60.0, 0.01, 0);
+#undef AT
+  assert_int_equal(pendres_fit_data_check(NULL, &model, NULL, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_fit_data_check(&all, NULL, &datum, &why), PENDRES_INVALID_ARGUMENT);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(refusals)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(refusals), cmocka_unit_test(values)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -182,6 +182,36 @@ static void waiting_is_shown(void **state)
   assert_int_equal(fclose(p.stream), 0);
 }
 
+/* What has no count says what it is after ten seconds, and when that time has doubled. */
+static void doing_is_told(void **state)
+{
+  static const double seconds[] = {9.0, 10.5, 19.0, 22.0, 30.0, 46.0};
+  static const int told[] = {0, 1, 1, 2, 2, 3};
+  char text[4000];
+  progress p;
+  (void)state;
+  progress_init(&p, tmpfile(), 0);
+  assert_non_null(p.stream);
+  p.terminal = 0;
+  progress_doing(&p, "the fit of a.csv has no answer yet");
+  for (int i = 0; i < 6; i++) {
+    const double later = seconds[i] - (i > 0 ? seconds[i - 1] : 0.0);
+    p.start -= later;
+    p.spoken -= later;
+    progress_wait(&p);
+    fflush(p.stream);
+    rewind(p.stream);
+    int lines = 0;
+    while (fgets(text, sizeof text, p.stream) != NULL) lines++;
+    assert_int_equal(lines, told[i]);
+  }
+  check_says(text, "resonance: the fit of a.csv has no answer yet, for 46 s\n");
+  progress_doing(&p, "");
+  p.spoken -= 100.0;
+  progress_wait(&p);
+  assert_int_equal(fclose(p.stream), 0);
+}
+
 /* ---- the program ---- */
 
 static const struct {
@@ -281,7 +311,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(ends_at_its_budget), TEST(costly_points_are_told),
                                       TEST(a_bar_names_what_is_long), TEST(waiting_is_shown),
-                                      TEST(the_run_goes_on),
+                                      TEST(doing_is_told), TEST(the_run_goes_on),
                                       TEST(scenes_without_lines),
                                       TEST(parts_tell) };
   if (!find_program()) return 77;

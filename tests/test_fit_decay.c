@@ -234,9 +234,52 @@ static void linear_decay(void **state)
   pendres_context_free(ctx);
 }
 
+/* Soft springs that begin next to the barrier, at 1, where they hover before they swing faster and
+   faster: without guesses, and beside the true values of all but the start. */
+static void near_the_barrier(void **state)
+{
+  (void)state;
+  enum { N = 300 };
+  static const double dampings[] = {0.02, 0.1}, starts[] = {0.9, 0.97, 0.99, -0.99, 0.999};
+  static double time[N], y[N];
+  static pendres_fit_datum data[N];
+  pendres_context *ctx = context();
+  uint64_t seed = 31;
+  for (size_t k = 0; k < 2 * 2 * 5; k++) {
+    const int guessed = k % 2 == 1;
+    const lab l = {.a1 = 1.0, .a3 = -1.0, .damping = dampings[k / 2 % 2]};
+    const double truth[OPEN] = {l.damping, l.a1, l.a3, starts[k / 4], 0.0};
+    pendres_fit *fit = NULL;
+    pendres_fit_unknown open[OPEN] = {{.quantity = PENDRES_DAMPING},
+                                      {.quantity = PENDRES_A1},
+                                      {.quantity = PENDRES_A3},
+                                      {.quantity = PENDRES_FIT_START_DISPLACEMENT},
+                                      {.quantity = PENDRES_FIT_START_VELOCITY}};
+    for (int i = 0; i < OPEN; i++) open[i].guess = guessed && i < 3 ? truth[i] : NAN;
+    for (int i = 0; i < N; i++) time[i] = 3.0 / l.damping * i / (N - 1);
+    lab_decay(l, starts[k / 4], 0.0, N, time, y);
+    for (int i = 0; i < N; i++)
+      data[i] = (pendres_fit_datum){.observable = PENDRES_FIT_DISPLACEMENT, .direction = 1,
+                                    .axis = time[i], .error = 0.01,
+                                    .observed = y[i] + 0.01 * lab_normal(&seed)};
+    const pendres_fit_model model = {.pendulum.force = PENDRES_FORCE_POLYNOMIAL, .unknowns = OPEN,
+                                     .unknown = open};
+    const pendres_fit_data all = {.n = N, .datum = data, .axis = PENDRES_PARAMETER_COUNT,
+                                  .other = PENDRES_PARAMETER_COUNT};
+    check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+    assert_true(pendres_fit_summary_get(fit).probability > 1e-5);
+    for (size_t i = 0; i < OPEN; i++)
+      check_near(pendres_fit_value(fit, i), truth[i],
+                 4.5 * sqrt(pendres_fit_covariance(fit, i, i)));
+    pendres_fit_free(fit);
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(random_sets),
-                                     cmocka_unit_test(linear_decay)};
+                                     cmocka_unit_test(linear_decay),
+                                     cmocka_unit_test(near_the_barrier)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -170,6 +170,13 @@ static int stopped_between(void *arg)
   return farm_stop(f);
 }
 
+void farm_doing(farm *f, const char *what)
+{
+  pthread_mutex_lock(&f->lock);
+  progress_doing(f->options.progress, what);
+  pthread_mutex_unlock(&f->lock);
+}
+
 pendres_context *farm_context(farm *f)
 {
   pendres_context *ctx = NULL;

@@ -157,6 +157,9 @@ const char *farm_message(const farm *f);
 /* A context for work outside of tasks, on the calling thread. NULL: out of memory. */
 pendres_context *farm_context(farm *f);
 
+/* What that work is, as a sentence for users who wait for it; "": it is done. */
+void farm_doing(farm *f, const char *what);
+
 int farm_threads(const farm *f);
 
 /* Whether the run is to stop, for what a task does without its context; `farm` is a farm. */

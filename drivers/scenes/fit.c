@@ -173,12 +173,20 @@ static void find_fit(fit_work *w)
                                        .starts = (int)d->fit.starts,
                                        .iterations = (int)d->fit.iterations};
   const pendres_fit_model model = {.pendulum = w->model, .unknowns = w->n, .unknown = w->unknown};
+  char doing[160];
+  snprintf(doing, sizeof doing, "the fit of %.100s has no answer yet", w->data.path);
+  farm_doing(w->run->farm, doing);
   const pendres_status status = pendres_fit_find(ctx, &w->data.of, &model, &options, &w->fit);
+  farm_doing(w->run->farm, "");
   if (status == PENDRES_OK) return;
-  if (w->fit == NULL) {
+  size_t datum = w->data.of.n;
+  const char *why = NULL;
+  (void)pendres_fit_data_check(&w->data.of, &model, &datum, &why);
+  if (datum < w->data.of.n)
+    (void)scene_fail(w->run, status, "%s:%zu: %s", w->data.path, w->data.line[datum], why);
+  else if (w->fit == NULL)
     (void)scene_fail(w->run, status, "%s: %s", w->data.path, pendres_context_message(ctx));
-    return;
-  }
+  if (w->fit == NULL) return;
   scene_failure_count(w->run, SCENE_FAILURE_NOT_CONVERGED, 1);
   scene_failure_tell(w->run, SCENE_FAILURE_NOT_CONVERGED, NULL, "the fit of %s", w->data.path);
 }

@@ -8,6 +8,7 @@
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "scenes/fit_data.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -191,6 +192,37 @@ static void take_told(reader *r)
   if (scene_going(r->run)) take_in_order(r, n, column);
 }
 
+/* Whether one of some words, between blanks, stands in a name: letters and what is no ASCII. */
+static int has_word(const char *name, const char *words)
+{
+  for (const char *at = name; *at != '\0';) {
+    char word[CELL + 2] = " ";
+    size_t n = 1;
+    for (; n < CELL && (isalpha((unsigned char)*at) || (unsigned char)*at > 127); at++)
+      word[n++] = (char)tolower((unsigned char)*at);
+    word[n] = ' ';
+    if (n > 1 && strstr(words, word) != NULL) return 1;
+    at += n == 1;
+  }
+  return 0;
+}
+
+/* Columns whose names say that they are in what no observable is in. */
+static void check_units(const reader *r)
+{
+  for (size_t i = 0; i < r->observables && scene_going(r->run); i++) {
+    const char *name = r->name[r->observable[i]];
+    const int phase = r->kind[i] == PENDRES_FIT_PHASE_LAG;
+    if (phase && has_word(name, " deg degree degrees \xc2\xb0 "))
+      FAIL(r, "%s:%zu: column '%.60s' is in degrees, and a phase_lag is in rad: multiply it by "
+           "pi/180 and name it anew", r->out->path, r->line, name);
+    if (!phase && has_word(name, " db dbm dbv dbu "))
+      FAIL(r, "%s:%zu: column '%.60s' is in dB, and %s is not: make it 10^(dB/20) and name it anew",
+           r->out->path, r->line, name,
+           pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]));
+  }
+}
+
 static void find_columns(reader *r)
 {
   if (r->d->data.columns.count > 0) {
@@ -210,6 +242,7 @@ static void find_columns(reader *r)
   if (missing != NULL)
     FAIL(r, "%s:%zu: no column of '%s' is known: name it in the first line, or tell the columns in "
          "data.columns", r->out->path, r->line, missing);
+  else check_units(r);
 }
 
 /* The first line that is no comment: names, or the first data. Returns whether it has names. */
@@ -268,9 +301,14 @@ static int make_room(reader *r)
   if (out->of.n + r->observables <= r->room) return 1;
   r->room = 2 * r->room + 256;
   pendres_fit_datum *more = scene_array(r->run, r->room, sizeof *more);
-  if (more == NULL) return 0;
-  if (out->of.n > 0) memcpy(more, out->datum, out->of.n * sizeof *more);
+  size_t *line = scene_array(r->run, r->room, sizeof *line);
+  if (more == NULL || line == NULL) return 0;
+  if (out->of.n > 0) {
+    memcpy(more, out->datum, out->of.n * sizeof *more);
+    memcpy(line, out->line, out->of.n * sizeof *line);
+  }
   out->datum = more;
+  out->line = line;
   return 1;
 }
 
@@ -305,7 +343,9 @@ static void read_line(reader *r, char *line)
     if (r->error[i] != NONE && scene_going(r->run) && !(one.error > 0.0))
       FAIL(r, "%s:%zu: the standard error must be above 0: give all data one, or leave the column "
            "out", r->out->path, r->line);
-    if (scene_going(r->run) && make_room(r)) r->out->datum[r->out->of.n++] = one;
+    if (!scene_going(r->run) || !make_room(r)) continue;
+    r->out->line[r->out->of.n] = r->line;
+    r->out->datum[r->out->of.n++] = one;
   }
 }
 

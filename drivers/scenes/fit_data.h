@@ -13,6 +13,7 @@
 typedef struct fit_data {
   pendres_fit_data of;
   pendres_fit_datum *datum; /* [of.n], in the run's room: a line's observables in their order */
+  size_t *line;             /* [of.n] from where they are */
   char path[DECK_PATH];
 } fit_data;
 

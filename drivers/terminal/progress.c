@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L /* gmtime_r, isatty */
 #include "terminal/progress.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,8 @@ static const double redraw_after = 0.1;
 static const double first_line_after = 1.0;
 /* How often it is said that nothing is counted yet, seconds. */
 static const double wait_redraw = 1.0;
+/* Users of work without a count wonder after so many seconds what is going on. */
+static const double doing_line_after = 10.0;
 /* A bar names what has been at work for longer. */
 static const double named_after = 3.0;
 
@@ -145,21 +148,33 @@ void progress_end(progress *p)
   p->drawn = 0.0;
 }
 
+void progress_doing(progress *p, const char *what)
+{
+  if (p == NULL || p->total > 0) return;
+  clear(p);
+  snprintf(p->doing, sizeof p->doing, "%s", what);
+  p->start = p->spoken = clock_wall();
+  p->drawn = 0.0;
+}
+
 void progress_wait(progress *p)
 {
-  char text[80];
+  char text[200];
   if (p == NULL || p->total > 0) return;
   const double t = clock_wall(), elapsed = t - p->start;
   const int draws = p->terminal && !p->quiet && elapsed - p->drawn >= wait_redraw;
-  if (!draws && t - p->spoken < p->every) return;
-  snprintf(text, sizeof text, "before the next tasks, for %.0f s", elapsed);
+  const double every =
+    p->doing[0] != '\0' ? fmin(p->every, fmax(doing_line_after, 0.5 * elapsed)) : p->every;
+  if (!draws && t - p->spoken < every) return;
+  snprintf(text, sizeof text, "%s, for %.0f s",
+           p->doing[0] != '\0' ? p->doing : "before the next tasks", elapsed);
   if (draws) {
     clear(p);
-    p->width = fprintf(p->stream, "%s", text);
+    p->width = fprintf(p->stream, "%.*s", columns_of(p) - 1, text);
     p->drawn = elapsed;
     fflush(p->stream);
   }
-  if (t - p->spoken >= p->every) tell(p, text);
+  if (t - p->spoken >= every) tell(p, text);
 }
 
 static void say(progress *p, int silent, const char *kind, const char *format, va_list args)

@@ -24,6 +24,7 @@ typedef struct progress {
   size_t total;      /* 0: nothing is counted at present */
   size_t before;     /* were done at the start */
   int percent;       /* shown last */
+  char doing[160];   /* while nothing is counted; "": the next tasks have not begun */
   char name[120];    /* of what has been running for the longest time; "": not known */
   double since;      /* that time, seconds */
   int width;         /* of the bar's present line; 0: none */
@@ -46,8 +47,12 @@ void progress_end(progress *p);
    always shows these. As progress_wait() while nothing is counted. */
 void progress_tick(progress *p, size_t done, const char *name, double seconds);
 
+/* What is done from now on while nothing is counted, as a sentence; "": that is over. */
+void progress_doing(progress *p, const char *what);
+
 /* To be called now and then while nothing is counted, as before a run's first tasks: a terminal
-   shows for how long, once a second; otherwise there is a line after five minutes. */
+   shows for how long, once a second; otherwise there is a line after five minutes, of what has a
+   sentence after ten seconds and whenever the time has doubled. */
 void progress_wait(progress *p);
 
 /* A message about the run; one that --quiet shows as well, although nothing has failed; an error

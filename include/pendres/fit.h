@@ -195,6 +195,19 @@ typedef struct pendres_fit_summary {
 typedef struct pendres_fit pendres_fit;
 
 /**
+ * Whether data can be what they are said to be: amplitudes below 0 beyond their errors and phases
+ * beyond a turn, as of data in dB and degrees, are refused, as pendres_fit_find() does.
+ *
+ * @param data   read, not kept
+ * @param model  read, not kept: an offset among its unknowns may make readings negative
+ * @param datum  unless NULL: the number of the datum that cannot, data->n where it is not one
+ * @param why    unless NULL: a static sentence that says what is wrong, or NULL
+ * @return PENDRES_OK or PENDRES_INVALID_ARGUMENT. Thread safety: pure.
+ */
+pendres_status pendres_fit_data_check(const pendres_fit_data *data, const pendres_fit_model *model,
+                                      size_t *datum, const char **why);
+
+/**
  * Fit a model to data.
  *
  * @param ctx      belongs to one thread at a time

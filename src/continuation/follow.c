@@ -27,15 +27,16 @@ pendres_followed pendres_followed_of(const pendres_orbit *orbit, pendres_conditi
 /* The scale of unknown number k at a place. */
 static double scale_at(const pendres_system *s, int k, const pendres_u u)
 {
-  return s->lengths && k < 2 ? 1.0 : pendres_arc_scale(&s->map, s->unknown[k], u);
+  return s->length > 0.0 && k < 2 ? s->length : pendres_arc_scale(&s->map, s->unknown[k], u);
 }
 
 /* From a to b along unknown number k, in the scale between them. */
 static double way_between(const pendres_system *s, int k, const pendres_u a, const pendres_u b)
 {
   const int i = s->unknown[k];
-  return (b[i] - a[i]) /
-         (s->lengths && k < 2 ? 1.0 : pendres_arc_scale_between(&s->map, i, a, b));
+  const double scale =
+    s->length > 0.0 && k < 2 ? s->length : pendres_arc_scale_between(&s->map, i, a, b);
+  return (b[i] - a[i]) / scale;
 }
 
 /* The equations at u, and the plane across a direction, linearised in the scaled unknowns. */

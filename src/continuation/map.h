@@ -96,7 +96,8 @@ typedef struct pendres_system {
   int steps; /* a period */
   pendres_condition condition;
   int unknowns, unknown[PENDRES_UNKNOWNS];
-  int lengths; /* a follower counts the state in lengths, not by its ratio (pendres_arc_scale) */
+  double length; /* that counts as one in the state of what a follower follows; 0: by its ratio
+                    (pendres_arc_scale) */
 } pendres_system;
 
 pendres_pendulum pendres_map_pendulum(pendres_force force, const pendres_u u);

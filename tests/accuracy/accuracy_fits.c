@@ -1,6 +1,7 @@
 /*
  * accuracy_fits.c -- fits to measured responses at random parameters, without guesses, beside the
- * values that the data were made with, by the integration of tests/fit_fixture.h.
+ * values that the data were made with: of bent resonances by the integration of
+ * tests/fit_fixture.h, of weak ones, which nothing bends, by the formula of linear response.
  *
  * Errors are standard errors, of which eight are the claim: a datum next to a fold that is off by
  * four, as one of the 24,000 may be, moves the fold by eight. Over all values the distances in
@@ -17,12 +18,16 @@ enum { SWEEP = 60, DATA = 2 * SWEEP, OPEN = 4, HOW = 400 };
 
 static const double sigmas = 8.0, suspicious = 4.5, farthest_mean = 0.2, farthest_width = 0.15;
 
-typedef enum kind { PENDULUM, HARD, SOFT, KINDS } kind;
+typedef enum kind { PENDULUM, HARD, SOFT, KINDS, LINEAR } kind;
+
+/* Weak drives: the amplitude that bends a pendulum's resonance by this share of its width. */
+static const double weak_bent = 1e-5;
 
 typedef struct item {
   lab of;
   kind kind;
   double noise, hertz, volts;
+  int weak;
   pendres_fit_observable observable;
   int measured; /* the sweeps were computed */
   pendres_status status;
@@ -69,6 +74,54 @@ static double observed(const lab_motion *m, pendres_fit_observable o)
   return o == PENDRES_FIT_AMPLITUDE ? m->amplitude
          : o == PENDRES_FIT_RMS     ? m->rms
                                     : hypot(m->cosine, m->sine);
+}
+
+/* A quality factor from 5 to 100,000, and a drive that bends nothing: of a pendulum down to a
+   thousandth of that, of a spring without a cubic term over nine decades. */
+static void draw_weak(accuracy_random *r, item *t)
+{
+  static const pendres_fit_observable sizes[] = {PENDRES_FIT_AMPLITUDE, PENDRES_FIT_RMS,
+                                                 PENDRES_FIT_FIRST_HARMONIC, PENDRES_FIT_IN_PHASE};
+  const double quality = accuracy_logarithmic(r, 5.0, 1e5);
+  t->kind = accuracy_choice(r, 2) ? PENDULUM : LINEAR;
+  t->noise = accuracy_logarithmic(r, 1e-3, 0.1);
+  t->observable = sizes[accuracy_choice(r, 4)];
+  t->hertz = t->kind == PENDULUM ? accuracy_logarithmic(r, 0.1, 1e7) : 1.0;
+  t->volts = 1.0;
+  t->weak = 1;
+  const double size = t->kind == PENDULUM
+                        ? sqrt(16.0 * weak_bent / quality) * accuracy_logarithmic(r, 1e-3, 1.0)
+                        : accuracy_logarithmic(r, 1e-6, 1e3);
+  t->of = (lab){.a1 = 1.0, .damping = 1.0 / quality, .drive = size / quality, .frequency = 1.0};
+}
+
+/* The formula's response at one frequency, ... */
+static double linear_response(const item *t, double w, pendres_fit_observable o)
+{
+  const double d = 1.0 - w * w, e = t->of.damping * w, size = t->of.drive / hypot(d, e);
+  return o == PENDRES_FIT_IN_PHASE     ? size * d / hypot(d, e)
+         : o == PENDRES_FIT_QUADRATURE ? size * e / hypot(d, e)
+         : o == PENDRES_FIT_RMS        ? size / sqrt(2.0)
+                                       : size;
+}
+
+/* ... over 8 to 12 widths, up and down, or both quadratures at each up. */
+static void measure_weak(accuracy_random *r, const item *t, pendres_fit_datum data[DATA])
+{
+  const double low = fmax(1.0 - 5.0 * t->of.damping * accuracy_uniform(r, 0.8, 1.2), 0.2);
+  const double high = 1.0 + 5.0 * t->of.damping * accuracy_uniform(r, 0.8, 1.2);
+  const int both = t->observable == PENDRES_FIT_IN_PHASE;
+  uint64_t seed = r->state;
+  const double error = t->noise * linear_response(t, 1.0, both ? PENDRES_FIT_QUADRATURE
+                                                               : t->observable);
+  for (int i = 0; i < DATA; i++) {
+    const double w = low + (high - low) * (i % SWEEP) / (SWEEP - 1);
+    const pendres_fit_observable o =
+      both && i >= SWEEP ? PENDRES_FIT_QUADRATURE : t->observable;
+    data[i] = (pendres_fit_datum){.observable = o, .direction = both || i < SWEEP ? 1 : -1,
+                                  .axis = t->hertz * w, .error = error,
+                                  .observed = linear_response(t, w, o) + error * lab_normal(&seed)};
+  }
 }
 
 /* Sixty values up and as many down, from somewhere below the resonance to somewhere above; 0 where
@@ -118,9 +171,9 @@ static void take(const pendres_fit *fit, item *t)
 {
   t->noted = is_doubted(fit);
   while (pendres_fit_jump_get(fit, (size_t)t->jumps) != NULL) t->jumps++;
-  t->values = OPEN;
+  t->values = t->weak ? OPEN - 1 : OPEN;
   t->chi_square = pendres_fit_summary_get(fit).chi_square;
-  for (size_t i = 0; i < OPEN; i++) {
+  for (size_t i = 0; i < t->values; i++) {
     t->got[i] = pendres_fit_value(fit, i);
     t->error[i] = sqrt(pendres_fit_covariance(fit, i, i));
   }
@@ -137,17 +190,11 @@ static double farthest(const item *t)
   return most;
 }
 
-static void compute(accuracy_random *r, void *of, long number)
+static void fit_item(const pendres_fit_datum data[DATA], item *t)
 {
-  item *t = of;
   pendres_context *ctx = NULL;
   pendres_fit *fit = NULL;
-  pendres_fit_datum data[DATA];
   pendres_fit_unknown open[OPEN];
-  (void)number;
-  draw(r, t);
-  t->measured = measure(r, t, data);
-  if (!t->measured) return;
   const int rigid = t->kind == PENDULUM;
   const int quantity[OPEN] = {PENDRES_DAMPING, PENDRES_DRIVE_AMPLITUDE,
                               rigid ? (int)PENDRES_FIT_FREQUENCY_SCALE : (int)PENDRES_A1,
@@ -161,7 +208,7 @@ static void compute(accuracy_random *r, void *of, long number)
   }
   const pendres_fit_model model = {
     .pendulum.force = rigid ? PENDRES_FORCE_PENDULUM : PENDRES_FORCE_POLYNOMIAL,
-    .unknowns = OPEN, .unknown = open};
+    .unknowns = t->weak ? OPEN - 1 : OPEN, .unknown = open};
   const pendres_fit_data all = {.n = DATA, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
                                 .other = PENDRES_PARAMETER_COUNT};
   t->status = pendres_context_create(NULL, &ctx);
@@ -177,6 +224,27 @@ static void compute(accuracy_random *r, void *of, long number)
     pendres_fit_free(fit);
   }
   pendres_context_free(ctx);
+}
+
+static void compute_bent(accuracy_random *r, void *of, long number)
+{
+  pendres_fit_datum data[DATA];
+  item *t = of;
+  (void)number;
+  draw(r, t);
+  t->measured = measure(r, t, data);
+  if (t->measured) fit_item(data, t);
+}
+
+static void compute_weak(accuracy_random *r, void *of, long number)
+{
+  pendres_fit_datum data[DATA];
+  item *t = of;
+  (void)number;
+  draw_weak(r, t);
+  measure_weak(r, t, data);
+  t->measured = 1;
+  fit_item(data, t);
 }
 
 static void note(accuracy *a, const void *of, long number, void *counts)
@@ -210,20 +278,28 @@ static void note(accuracy *a, const void *of, long number, void *counts)
   }
 }
 
-void accuracy_fits(accuracy *a)
+/* All fits of a family, and their distances together. */
+static void judge(accuracy *a, const char *family,
+                  void (*compute_one)(accuracy_random *r, void *of, long number))
 {
   tally sum = {.fits = 0};
   const accuracy_work work = {.items = (accuracy_get_options(a)->points + 4) / 5, .at_once = 16,
-                              .size = sizeof(item), .compute = compute, .note = note,
+                              .size = sizeof(item), .compute = compute_one, .note = note,
                               .tally = &sum};
   (void)accuracy_each(a, &work);
   const double n = (double)sum.values, mean = sum.sum / n;
   const double width = sqrt(sum.squares / n - mean * mean);
   char how[HOW];
-  snprintf(how, sizeof how, "%ld fits, %ld not converged, distances from the true values in "
-           "standard errors: mean %.3f, width %.3f", sum.fits, sum.failed, mean, width);
+  snprintf(how, sizeof how, "%ld of %s, %ld not converged, distances from the true values in "
+           "standard errors: mean %.3f, width %.3f", sum.fits, family, sum.failed, mean, width);
   printf("\nfits: %s\n", how);
   if (sum.values >= 400 && !(fabs(mean) < farthest_mean && fabs(width - 1.0) < farthest_width))
     accuracy_complain(a, "standard errors are not what they say", how);
   accuracy_fit_errors(a);
+}
+
+void accuracy_fits(accuracy *a)
+{
+  judge(a, "bent sweeps", compute_bent);
+  judge(a, "weak sweeps", compute_weak);
 }

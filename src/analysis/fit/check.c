@@ -3,7 +3,42 @@
 
 #include <math.h>
 
+#include "base/angles.h"
 #include "base/sized.h"
+
+static int is_size(pendres_fit_observable o)
+{
+  return o == PENDRES_FIT_AMPLITUDE || o == PENDRES_FIT_RMS || o == PENDRES_FIT_FIRST_HARMONIC ||
+         o == PENDRES_FIT_LOOP_AREA;
+}
+
+static int adds_offset(const pendres_fit_model *m, pendres_fit_observable o)
+{
+  for (size_t i = 0; i < m->unknowns && o != PENDRES_FIT_LOOP_AREA; i++)
+    if (m->unknown[i].quantity == PENDRES_FIT_OFFSET) return 1;
+  return 0;
+}
+
+/* Numbers that no error and no noise makes of what they are said to be; `largest`: of the data of
+   the same kind. */
+static const char *refuses_value(const pendres_fit_model *m, const pendres_fit_datum *one,
+                                 double largest)
+{
+  if (one->observable == PENDRES_FIT_PHASE_LAG &&
+      fabs(one->observed) > two_pi + fit_beyond_errors * one->error)
+    return "a phase_lag is in rad, and this one is more than a turn: multiply degrees by pi/180, "
+           "or take off whole turns";
+  if (!is_size(one->observable)) return NULL;
+  const double least = adds_offset(m, one->observable) ? -largest
+                       : one->error > 0.0              ? -fit_beyond_errors * one->error
+                                                       : -fit_beyond_noise * largest;
+  if (!(one->observed < least && one->observed < 0.0)) return NULL;
+  return one->observable == PENDRES_FIT_LOOP_AREA
+           ? "a loop area is the work of the drive, and this one is negative: give the magnitude"
+           : "amplitudes and rms are not negative, and this one is, beyond errors: make lengths of "
+             "dB by 10^(dB/20), or give the magnitude; where the instrument adds an offset, free "
+             "or fix 'offset'";
+}
 
 static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_datum *one)
 {
@@ -35,9 +70,11 @@ static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_da
   return NULL;
 }
 
-static const char *refuses_data(const pendres_fit_data *d)
+/* *at: the datum that is refused, or their number where none is. */
+static const char *refuses_data(const pendres_fit_data *d, const pendres_fit_model *m, size_t *at)
 {
-  size_t known = 0;
+  size_t known = 0, i = *at = d->n;
+  double largest[FIT_BASES];
   const int decays = d->axis == PENDRES_PARAMETER_COUNT;
   if (!decays && (unsigned)d->axis >= PENDRES_PARAMETER_FOLLOWED)
     return "the axis is no parameter of orbits";
@@ -46,13 +83,32 @@ static const char *refuses_data(const pendres_fit_data *d)
     return "the other parameter is no parameter of orbits";
   if (!decays && d->axis == d->other) return "the axis and the other parameter are the same";
   if (d->n > 0 && d->datum == NULL) return "there are no data";
-  for (size_t i = 0; i < d->n; i++) {
-    const char *why = refuses_datum(d, &d->datum[i]);
+  for (int o = 0; o < FIT_BASES; o++) largest[o] = -INFINITY;
+  for (i = 0; i < d->n; i++) {
+    const char *why = refuses_datum(d, &d->datum[*at = i]);
     if (why != NULL) return why;
+    double *most = &largest[d->datum[i].observable];
+    *most = fmax(*most, d->datum[i].observed);
     known += d->datum[i].error > 0.0;
   }
+  for (i = 0; i < d->n; i++) {
+    const char *why = refuses_value(m, &d->datum[*at = i], largest[d->datum[i].observable]);
+    if (why != NULL) return why;
+  }
+  *at = d->n;
   if (known != 0 && known != d->n) return "some data have a standard error and others have none";
   return NULL;
+}
+
+pendres_status pendres_fit_data_check(const pendres_fit_data *data, const pendres_fit_model *model,
+                                      size_t *datum, const char **why)
+{
+  const int given = data != NULL && model != NULL && (model->unknown != NULL || !model->unknowns);
+  size_t at = 0;
+  const char *refused = given ? refuses_data(data, model, &at) : "data and model are needed";
+  if (why != NULL) *why = refused;
+  if (datum != NULL) *datum = at;
+  return refused != NULL ? PENDRES_INVALID_ARGUMENT : PENDRES_OK;
 }
 
 /* Mean velocities are those of rest and rotations, without a drive. */
@@ -112,11 +168,11 @@ static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_
 
 pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c)
 {
-  size_t open = 0;
+  size_t open = 0, at = c->data->n;
   const pendres_fit_model *model = c->model;
   const char *why =
     pendres_model_of(model->pendulum.force) == NULL ? "the pendulum has no force" : NULL;
-  if (why == NULL) why = refuses_data(c->data);
+  if (why == NULL) why = refuses_data(c->data, model, &at);
   if (why == NULL && c->data->n > 0 &&
       c->data->datum[0].observable == PENDRES_FIT_MEAN_VELOCITY)
     why = refuses_rotations(c);
@@ -132,6 +188,8 @@ pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c
       if (model->unknown[k].quantity == model->unknown[i].quantity)
         why = "an unknown is given twice";
   }
+  if (at < c->data->n)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "datum %zu: %s", at, why);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   if (open == 0)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "nothing is free to be fitted");

@@ -15,19 +15,19 @@ static double axis_of(const fit_model *m, const pendres_curve_node *node)
   return node->u[pendres_fit_place(m)];
 }
 
-/* Curves are moved with the parameters, damping among them: their state counts in lengths,
-   whatever the damping. */
-static double scale_at(int place, double value)
+/* Curves are moved with the parameters, damping among them: their state counts in a length of the
+   curve's, whatever the damping. */
+static double scale_at(const fit_curve *c, int place, double value)
 {
-  if (place < PENDRES_U_OMEGA) return 1.0;
+  if (place < PENDRES_U_OMEGA) return c->kind.system.length;
   return pendres_parameter_scale_at((pendres_parameter)(place - PENDRES_U_OMEGA), value);
 }
 
-static double distance(const pendres_u a, const pendres_u b)
+static double distance(const fit_curve *c, const pendres_u a, const pendres_u b)
 {
   double sum = 0.0;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
-    sum = hypot(sum, (a[i] - b[i]) / scale_at(i, 0.5 * (a[i] + b[i])));
+    sum = hypot(sum, (a[i] - b[i]) / scale_at(c, i, 0.5 * (a[i] + b[i])));
   return sum;
 }
 
@@ -146,11 +146,14 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
   const double scale = pendres_parameter_scale_at(m->axis, r->high);
   const double wide = m->axis == PENDRES_DRIVE_FREQUENCY ? middle.damping : 0.0;
   const double across = fmax(wide, (r->high - r->low) / fit_steps_across) / scale;
-  const double spacing = fmin(0.1, fmax(fmin(fmin(highest, 2.0) / fit_nodes_high, across), 1e-5));
+  const double spacing = fmin(0.1, fmax(across, 1e-5));
+  /* What softens bends away before it is as large. */
+  while (pendres_fit_stiffness(m, v, highest) < 0.5 * pendres_fit_stiffness(m, v, 0.0))
+    highest *= 0.5;
   o.symmetric = keeps_symmetry(m, &p);
   o.mean_angle = 0.0;
   c->kind = pendres_followed_of(&o, PENDRES_CONDITION_NONE, &m->axis, spacing, u);
-  c->kind.system.lengths = 1;
+  c->kind.system.length = highest > 0.0 ? highest / fit_nodes_high / spacing : 1.0;
   return pendres_follow_begin(m->ctx, &c->kind, u, 1.0, w);
 }
 
@@ -199,14 +202,15 @@ static pendres_status follow(fit_model *m, fit_curve *c, const fit_values v)
 
 /* ---- moving to other values ---- */
 
-static int describe_moved(const pendres_followed *kind, const pendres_correction *at,
+static int describe_moved(const fit_curve *c, const pendres_correction *at,
                           pendres_curve_node *node)
 {
+  const pendres_followed *kind = &c->kind;
   double r[2][3], t[3], length = 0.0, along = 0.0;
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 3; k++) {
       const int place = kind->system.unknown[k];
-      r[i][k] = at->at.j[i][place] * scale_at(place, at->u[place]);
+      r[i][k] = at->at.j[i][place] * scale_at(c, place, at->u[place]);
     }
   for (int k = 0; k < 3; k++) {
     const int a = (k + 1) % 3, b = (k + 2) % 3;
@@ -227,10 +231,10 @@ static int is_whole(const fit_model *m, const fit_curve *c, const range *r, cons
   for (size_t i = 1; i < c->nodes; i++) {
     const pendres_curve_node *a = &c->node[i - 1], *b = &c->node[i];
     double ahead = 0.0, turn = 0.0;
-    const double way = distance(a->u, b->u);
+    const double way = distance(c, a->u, b->u);
     for (int k = 0; k < 3; k++) {
       const int place = c->kind.system.unknown[k];
-      ahead += a->tangent[k] * (b->u[place] - a->u[place]) / scale_at(place, b->u[place]);
+      ahead += a->tangent[k] * (b->u[place] - a->u[place]) / scale_at(c, place, b->u[place]);
       turn += a->tangent[k] * b->tangent[k];
     }
     if (way > fit_torn * before[i] + 1e-4 || ahead < 0.5 * way || turn < 0.8) return 0;
@@ -257,7 +261,7 @@ static pendres_status move(fit_model *m, fit_curve *c, const fit_values v)
     pendres_fit_point_at(m, c, v, axis_of(m, n), at[i].u);
     at[i].u[PENDRES_U_Y] = n->u[PENDRES_U_Y];
     at[i].u[PENDRES_U_W] = n->u[PENDRES_U_W];
-    if (i > 0) before[i] = distance(c->node[i - 1].u, n->u);
+    if (i > 0) before[i] = distance(c, c->node[i - 1].u, n->u);
     if (hypot(n->u[0], n->u[1]) > hypot(c->node[highest].u[0], c->node[highest].u[1])) highest = i;
   }
   status = pendres_map_steps(m->ctx, m->base.force, at[highest].u, c->kind.tolerance, &steps);
@@ -265,7 +269,7 @@ static pendres_status move(fit_model *m, fit_curve *c, const fit_values v)
   if (status == PENDRES_OK) status = pendres_follow_correct(m->ctx, c->nodes, at);
   int whole = status == PENDRES_OK;
   for (size_t i = 0; i < c->nodes && whole; i++)
-    whole = describe_moved(&c->kind, &at[i], &c->node[i]);
+    whole = describe_moved(c, &at[i], &c->node[i]);
   const range r = range_of(m, c, v);
   c->ready = whole && is_whole(m, c, &r, before);
   return pendres_room_close(&room, status);
@@ -302,12 +306,12 @@ static void set_pieces(const fit_model *m, fit_curve *c)
 static void cubic(const fit_curve *c, const pendres_curve_node *a, const pendres_curve_node *b,
                   double t, pendres_u u, double *tangent)
 {
-  const double way = distance(a->u, b->u);
+  const double way = distance(c, a->u, b->u);
   double length = 0.0, along[3];
   memcpy(u, a->u, sizeof(pendres_u));
   for (int k = 0; k < 3; k++) {
     const int place = c->kind.system.unknown[k];
-    const double scale = scale_at(place, 0.5 * (a->u[place] + b->u[place]));
+    const double scale = scale_at(c, place, 0.5 * (a->u[place] + b->u[place]));
     const double d = (b->u[place] - a->u[place]) / scale;
     const double p = way * a->tangent[k], q = way * b->tangent[k];
     const double e = 3.0 * d - 2.0 * p - q, f = p + q - 2.0 * d;
@@ -375,7 +379,7 @@ static pendres_status place_folds(fit_model *m)
         fit_fold *fold = &m->curve[k].fold[f];
         pendres_curve_node *e = &ends[2 * n], new = e[0];
         if (at[n].state != PENDRES_CORRECTION_CONVERGED ||
-            !describe_moved(&m->curve[k].kind, &at[n], &new))
+            !describe_moved(&m->curve[k], &at[n], &new))
           return pendres_room_close(&room, lose(m, "a fold was not found"));
         memcpy(fold->u, new.u, sizeof fold->u);
         memcpy(fold->tangent, new.tangent, sizeof fold->tangent);
@@ -397,8 +401,8 @@ static void widen_pieces(const fit_model *m, fit_curve *c)
       p->low = fmin(p->low, s);
       p->high = fmax(p->high, s);
       const pendres_curve_node *a = &c->node[f->after], *b = a + 1;
-      const double before = distance(a->u, f->u);
-      f->part = before / (before + distance(f->u, b->u));
+      const double before = distance(c, a->u, f->u);
+      f->part = before / (before + distance(c, f->u, b->u));
     }
 }
 

@@ -356,7 +356,9 @@ int pendres_fit_guess(const fit_model *m, const fit_values v, fit_values out[FIT
   look(&g);
   for (int k = 0; k < TOLD; k++)
     if (is_open(v, told[k])) g.unknown[g.unknowns++] = told[k];
-  if (g.n <= (size_t)g.unknowns || g.unknowns == 0) return 0;
+  /* Where all that the balance tells is known, what it does not tell begins at 0. */
+  if (g.unknowns == 0) memcpy(out[0], v, sizeof out[0]);
+  if (g.n <= (size_t)g.unknowns || g.unknowns == 0) return g.unknowns == 0;
   const int starts = search(&g, v, best);
   for (int i = 0; i < starts; i++) {
     /* What noise makes of the logarithms may be worse than where it began. */

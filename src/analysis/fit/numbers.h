@@ -38,6 +38,7 @@ enum {
   FIT_DECAY_WINDOW = 1024,
   FIT_PROFILE_PLACES = 64, /* at which chi-square is followed one way; a dozen is usual */
   FIT_PROFILE_ITERATIONS = 20, /* to one of them, from values that went on as before */
+  FIT_DECAY_WAY = 64, /* places from rest to a guess of the start, between which a barrier may be */
   FIT_NOTES = 12,
   FIT_NOTE = 400
 };
@@ -45,9 +46,9 @@ enum {
 /* So close to its bottom a well is linear. */
 static const double linear_near = 1e-4;
 
-/* Curves have this many nodes from rest to the largest amplitude, and steps along the axis are as
-   short as a resonance is wide or as the data are apart: a step longer than both might go over the
-   resonance. */
+/* Curves have this many nodes from rest to the largest amplitude, however weak it is, and steps
+   along the axis are as short as a resonance is wide or as the data are apart: a step longer than
+   both might go over the resonance. */
 static const double fit_nodes_high = 14.0, fit_steps_across = 150.0;
 
 /* A curve goes beyond the data by this share of their range, so that it begins and ends outside of
@@ -61,7 +62,7 @@ static const double fit_resonance_widths = 3.0;
    is not followed below the second: slow drives take many steps. */
 static const double fit_lowest = 0.8, fit_least = 0.05;
 
-/* What Newton's method corrects last leaves its square. */
+/* What Newton's method corrects last, as a share of an orbit's size, leaves its square. */
 static const double fit_last_step = 3e-5;
 
 /* Nodes of a curve moved to other parameters lie further apart by no more than this. */
@@ -123,6 +124,10 @@ static const double fit_outliers = 0.5;
 /* Residuals of neighbours are correlated beyond chance where the sum of their products is further
    from 0 than this many standard deviations. */
 static const double fit_correlated = 5.0;
+
+/* Amplitudes below 0 by more than so many errors, or, where none are known, by more than this share
+   of the largest one, which is noise that fits are not tested with, are none. */
+static const double fit_beyond_errors = 5.0, fit_beyond_noise = 0.5;
 
 /* Data below this share of the largest are left out of a guess: noise would count most there. */
 static const double fit_guess_least = 0.3;

@@ -291,7 +291,7 @@ static void improve(const fit_model *m, const fit_samples *s, double *work, size
     l->u[PENDRES_U_W] += o.shift[1];
     l->u[axis] += o.shift[2] * o.scale;
     const double size = hypot(l->u[PENDRES_U_Y], l->u[PENDRES_U_W]);
-    l->found = l->moved < fit_last_step * fmin(1.0, size);
+    l->found = l->moved < fit_last_step * size;
     if (!l->found) continue;
     straighten(&o);
     measure(&o, l);
@@ -305,7 +305,8 @@ static size_t gather(size_t n, fit_lane *lanes, size_t most, size_t *next, fit_l
   for (; *next < n && count < most; ++*next) {
     const fit_lane *l = &lanes[*next];
     const pendres_pendulum p = pendres_map_pendulum(PENDRES_FORCE_PENDULUM, l->u);
-    if (!l->found && l->moved < 1.0 && p.drive_frequency > 0.0 && isfinite(l->u[PENDRES_U_Y]))
+    const double size = hypot(l->u[PENDRES_U_Y], l->u[PENDRES_U_W]);
+    if (!l->found && l->moved < fmax(1.0, size) && p.drive_frequency > 0.0 && isfinite(size))
       out[count++] = &lanes[*next];
   }
   return count;
