@@ -7,8 +7,8 @@
 #   make accuracy   error estimates at random parameters against the reference, for an hour or so;
 #                   ACCURACY="--seed=3 --orbits=2000 --section=orbits" for less
 #   make fuzz       bytes that a fuzzer makes up (clang's libFuzzer), for the readers of decks, journals,
-#                   data and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz.
-#                   And memory that is refused, of every kind of scene, for a quarter of an hour
+#                   data and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz
+#   make faults     memory that is refused to every kind of scene, at each place six times
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
@@ -204,7 +204,7 @@ BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
 FUZZ_SECONDS ?= 60
 
-.PHONY: all accuracy check check-run fuzz bench bench-baseline install uninstall deps deps-mpi \
+.PHONY: all accuracy check check-run faults fuzz bench bench-baseline install uninstall deps deps-mpi \
         deps-fuzz deps-plots deps-python doc decks-reference results-reference interface-list style figures gallery \
         clean \
         help sdist wheel FORCE
@@ -382,7 +382,9 @@ fuzz:
 	  echo 'make fuzz needs clang with libFuzzer (Debian: make deps-fuzz)' >&2; exit 1; }
 	+@$(MAKE) --no-print-directory -k CC=$(CLANG) BUILD=build/fuzz \
 	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZ_NAMES:%=fuzz/%)
-	+@$(MAKE) --no-print-directory all
+
+# Memory that is refused, six times at each place that asks for it; make check does so once.
+faults: all
 	@$(RUN_ENVIRONMENT) FAULTS=6 tests/faults_memory_check.sh
 
 FIGURES := $(BUILD)/bench/figures.txt

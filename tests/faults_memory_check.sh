@@ -3,9 +3,9 @@
 # (the decks in tests/kinds). Whichever it is, the program ends with a message, or with the results
 # of a run that got all of it; nothing is left beside them but a journal. Of each place that asks for
 # memory, which is told by the last two of the program's functions, one allocation is refused: some
-# 900. FAULTS=6 takes the last six (make fuzz), FAULTS=all refuses each to the last, which
+# 900. FAULTS=6 takes the last six (make faults), FAULTS=all refuses each to the last, which
 # takes hours: DECKS='hysteresis fit' tries these alone.
-# Run by make check and make fuzz, which set BUILD, CC and RESONANCE.
+# Run by make check and make faults, which set BUILD, CC and RESONANCE.
 set -u
 [ -n "${RESONANCE:-}" ] || { echo "no program resonance"; exit 77; }
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -48,7 +48,7 @@ run()
     [ -f o.h5 ] || fail "$why no output" ;;
   1) grep -q 'error: .*[a-z]' err || fail "$why no message"
     grep -q 'has crashed\|ended the program' err && [ -z "$by" ] && fail "$why a crash"
-    [ ! -f o.h5 ] || grep -q 'are whole in\|cannot save the folder\|no text is written' err ||
+    [ ! -f o.h5 ] || grep -q 'are whole in\|cannot save the folder\|no text .*is written' err ||
       fail "$why an output of a failed run" ;;
   2) grep -q 'cannot read the deck: \|out of memory' err || fail "$why exit code 2" ;;
   *) fail "$why exit code $code" ;;

@@ -343,9 +343,11 @@ static int find_starts(pendres_fit_call *c, fit_model *m, fit_values start[FIT_T
     memcpy(start[count], own, sizeof(fit_values));
     start[count++][PENDRES_DAMPING] *= fit_guess_around[k];
   }
-  count += m->decays    ? pendres_fit_decay_guess(m, open, start + count)
-           : m->rotates ? pendres_fit_rotation_guess(m, open, start + count)
-                        : pendres_fit_guess(m, open, start + count);
+  const int more = m->decays    ? pendres_fit_decay_guess(m, open, start + count)
+                   : m->rotates ? pendres_fit_rotation_guess(m, open, start + count)
+                                : pendres_fit_guess(m, open, start + count);
+  if (more < 0) return more;
+  count += more;
   for (int k = 0; k < count; k++)
     for (int q = 0; q < FIT_QUANTITIES; q++)
       if (isnan(start[k][q])) start[k][q] = 0.0;
@@ -412,6 +414,9 @@ static pendres_status fit(pendres_context *ctx, pendres_fit_call *c)
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   set_parameters(c, &m);
   const int starts = find_starts(c, &m, start);
+  if (starts < 0)
+    return pendres_room_close(
+      &room, pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for guesses"));
   if (starts == 0)
     return pendres_room_close(
       &room, pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,

@@ -100,11 +100,11 @@ static int imbalances(const gsl_vector *x, void *arg, gsl_vector *out)
   return GSL_SUCCESS;
 }
 
-/* Improve v; returns the mean square that is left. */
+/* Improve v; returns the mean square that is left, or NaN without memory. */
 static double improve(guess *g, fit_values v)
 {
   enum { STEPS = 25 };
-  double left = INFINITY;
+  double left = NAN;
   const size_t p = (size_t)g->unknowns;
   gsl_multifit_nlinear_parameters rules = gsl_multifit_nlinear_default_parameters();
   gsl_multifit_nlinear_workspace *w =
@@ -120,19 +120,21 @@ static double improve(guess *g, fit_values v)
       g->unit[k] = at != 0.0 ? fabs(at) : 1.0;
       gsl_vector_set(x, (size_t)k, g->logarithm[k] ? log(at) : at / g->unit[k]);
     }
-    if (gsl_multifit_nlinear_init(x, &rows, w) == GSL_SUCCESS) {
-      (void)gsl_multifit_nlinear_driver(STEPS, 1e-6, 1e-6, 1e-6, NULL, NULL, &info, w);
+    int told = gsl_multifit_nlinear_init(x, &rows, w);
+    left = told == GSL_ENOMEM ? NAN : INFINITY;
+    if (told == GSL_SUCCESS) {
+      told = gsl_multifit_nlinear_driver(STEPS, 1e-6, 1e-6, 1e-6, NULL, NULL, &info, w);
       take(g, gsl_multifit_nlinear_position(w), v);
-      left = 0.0;
+      left = told == GSL_ENOMEM ? NAN : 0.0;
       for (size_t i = 0; i < g->n; i++) {
         const double r = gsl_vector_get(gsl_multifit_nlinear_residual(w), i);
-        left += r * r / (double)g->n;
+        left += (isfinite(r) ? r * r : INFINITY) / (double)g->n;
       }
     }
   }
   gsl_vector_free(x);
   gsl_multifit_nlinear_free(w);
-  return isfinite(left) ? left : INFINITY;
+  return left;
 }
 
 /* ---- data ---- */
@@ -364,6 +366,7 @@ int pendres_fit_guess(const fit_model *m, const fit_values v, fit_values out[FIT
     /* What noise makes of the logarithms may be worse than where it began. */
     if (i < FIT_GUESS_RAW) count = keep(out, cost, count, best[i].v, best[i].left);
     const double left = improve(&g, best[i].v);
+    if (isnan(left)) return -1;
     count = keep(out, cost, count, best[i].v, left);
   }
   return count;

@@ -265,7 +265,7 @@ int pendres_fit_decay_guess(fit_model *m, const fit_values v, fit_values out[FIT
 double pendres_fit_stiffness(const fit_model *m, const fit_values v, double amplitude);
 
 /* Values to begin with, best first: quantities that are NaN in v come from the data. Returns how
-   many there are. */
+   many there are; -1: out of memory. */
 int pendres_fit_guess(const fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
 
 #endif

@@ -174,9 +174,12 @@ static pendres_status run(fit_problem *p, int iterations, fit_result *out)
   gsl_vector_const_view x = gsl_vector_const_view_array(p->x, p->unknowns);
   if (w == NULL)
     return pendres_context_fail(p->m->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a fit");
-  if (gsl_multifit_nlinear_init(&x.vector, &f, w) == GSL_SUCCESS)
-    (void)gsl_multifit_nlinear_driver((size_t)iterations, fit_step_tolerance, fit_step_tolerance,
-                                      0.0, NULL, NULL, &info, w);
+  int told = gsl_multifit_nlinear_init(&x.vector, &f, w);
+  if (told == GSL_SUCCESS)
+    told = gsl_multifit_nlinear_driver((size_t)iterations, fit_step_tolerance, fit_step_tolerance,
+                                       0.0, NULL, NULL, &info, w);
+  if (told == GSL_ENOMEM && p->status == PENDRES_OK)
+    p->status = pendres_context_fail(p->m->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a fit");
   p->iterations += (int)gsl_multifit_nlinear_niter(w);
   values_of(p, gsl_multifit_nlinear_position(w)->data, out->v, slope);
   gsl_multifit_nlinear_free(w);
