@@ -151,7 +151,7 @@ def build(folder):
     cc = os.environ.get('CC', 'cc').split()
     sources = [os.path.join(HERE, 'ours.c')] + sorted(glob.glob(os.path.join(TOP, 'drivers', 'deck', '*.c')))
     sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
-    sources += [os.path.join(TOP, 'drivers', 'system', f) for f in ('bytes.c', 'file.c', 'grow.c')]
+    sources += [os.path.join(TOP, 'drivers', 'system', f) for f in ('bytes.c', 'file.c', 'grow.c', 'text.c')]
     sources.append(os.path.join(TOP, 'src', 'analysis', 'sweeps', 'sweep.c'))  # what lists and ranges make of an axis
     # Which coefficients a force has, what its parameters are, and its units.
     sources += [os.path.join(TOP, 'src', 'model', f)
