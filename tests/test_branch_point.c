@@ -13,6 +13,7 @@
 #include "branch_fixture.h"
 
 #include "continuation/sets.h"
+#include "oracle/reference.h"
 
 /* The lopsided well x - 0.6 x^2 + x^3/2 under a parametric drive: rest is an orbit at every b. */
 static pendres_pendulum lopsided(double b, double torque)

@@ -12,6 +12,7 @@
 #include "check.h"
 #include "continuation/sets.h"
 #include "model/model.h"
+#include "oracle/reference.h"
 
 static const double pi = 3.14159265358979323846;
 

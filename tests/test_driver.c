@@ -232,7 +232,7 @@ static void test_dry_and_bad(void **state)
   const struct {
     const char *deck, *words;
     int code;
-  } bad[] = {{"fit.nml", "absent.csv: No such file", 1},
+  } bad[] = {{"fit.nml", "'absent.csv' cannot be read: No such file", 1},
              {"basins.nml", "steps of the integrator, more than", 1},
              {"long.nml", "1 point failed", 3}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -149,7 +149,8 @@ static const char *const pure[] = {
   "curvature", "multiplier", "multiplier_re", "multiplier_im", "parametric_amplitude", "period",
   "ratio", "level", "dispersion_*", "distance", "drive_phase", "escapes", "events_*", "fit_chi2_*",
   "share", "ramp_time", "log_prefactor_*", "occupation_*", "implied_occupation_*",
-  "prefactor_exponent_*", "rotation", "settling_periods", "uncertainty_exponent", "well", "winding",
+  "prefactor_exponent_*", "missed_*", "rotation", "settling_periods", "uncertainty_exponent",
+  "well", "winding",
   "lyapunov_dimension", "correlation_dimension", "correlation_sum",
   /* Of fits: values have various units, which value_units has; drives are in an instrument's. */
   "value", "value_si", "covariance", "chi_square", "degrees_of_freedom", "probability", "other",

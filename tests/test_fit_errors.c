@@ -146,7 +146,7 @@ static void linear_decay(void **state)
 /* ---- the scatter of data ---- */
 
 /* The linear response about frequency 1 with damping 0.2 and drive 0.3, with normal noise of 0.01,
-   ten times that in some of the data. */
+   ten times that in some of the data. An instrument tells no amplitude below 0. */
 static pendres_status fit_response(pendres_context *ctx, uint64_t seed, double error, double dirty,
                                    double huber, pendres_fit **fit)
 {
@@ -155,7 +155,7 @@ static pendres_status fit_response(pendres_context *ctx, uint64_t seed, double e
     const double w = 0.5 + 1.0 * i / (SWEEP - 1), far = lab_uniform(&seed) < dirty ? 10.0 : 1.0;
     data[i] = (pendres_fit_datum){
       .observable = PENDRES_FIT_AMPLITUDE, .direction = 1, .axis = w, .error = error,
-      .observed = 0.3 / hypot(1.0 - w * w, 0.2 * w) + 0.01 * far * lab_normal(&seed)};
+      .observed = fabs(0.3 / hypot(1.0 - w * w, 0.2 * w) + 0.01 * far * lab_normal(&seed))};
   }
   const pendres_fit_unknown open[] = {{.quantity = PENDRES_DAMPING, .guess = 0.2},
                                       {.quantity = PENDRES_DRIVE_AMPLITUDE, .guess = 0.3}};

@@ -212,7 +212,9 @@ static void check_slopes(size_t n, const pendres_fit_datum *data, int quantity, 
       .unknowns = quantity == PENDRES_FIT_PHASE_OFFSET ? 4 : 5, .unknown = open};
     const pendres_fit_data all = {.n = n, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
                                   .other = PENDRES_DRIVE_AMPLITUDE};
-    check_ok(pendres_fit_find(ctx, &all, &model, NULL, &fit));
+    /* Beside the best values chi-square is none that chance gives, and the fit says so. */
+    const pendres_status status = pendres_fit_find(ctx, &all, &model, NULL, &fit);
+    assert_true(status == PENDRES_OK || (k > 0 && status == PENDRES_NOT_CONVERGED));
     for (size_t i = 0; i < n; i++) place[k][i] = pendres_fit_point_get(fit, i)->modelled;
     if (k == 0) variance = pendres_fit_covariance(fit, 0, 0);
     if (k == 0) at = pendres_fit_value(fit, 0);

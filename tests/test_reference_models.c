@@ -95,7 +95,7 @@ static void orbits(void **state)
     check_ok(pendres_attractors_find(ctx, &cases[i].p, 0, NULL, NULL, &set));
     for (size_t k = 0; k < pendres_attractors_count(set); k++) {
       const pendres_orbit *o = &pendres_attractors_get(set, k)->orbit;
-      if (!isfinite(o->x) || o->amplitude < 1e-3) continue;
+      if (o->period == 0 || o->amplitude < 1e-3) continue; /* no orbit, or hardly one */
       check_ok(reference_orbit(&cases[i].p, o->x - origin, o->v, o->period, o->winding,
                                        &c));
       const double size = fmax(1.0, fabs((double)c.dissipation));

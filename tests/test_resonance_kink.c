@@ -9,6 +9,7 @@
 #include <pendres/pendres.h>
 
 #include "context_fixture.h"
+#include "oracle/reference.h"
 
 enum { MEMBERS = 40 };
 
