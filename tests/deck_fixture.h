@@ -139,7 +139,7 @@ static const char *const good[] = {
   "&precision tolerance=1e-8 /\n",
   "&scene kind='resonance_curve' output='a''b.h5' /\n&pendulum drive_amplitude=0.1 damping=0.3 /\n"
   "&ensemble members=64 x_first=-1 x_last=1 v=0.25 /\n"
-  "&precision tolerance=1d-10 method='block_adaptive' table='dop853' steps_per_period=40\n"
+  "&precision tolerance=1d-10 method='block_adaptive' table='vern9' steps_per_period=40\n"
   " block_lanes=64 period_budget=1000 /\n",
   "&scene kind='response' /\n&pendulum drive_amplitude=0.2 /\n"
   "&sweep damping=0.24,0.32 drive_period_range=5,10,101 /\n",

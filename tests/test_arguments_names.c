@@ -69,7 +69,7 @@ static const struct {
   {"store_type", PENDRES_NAMES_STORE_TYPE, PENDRES_STORE_TYPE_COUNT,
    {"double", "int8", "int32", "int64", "string"}},
   {"table", PENDRES_NAMES_TABLE, PENDRES_TABLE_COUNT,
-   {"default", "tp8", "ev8", "vern8", "dop853", "tsit5", "vern9", "sh9", "dp5"}},
+   {"default", "tp8", "tsit5", "vern9", "dp5"}},
   {"switching_verdict", PENDRES_NAMES_SWITCHING_VERDICT, PENDRES_SWITCHING_VERDICTS,
    {"straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier",
     "unbalanced"}},

@@ -63,7 +63,7 @@ static void resonance_curve_values(void **state)
   assert_true(d.ensemble.x_first == -1 && d.ensemble.x_last == 1 && d.ensemble.v == 0.25);
   assert_true(d.precision.tolerance == 1e-10);
   assert_string_equal(d.precision.method, "block_adaptive");
-  assert_string_equal(d.precision.table, "dop853");
+  assert_string_equal(d.precision.table, "vern9");
   assert_int_equal(d.precision.steps_per_period, 40);
   assert_int_equal(d.precision.block_lanes, 64);
   assert_int_equal(d.precision.period_budget, 1000);

@@ -107,7 +107,7 @@ static double measured_order(pendres_block *flow, size_t from, size_t to)
 /*
  * An order too few is what a stage used twice costs. Tables whose leading error is tuned to be
  * small show a part of the next order until rounding hides everything: up to two more are measured
- * (ev8, vern9); never less than 0.5 below the nominal order.
+ * (vern9); never less than 0.5 below the nominal order.
  */
 static void test_order_of_every_table(void **state)
 {

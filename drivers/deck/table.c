@@ -89,14 +89,11 @@ static const char *const kinds[] = {
 /* Names of pendres_method and pendres_table, see <pendres/context.h>. */
 static const char *const methods[] = { "block_fixed", "block_adaptive", "single", "cvode_adams",
                                        "cvode_bdf", NULL };
-static const char *const tables[] = { "tp8", "ev8", "vern8", "dop853", "tsit5", "vern9", "sh9",
-                                      "dp5", NULL };
+static const char *const tables[] = { "tp8", "tsit5", "vern9", "dp5", NULL };
 /* Ways that work_precision compares, peers outside of the library among them. */
 static const char *const compared[] = {
-  "block_fixed", "block_fixed_ev8", "block_fixed_vern8", "block_fixed_dop853", "block_fixed_tsit5",
-  "block_fixed_vern9", "block_fixed_sh9", "block_fixed_dp5",
-  "block_adaptive", "block_adaptive_ev8", "block_adaptive_vern8", "block_adaptive_dop853",
-  "block_adaptive_tsit5", "block_adaptive_vern9", "block_adaptive_sh9", "block_adaptive_dp5",
+  "block_fixed", "block_fixed_tsit5", "block_fixed_vern9", "block_fixed_dp5",
+  "block_adaptive", "block_adaptive_tsit5", "block_adaptive_vern9", "block_adaptive_dp5",
   "single", "single_order8", "single_order5", "cvode_adams", "cvode_bdf", "gsl_rk8pd", "naive", NULL
 };
 static const char *const starts[] = { "", "sa", "la", "1", "2", "3", "4", "5", "6", "7", "8",

@@ -47,12 +47,8 @@ typedef enum pendres_method {
 typedef enum pendres_table {
   PENDRES_TABLE_DEFAULT = 0, /**< PENDRES_TABLE_TP8 */
   PENDRES_TABLE_TP8,    /**< Tsitouras and Papakostas 8(7), SIAM J. Sci. Comput. 20 (1999) 2067 */
-  PENDRES_TABLE_EV8,    /**< Enright and Verner 8(7) */
-  PENDRES_TABLE_VERN8,  /**< Verner 8(7) */
-  PENDRES_TABLE_DOP853, /**< Dormand-Prince 8, embedded 5; Hairer, Norsett, Wanner, Solving ODEs */
   PENDRES_TABLE_TSIT5,  /**< Tsitouras 5(4), Comput. Math. Appl. 62 (2011) 770 */
   PENDRES_TABLE_VERN9,  /**< Verner 9(8) */
-  PENDRES_TABLE_SH9,    /**< Sharp 9(8) */
   PENDRES_TABLE_DP5,    /**< ARKODE's built-in Dormand-Prince 5(4) */
   PENDRES_TABLE_COUNT   /**< how many there are; not a table */
 } pendres_table;

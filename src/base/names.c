@@ -18,7 +18,7 @@ static const struct {
   [PENDRES_NAMES_METHOD] =
     {.name = {"block_fixed", "block_adaptive", "single", "cvode_adams", "cvode_bdf", "naive"}},
   [PENDRES_NAMES_TABLE] =
-    {.name = {"default", "tp8", "ev8", "vern8", "dop853", "tsit5", "vern9", "sh9", "dp5"}},
+    {.name = {"default", "tp8", "tsit5", "vern9", "dp5"}},
   [PENDRES_NAMES_PARAMETER] = {.name = {PENDRES_PARAMETER_LIST(NUMBERED)}},
   [PENDRES_NAMES_ENSEMBLE_SHAPE] = {.name = {"line", "rectangle", "random"}},
   [PENDRES_NAMES_LABEL] =

@@ -11,7 +11,7 @@
 
 /*
  * A unit in the last place of angles up to pi, as measured with tp8. The moduli of its weights add
- * up to 7; those of vern8 add up to 96: its slopes cancel, but their rounding errors do not.
+ * up to 7; where they add up to more, slopes cancel, but their rounding errors do not.
  */
 double pendres_strobe_noise_of_step(pendres_table table)
 {
