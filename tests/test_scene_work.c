@@ -164,7 +164,8 @@ static void sweep_covers_its_ranges(void **state)
 }
 
 /*
- * Each table's estimates on 'sweep', at a tolerance where rounding counts. The truth is the default at 1e-13, 100 times as good as what is judged.
+ * Each table's estimates on 'sweep', at a tolerance where rounding counts. The truth is the default
+ * at 1e-13, 100 times as good as what is judged.
  */
 static void every_table_is_honest(void **state)
 {
