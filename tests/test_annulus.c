@@ -88,6 +88,26 @@ static void beside_rest(void **state)
   check_near(drift, exact.mean_velocity / p.drive_frequency, error);
 }
 
+/* What averages tell of the same pendulum: a state at rest, and one that rotates. */
+static void by_averages(void **state)
+{
+  const pendres_pendulum p[] = {{.damping = 0.1, .torque = 0.5, .drive_frequency = 1.0},
+                                {.damping = 0.1, .torque = 0.5, .drive_frequency = 1.0}};
+  const double x[] = {2.0, 2.0}, v[] = {0.0, 5.0};
+  pendres_lyapunov told[2];
+  pendres_rotation exact;
+  (void)state;
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
+  assert_int_equal(pendres_lyapunov_find(ctx, 2, p, x, v, NULL, told), PENDRES_OK);
+  assert_int_equal(pendres_rotation_find(p, &exact, NULL), PENDRES_OK);
+  assert_int_equal(told[0].label, PENDRES_LABEL_PERIODIC);
+  assert_int_equal(told[1].label, PENDRES_LABEL_RUNNING);
+  assert_int_equal(told[1].certain, 1);
+  assert_true(told[1].exponent == 0.0);
+  check_near(told[1].rotation, exact.mean_velocity, told[1].rotation_error);
+  pendres_context_free(ctx);
+}
+
 /* A junction with microwaves that is locked to none of them, whatever it starts from; another one
    beside the state without voltage. Means by smooth averages of an integrator of the fourth order
    with 400 steps: 1e-9. */
@@ -138,7 +158,8 @@ static void locks_and_ways(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(beside_rest), cmocka_unit_test(without_lock),
+    cmocka_unit_test(beside_rest), cmocka_unit_test(by_averages),
+    cmocka_unit_test(without_lock),
     cmocka_unit_test(locks_and_ways),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -154,6 +154,17 @@ static pendres_status tell_unstable(pendres_context *ctx, const job *j)
   return pendres_room_close(&room, status);
 }
 
+/* Those that rotate without a drive: their exponent is 0, exactly. */
+static void tell_undriven(const job *j)
+{
+  for (size_t i = 0; i < j->n; i++) {
+    pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_MOVING || !pendres_means_undriven(r, &j->out[i])) continue;
+    r->state = PENDRES_RUNNER_DONE;
+    r->doubt = 0.0;
+  }
+}
+
 /* ---- averages ------------------------------------------------------------------------------ */
 
 /* What the growth says, with an error of the steps of `off` in all. */
@@ -440,6 +451,7 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);
   if (status == PENDRES_OK) status = tell_unstable(ctx, j);
+  if (status == PENDRES_OK) tell_undriven(j);
   give_up(j, now.batch, 1);
   if (status == PENDRES_OK && j->care <= PENDRES_CARE_LABEL)
     status = look_at_rotations(ctx, j, &now);
