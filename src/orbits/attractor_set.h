@@ -154,6 +154,10 @@ void pendres_attractor_set_compare_images(pendres_attractor_set *c);
 const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
                                                               double y, double w);
 
+/* The annulus that a state is in; NULL if in none. */
+const pendres_annulus *pendres_attractor_set_annulus(const pendres_attractor_set *c, double y,
+                                                     double w);
+
 /* The number of the attractor, and the well, that a lane in one of the set's ellipses is on. */
 int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_trapping_ellipse *t,
                                  const pendres_strobe_lane *lane, long *well);
