@@ -255,6 +255,7 @@ static pendres_status average(pendres_context *ctx, const pendres_attractor_set 
   if (status == PENDRES_OK)
     status = pendres_steps_choose(ctx, &c->pendulum, speed, pendres_accuracy_of_means(ctx),
                                   &lane[0].steps);
+  if (status == PENDRES_TOLERANCE_UNREACHABLE) status = PENDRES_OK; /* the error says so */
   if (status != PENDRES_OK) return status;
   lane[1] = lane[0];
   lane[1].steps = (int)ceil(annulus_finer * lane[0].steps);
