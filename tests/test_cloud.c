@@ -9,6 +9,7 @@
 
 #include <pendres/cloud.h>
 #include <pendres/response.h>
+#include <pendres/switching.h>
 
 static pendres_attractors *attractors_of(pendres_context *ctx, pendres_pendulum p)
 {
@@ -130,6 +131,40 @@ static void wrong_requests_are_refused(void **state)
   pendres_context_free(ctx);
 }
 
+/* A rotation without a lock has a point, but comes back to none: no cloud around it, with noise or
+   without, and no rates of leaving it or for it. */
+static void rotations_have_no_cloud(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 0.12, .drive_amplitude = 0.1, .drive_frequency = 1.2, .torque = 0.4};
+  pendres_context *ctx = make(0, 0, 64);
+  pendres_attractors *set = attractors_of(ctx, p);
+  pendres_switching_tally tally;
+  pendres_cloud cloud;
+  double x[2], v[2];
+  size_t met = 0;
+  (void)state;
+  for (size_t i = 0; i < pendres_attractors_count(set); i++) {
+    pendres_pendulum hot = p;
+    hot.temperature = 0.01;
+    const pendres_switching_request from = {
+      .pendulum = hot, .set = set, .from = i, .trajectories = 1, .periods = 1};
+    assert_int_equal(pendres_switching_count(ctx, &from, &tally), PENDRES_INVALID_ARGUMENT);
+    if (pendres_attractors_get(set, i)->label != PENDRES_LABEL_QUASI_PERIODIC) continue;
+    for (int warm = 0; warm < 2; warm++) {
+      const pendres_cloud_request q = {.set = set, .attractor = i, .temperature = 0.01 * warm,
+                                       .trajectories = 2, .record = 1};
+      check_ok(pendres_cloud_prepare(ctx, &q, &cloud, x, v));
+      assert_int_equal(cloud.way, PENDRES_CLOUD_NONE);
+      assert_true(isnan(x[0]) && isnan(cloud.measured.statistics[PENDRES_LANGEVIN_COV_XX].value));
+    }
+    met++;
+  }
+  assert_int_equal(met, 1);
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
+}
+
 /*
  * A weakly driven pendulum in the cold is a harmonic oscillator, whose mean response noise does not
  * change but by terms of order T: y^3/6 makes the spring softer by <y^2>/2 = T/2, and the response
@@ -174,6 +209,7 @@ int main(void)
     cmocka_unit_test(parts_make_the_whole),
     cmocka_unit_test(clouds_without_noise),
     cmocka_unit_test(wrong_requests_are_refused),
+    cmocka_unit_test(rotations_have_no_cloud),
     cmocka_unit_test(responses_stay_what_they_are_in_the_cold),
   };
   return cmocka_run_group_tests_name("cloud", tests, NULL, NULL);

@@ -316,7 +316,7 @@ static const scene_cell cells[] = {
   {.heading = "attractor   ", .format = "%2zu ", .type = SCENE_COUNT,
    .value = offsetof(row, number)},
   {.heading = "", .format = "%-10s", .type = SCENE_FLAG, .value = offsetof(row, of.label),
-   .names = scene_label_names},
+   .names = scene_motion_names},
   {.heading = "period ", .format = "%4.0f ", .none = "   - ", .value = offsetof(row, period)},
   {.heading = "winding ", .format = "%6.0f   ", .none = "     -   ",
    .value = offsetof(row, winding)},

@@ -19,14 +19,16 @@
  * same way. What the check cannot see is a tongue of another basin that enters and leaves the ring
  * between two points and is too narrow to show in the tangents there, and errors of the integration
  * above the margin of a twentieth of the radius.
+ * A rotation that closes after no drive period has an annulus around the cylinder of states in an
+ * ellipse's place; the images of its edges are checked likewise.
  * What has not settled within its budget of periods is unresolved, never guessed.
  *
  * The error of the integration is propagated with each pendulum. Only if it is small against the
  * ellipse, and was small on the way, is the label certain (pendres_outcome.certain); pendulums for
  * which it is not are integrated again, more and more exactly, down to rounding.
  *
- * Attractors are numbered by amplitude, then by their Poincaré point, never by the order in
- * which they were found.
+ * Attractors are numbered by amplitude, then by their Poincaré point, never by the order in which
+ * they were found; chaos follows closed orbits, and rotations that do not close are last.
  */
 #ifndef PENDRES_ATTRACTOR_H
 #define PENDRES_ATTRACTOR_H
@@ -52,14 +54,14 @@ typedef enum pendres_label {
   PENDRES_LABEL_SA = 0,         /**< small amplitude */
   PENDRES_LABEL_LA = 1,         /**< large amplitude */
   PENDRES_LABEL_PERIODIC = 2,   /**< any other closed orbit, or one without a name */
-  PENDRES_LABEL_RUNNING = 3,    /**< closes up to whole turns: winding not 0; in hysteresis.h
-                                     also without a drive, in a period of its own */
+  PENDRES_LABEL_RUNNING = 3,    /**< closes up to whole turns: winding not 0; without a drive
+                                     also in a period of its own, with orbit.period 0 */
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
   PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
   PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity and too far out to return, or growing
                                      without bound under a linear force: not an attractor */
-  PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation that is not locked to the drive; found only by
-                                         lyapunov.h and hysteresis.h */
+  PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation that is not locked to the drive within 128
+                                         periods; not found by response.h and what builds on it */
   PENDRES_LABEL_UNSTABLE = 8,   /**< at rest in an unstable state, without a drive: it began there,
                                      or on its stable side, and never leaves. With a drive rounding
                                      leads away from every unstable orbit */
@@ -72,20 +74,23 @@ typedef struct pendres_attractor {
   pendres_orbit orbit;      /**< for a chaotic attractor its pendulum and means over a drive cycle:
                                  loop_area, dissipation, mean_power, and amplitude (half peak to
                                  peak within a cycle, cycles from drive phases 0 and pi on), with
-                                 errors that hold with a confidence of 99.9 %; the rest is NaN */
+                                 errors that hold with a confidence of 99.9 %; the rest is NaN.
+                                 For a rotation that does not close its pendulum and x, v, one of
+                                 its states at drive phase 0; the rest is NaN. Both have period 0 */
   double trap_metric[3];    /**< P_yy, P_yw, P_ww of the trapping ellipse at the Poincaré point, in
                                  y = x and w = v/omega; largest semi-axis of P = 1 is one */
   double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */
   double lyapunov;          /**< largest Lyapunov exponent per unit time */
-  double lyapunov_error;    /**< a standard error if chaotic; of closed orbits the multiplier's */
-  double drift;             /**< mean whole turns a drive period of a chaotic motion; NaN of closed
-                                 orbits */
-  double drift_error;       /**< its error, which holds with a confidence of 99.9 % */
+  double lyapunov_error;    /**< a standard error if chaotic; of closed orbits the multiplier's; 0
+                                 of rotations that do not close, whose exponent is 0 */
+  double drift;             /**< mean whole turns a drive period of what does not close; NaN of
+                                 closed orbits */
+  double drift_error;       /**< its error, of chaos with a confidence of 99.9 % */
   double watched_periods;   /**< drive periods, summed over replicas, for which a chaotic attractor
-                                 was followed with none of them leaving it; NaN of closed orbits */
+                                 was followed with none of them leaving it; NaN of others */
   double escape_rate_bound; /**< a chaotic motion that ended at a larger rate, a drive period, would
                                  have been seen to end with a probability of 95 %; smaller rates
-                                 are not excluded; NaN of closed orbits */
+                                 are not excluded; NaN of others */
 } pendres_attractor;
 
 /** Opaque: attractors of one or more parameter sets. */
@@ -153,7 +158,8 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
 
 /**
  * A point at drive phase 0 on attractor number i of a set of one parameter set: that of a closed
- * orbit, or of a chaotic attractor the state of a start that leads to it, once that has settled.
+ * orbit, one of a rotation, or of a chaotic attractor the state of a start that leads to it, once
+ * that has settled.
  * 256 starts are tried, spread evenly over one turn and speeds up to 2. *out is written on
  * PENDRES_OK.
  *

@@ -61,8 +61,8 @@ typedef struct pendres_basin_state {
   int32_t well;             /**< as in pendres_outcome; a state that settles in a well whose number
                                  needs more than 32 bits is unresolved */
   int32_t settling_periods; /**< -1: unresolved; -2: filled */
-  int16_t attractor;        /**< index in the set; PENDRES_ATTRACTOR_UNKNOWN (deferred, too) or
-                                 PENDRES_ATTRACTOR_ESCAPED */
+  int16_t attractor;        /**< index in the set; PENDRES_ATTRACTOR_UNKNOWN (deferred, too),
+                                 PENDRES_ATTRACTOR_ESCAPED or PENDRES_ATTRACTOR_UNSTABLE */
   int8_t label;             /**< a pendres_label */
   int8_t how;               /**< a pendres_basin_how */
 } pendres_basin_state;

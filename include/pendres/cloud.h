@@ -41,7 +41,7 @@ typedef struct pendres_cloud_request {
 
 /** How a cloud was made. */
 typedef enum pendres_cloud_way {
-  PENDRES_CLOUD_NONE = 0, /**< there is none: the attractor is chaotic or runs */
+  PENDRES_CLOUD_NONE = 0, /**< there is none: the attractor is chaotic or rotates */
   PENDRES_CLOUD_STILL,    /**< of the orbit's own points, without noise */
   PENDRES_CLOUD_NARROW,   /**< of the orbit's own points, with the covariance of linear theory */
   PENDRES_CLOUD_FOLLOWED, /**< by following trajectories */

@@ -21,10 +21,10 @@ static const pendres_orbit *orbit_of(const pendres_cloud_request *q)
 }
 
 /* Clouds are made around closed orbits that stay in their well; others run away, or have no strobe
- * point to start from. */
+ * point that they come back to. */
 static int has_cloud(const pendres_orbit *o)
 {
-  return isfinite(o->x) && isfinite(o->v) && o->winding == 0;
+  return o->period > 0 && o->winding == 0;
 }
 
 /* NULL, or what is wrong with a request. */

@@ -117,16 +117,20 @@ static void sum_up(const counting *c, size_t trajectories, pendres_switching_tal
 }
 
 /*
- * Whether pendulums may rotate, as they would without the drive, although the set has no rotation:
- * one that does not lock to the drive has no strobe point.
+ * Whether pendulums may rotate on no closed orbit: as one of the set does, or as they would without
+ * the drive where no rotation of the set is locked to it.
  */
 static int rotates_elsewhere(const pendres_switching_request *q)
 {
   pendres_pendulum p = q->pendulum;
   pendres_rotation rotation;
-  if (p.force != PENDRES_FORCE_PENDULUM || p.torque == 0.0) return 0;
-  for (size_t i = 0; i < pendres_attractors_count(q->set); i++)
-    if (pendres_attractors_get(q->set, i)->orbit.winding != 0) return 0;
+  int locked = 0;
+  for (size_t i = 0; i < pendres_attractors_count(q->set); i++) {
+    const pendres_attractor *a = pendres_attractors_get(q->set, i);
+    if (a->orbit.period == 0 && a->label != PENDRES_LABEL_CHAOTIC) return 1;
+    locked |= a->orbit.winding != 0;
+  }
+  if (locked || p.force != PENDRES_FORCE_PENDULUM || p.torque == 0.0) return 0;
   p.drive_amplitude = p.parametric_amplitude = p.temperature = 0.0;
   return pendres_rotation_find(&p, &rotation, NULL) == PENDRES_OK;
 }
@@ -139,13 +143,13 @@ static const char *refuse(const pendres_switching_request *q)
   if (pendres_attractors_count(q->set) > STATES) return "there are too many attractors";
   if (!(q->core >= 0.0 && q->core <= 2.0)) return "core must be from 0 to 2";
   if (q->periods < 0) return "the number of periods must not be negative";
-  if (!isfinite(a->orbit.x) || !isfinite(a->orbit.v))
-    return "a chaotic attractor has no point to start from";
+  if (a->orbit.period == 0)
+    return "chaos, and a rotation without a lock, have no point to start from";
   if (!pendres_model_same(&a->orbit.pendulum, &q->pendulum))
     return "these are attractors of another pendulum";
   if (rotates_elsewhere(q))
-    return "under this torque a pendulum may also rotate, which is none of the attractors: one "
-           "that leaves them for such a rotation would not be counted as having left";
+    return "under this torque a pendulum may also rotate, on no closed orbit: one that leaves for "
+           "such a rotation would not be counted as having left";
   return pendres_pendulum_leaves(&q->pendulum) ? NULL : pendres_noise_refuses(&q->pendulum);
 }
 

@@ -28,10 +28,6 @@ double pendres_annulus_centre(const pendres_annulus *a, double y, double *slope)
 
 double pendres_annulus_room(const pendres_annulus *a, double y, double w, double *slope)
 {
-  double t;
-  const int k = node_of(y, &t), next = (k + 1) % NODES;
   const double off = w - pendres_annulus_centre(a, y, slope);
-  const double below = (1.0 - t) * a->below[k] + t * a->below[next];
-  const double above = (1.0 - t) * a->above[k] + t * a->above[next];
-  return fmin(off + below, above - off);
+  return fmin(off + a->below, a->above - off);
 }

@@ -20,10 +20,9 @@ enum { PENDRES_ANNULUS_NODES = 256 };
 
 typedef struct pendres_annulus {
   int attractor; /* its number in the set of attractors */
-  /* At y = -pi + 2 pi k / NODES: the curve and its derivative, between them a cubic; how far below
-     and above it the edges are, between them a straight line. */
+  /* At y = -pi + 2 pi k / NODES: the curve and its derivative, between them a cubic. */
   double centre[PENDRES_ANNULUS_NODES], slope[PENDRES_ANNULUS_NODES];
-  double below[PENDRES_ANNULUS_NODES], above[PENDRES_ANNULUS_NODES];
+  double below, above; /* how far below and above it the edges are */
 } pendres_annulus;
 
 /* The curve at an angle, and its derivative. */

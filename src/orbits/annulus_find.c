@@ -107,7 +107,7 @@ static pendres_status draw(pendres_context *ctx, size_t n, const place *point, p
 }
 
 /* Find the curve that pendulums at all angles with the suspect's velocity come to. Those that come
-   to rest instead do not count. */
+   to rest instead, or to a rotation that is known, do not count. */
 static pendres_status find_curve(pendres_context *ctx, const pendres_attractor_set *c,
                                  const pendres_strobe_lane *suspect, pendres_annulus *a,
                                  int *found)
@@ -127,7 +127,8 @@ static pendres_status find_curve(pendres_context *ctx, const pendres_attractor_s
     status = advance(ctx, NODES, lanes, settled + strobe);
     for (int k = 0; k < NODES && status == PENDRES_OK; k++)
       if (way * lanes[k].turns > 0 &&
-          pendres_attractor_set_ellipse(c, lanes[k].y, lanes[k].w) == NULL)
+          pendres_attractor_set_ellipse(c, lanes[k].y, lanes[k].w) == NULL &&
+          pendres_attractor_set_annulus(c, lanes[k].y, lanes[k].w) == NULL)
         point[count++] = (place){pendres_less_turns(lanes[k].y, two_pi), lanes[k].w};
   }
   if (status == PENDRES_OK) *found = thin_out(point, &count);
@@ -153,23 +154,22 @@ static int inside(const pendres_annulus *a, const pendres_strobe_lane *lane)
     const double departs = fabs(off[last] - 2.0 * off[k] + off[next]);
     const double room = pendres_annulus_room(a, lane[k].y, lane[k].w, &slope);
     if (!(fabs(step) < annulus_step)) return 0;
-    if (!(departs < annulus_inside * (a->below[k] + a->above[k]) && room > departs)) return 0;
-    if (!(room > annulus_margin * (off[k] < 0.0 ? a->below[k] : a->above[k]))) return 0;
+    if (!(departs < annulus_inside * (a->below + a->above) && room > departs)) return 0;
+    if (!(room > annulus_margin * (off[k] < 0.0 ? a->below : a->above))) return 0;
   }
   return 1;
 }
 
-/* Whether the curve at the distance off[k] above the nodes comes into an annulus, all of it at one
-   time. */
+/* Whether the curve so far above that of an annulus comes into it, all of it at one time. */
 static pendres_status comes_in(pendres_context *ctx, const pendres_attractor_set *c,
-                               const pendres_annulus *a, const double *off, int *in)
+                               const pendres_annulus *a, double off, int *in)
 {
   pendres_room room = pendres_room_open(ctx, "a rotation");
   pendres_strobe_lane *lanes = pendres_room_take(&room, NODES, sizeof *lanes);
   pendres_status status = room.status;
   *in = 0;
   for (int k = 0; k < NODES && status == PENDRES_OK; k++)
-    status = load(ctx, c, node(k), a->centre[k] + off[k], &lanes[k]);
+    status = load(ctx, c, node(k), a->centre[k] + off, &lanes[k]);
   for (long period = 1; period <= ANNULUS_RETURNS && !*in && status == PENDRES_OK; period *= 2) {
     status = advance(ctx, NODES, lanes, period);
     if (status == PENDRES_OK) *in = inside(a, lanes);
@@ -182,18 +182,13 @@ static pendres_status comes_in(pendres_context *ctx, const pendres_attractor_set
 static pendres_status widen(pendres_context *ctx, const pendres_attractor_set *c,
                             pendres_annulus *a, double *edge, double sign, double most)
 {
-  double off[NODES], factor = annulus_first_factor;
+  double factor = annulus_first_factor;
   pendres_status status = PENDRES_OK;
   while (factor > annulus_least_factor && status == PENDRES_OK) {
     int in = 0;
-    double widest = 0.0;
-    for (int k = 0; k < NODES; k++) {
-      off[k] = sign * factor * edge[k];
-      widest = fmax(widest, factor * edge[k]);
-    }
-    if (widest < most) status = comes_in(ctx, c, a, off, &in);
-    for (int k = 0; k < NODES && in; k++) edge[k] = fabs(off[k]);
-    if (!in) factor = sqrt(factor);
+    if (factor * *edge < most) status = comes_in(ctx, c, a, sign * factor * *edge, &in);
+    if (in) *edge *= factor;
+    else factor = sqrt(factor);
   }
   return status;
 }
@@ -201,19 +196,16 @@ static pendres_status widen(pendres_context *ctx, const pendres_attractor_set *c
 static pendres_status find_edges(pendres_context *ctx, const pendres_attractor_set *c,
                                  pendres_annulus *a, int *found)
 {
-  double off[NODES], fastest = 0.0;
+  double fastest = 0.0;
   int in[2] = {0, 0};
-  pendres_status status = PENDRES_OK;
   for (int k = 0; k < NODES; k++) fastest = fmax(fastest, fabs(a->centre[k]));
-  for (int k = 0; k < NODES; k++) a->below[k] = a->above[k] = annulus_thin * fastest;
-  for (int side = 0; side < 2 && status == PENDRES_OK; side++) {
-    for (int k = 0; k < NODES; k++) off[k] = side == 0 ? -a->below[k] : a->above[k];
-    status = comes_in(ctx, c, a, off, &in[side]);
-  }
+  a->below = a->above = annulus_thin * fastest;
+  pendres_status status = comes_in(ctx, c, a, -a->below, &in[0]);
+  if (status == PENDRES_OK) status = comes_in(ctx, c, a, a->above, &in[1]);
   *found = in[0] && in[1];
   if (!*found || status != PENDRES_OK) return status;
-  status = widen(ctx, c, a, a->above, 1.0, annulus_far * fastest);
-  if (status == PENDRES_OK) status = widen(ctx, c, a, a->below, -1.0, annulus_far * fastest);
+  status = widen(ctx, c, a, &a->above, 1.0, annulus_far * fastest);
+  if (status == PENDRES_OK) status = widen(ctx, c, a, &a->below, -1.0, annulus_far * fastest);
   return status;
 }
 
@@ -263,6 +255,7 @@ static pendres_status average(pendres_context *ctx, const pendres_attractor_set 
   if (status == PENDRES_OK)
     status = pendres_steps_choose(ctx, &c->pendulum, speed, pendres_accuracy_of_means(ctx),
                                   &lane[0].steps);
+  if (status == PENDRES_TOLERANCE_UNREACHABLE) status = PENDRES_OK; /* the error says so */
   if (status != PENDRES_OK) return status;
   lane[1] = lane[0];
   lane[1].steps = (int)ceil(annulus_finer * lane[0].steps);

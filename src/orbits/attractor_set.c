@@ -37,6 +37,15 @@ const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attr
   return NULL;
 }
 
+const pendres_annulus *pendres_attractor_set_annulus(const pendres_attractor_set *c, double y,
+                                                     double w)
+{
+  double slope;
+  for (size_t k = 0; k < c->annuli; k++)
+    if (pendres_annulus_room(c->annulus[k], y, w, &slope) > 0.0) return c->annulus[k];
+  return NULL;
+}
+
 int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_trapping_ellipse *t,
                                  const pendres_strobe_lane *lane, long *well)
 {

@@ -129,7 +129,7 @@ pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_att
 /*
  * The physical order of attractors: order[place] = number. Orbits come first, in the order of their
  * amplitudes and then of their Poincaré points; chaotic attractors follow in the order of their
- * means. A difference that rounding alone can make does not decide: attractors whose amplitudes are
+ * means, then rotations that do not close, in that of their drifts. A difference that rounding alone can make does not decide: attractors whose amplitudes are
  * that close are compared by the next number. The order thus does not depend on that of discovery.
  * Nonzero if out of memory.
  */
@@ -153,6 +153,10 @@ void pendres_attractor_set_compare_images(pendres_attractor_set *c);
 /* The ellipse that a state is in; NULL if in none. */
 const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
                                                               double y, double w);
+
+/* The annulus that a state is in; NULL if in none. */
+const pendres_annulus *pendres_attractor_set_annulus(const pendres_attractor_set *c, double y,
+                                                     double w);
 
 /* The number of the attractor, and the well, that a lane in one of the set's ellipses is on. */
 int pendres_attractor_set_locate(const pendres_attractor_set *c, const pendres_trapping_ellipse *t,

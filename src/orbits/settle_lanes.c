@@ -168,20 +168,17 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
 static int rotates(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
                    const pendres_strobe_lane *lane)
 {
-  for (size_t k = 0; k < c->annuli; k++) {
-    double slope;
-    const double room = pendres_annulus_room(c->annulus[k], lane->y, lane->w, &slope);
-    if (!(room > 0.0)) continue;
-    const int attractor = c->annulus[k]->attractor;
-    const double off = fabs(slope) * sqrt(lane->off.yy) + sqrt(lane->off.ww);
-    const double before = pendres_settle_error_ratio(lane->worst);
-    l->outcome[i] = (pendres_outcome){.label = c->attractors[attractor].label,
-                                      .attractor = attractor,
-                                      .settling_periods = lane->period};
-    judge(l, i, lane->period > 0 && lane->added == 0.0 ? NAN : fmax(before, surely * off / room));
-    return 1;
-  }
-  return 0;
+  const pendres_annulus *in = pendres_attractor_set_annulus(c, lane->y, lane->w);
+  if (in == NULL) return 0;
+  double slope;
+  const double room = pendres_annulus_room(in, lane->y, lane->w, &slope);
+  const double off = fabs(slope) * sqrt(lane->off.yy) + sqrt(lane->off.ww);
+  const double before = pendres_settle_error_ratio(lane->worst);
+  l->outcome[i] = (pendres_outcome){.label = c->attractors[in->attractor].label,
+                                    .attractor = in->attractor,
+                                    .settling_periods = lane->period};
+  judge(l, i, lane->period > 0 && lane->added == 0.0 ? NAN : fmax(before, surely * off / room));
+  return 1;
 }
 
 /* ---- escapes ---- */

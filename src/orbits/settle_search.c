@@ -96,11 +96,8 @@ static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres
 {
   for (size_t k = watched; k < c->covers; k++)
     if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return 0;
-  for (size_t k = 0; k < c->annuli; k++) {
-    double slope;
-    if (pendres_annulus_room(c->annulus[k], lane->y, lane->w, &slope) > 0.0) return 0;
-  }
-  return pendres_attractor_set_ellipse(c, lane->y, lane->w) == NULL;
+  return pendres_attractor_set_ellipse(c, lane->y, lane->w) == NULL &&
+         pendres_attractor_set_annulus(c, lane->y, lane->w) == NULL;
 }
 
 /* Look for rotations among the lost lanes, set by set. */
