@@ -1,9 +1,10 @@
 /* csv.c -- results as text; see run.h. */
-#define _POSIX_C_SOURCE 200809L /* fsync, open_memstream */
+#define _POSIX_C_SOURCE 200809L /* fsync */
 #include "run.h"
 #include "system/bytes.h"
 #include "system/file.h"
 #include "system/grow.h"
+#include "system/text.h"
 
 #include <errno.h>
 #include <float.h>
@@ -363,17 +364,15 @@ static int open_part(const char *part, char *why)
    may end the program. NULL: no memory, or t->status says why. */
 static char *table_text(tables *t, const column *first, size_t *size)
 {
-  char *text = NULL;
+  text made;
   column **wanted = calloc(t->count + MOST_AXES, sizeof(column *));
-  FILE *out = wanted != NULL ? open_memstream(&text, size) : NULL;
-  if (out != NULL) put_table(t, first, wanted, out);
-  const int bad = out == NULL || ferror(out);
-  if ((out != NULL && fclose(out) != 0) || bad || t->status != PENDRES_OK) {
-    free(text);
-    text = NULL;
-  }
+  if (text_open(&made) && wanted != NULL) put_table(t, first, wanted, made.stream);
+  const int whole = wanted != NULL && t->status == PENDRES_OK && text_whole(&made);
   free(wanted);
-  return text;
+  *size = made.size;
+  if (whole) return text_close(&made);
+  text_drop(&made);
+  return NULL;
 }
 
 /* The text into the part file of `path`, and that to its name; 0, or `why` it cannot be. */

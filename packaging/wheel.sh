@@ -42,8 +42,9 @@ make_sdist()
   cp -r python/pendres python/*.py python/*.toml python/*.cfg python/*.md python/*.in "$work/stage"
   cp LICENSE "$work/stage/licences/LICENSE.pendres"
   cp -r Makefile pendres.map drivers include input man plots src validation "$work/stage/library"
-  mkdir "$work/stage/library/docs"
+  mkdir "$work/stage/library/docs" "$work/stage/library/tests"
   cp docs/*.md "$work/stage/library/docs"
+  cp -r tests/oracle "$work/stage/library/tests" # of which the program is made, too
   (cd "$work/stage" && quiet sdist "$python" -c \
     "from setuptools import build_meta; build_meta.build_sdist('$dist')")
 }

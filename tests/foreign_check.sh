@@ -137,15 +137,15 @@ rm d.h5
 
 # ---- what a run has left, and what it has not -------------------------------------------------
 
-# Any file of HDF5, and the whole results of another deck.
-run -q d.nml ensemble.members=5
+# Any file of HDF5, and the whole results of another deck, whose title has the mark of a part.
+run -q d.nml ensemble.members=5 "scene.title=A (part)"
 mv d.h5 d.h5.part
 cp d.h5.part kept.h5
 refused d.h5.part 'was not left by a run that was killed' d.nml
 refused d.h5.part 'was not left by a run that was killed' --resume d.nml
 cmp -s d.h5.part kept.h5 || fail "whole results in the place of a part are changed"
 # Those of this deck, as after a kill just before they are renamed, are at hand.
-run -q d.nml ensemble.members=5
+run -q d.nml ensemble.members=5 "scene.title=A (part)"
 [ $code -eq 0 ] || fail "whole results of this deck in the place of a part: exit code $code"
 rm -f d.h5*
 # A killed run leaves its part, which the next one takes over, and a killed shard leaves none.

@@ -94,6 +94,16 @@ static void test_absent(void **state)
   check_says(out, "     0\n"); /* the voltage at rest has no error */
   assert_null(strstr(out, "nan"));
   assert_null(strstr(out, " \n"));
+  /* All rows are printed of 20, and of 21 every second. */
+  check_code(RUN("-q", "iv.nml", "sweep.torque_range='0 A','12 uA',20"), DONE);
+  check_says(out, "\n0.6315789474 ");
+  check_says(out, "\n11.36842105 ");
+  assert_null(strstr(out, "rows; the file has all"));
+  check_code(RUN("-q", "iv.nml", "sweep.torque_range='0 A','12 uA',21"), DONE);
+  check_says(out, "\n10.8 ");
+  check_says(out, "\n12 ");
+  assert_null(strstr(out, "\n11.4 "));
+  check_says(out, "(11 of 21 rows; the file has all)\n");
 }
 
 /* Its cusp, known to a tenth of a pN. */

@@ -173,7 +173,8 @@ static int read_apart(const void *arg)
   else if (t.n > FIT_MOST_BYTES / CELL / (t.columns + PENDRES_STORE_RANK))
     (void)scene_fail(run, PENDRES_INVALID_ARGUMENT, "it has more data than a fit takes");
   if (scene_going(run)) write_table(&t, w->out);
-  if (fflush(w->out) != 0) (void)scene_fail(run, PENDRES_IO, "%s", strerror(errno));
+  if (fflush(w->out) != 0 || ferror(w->out))
+    (void)scene_fail(run, PENDRES_IO, "%s", strerror(errno));
   if (scene_going(run)) return PENDRES_OK;
   rewind(w->out);
   const int bad = ftruncate(fileno(w->out), 0) != 0 || fputs(run->message, w->out) < 0;

@@ -44,16 +44,21 @@ typedef struct shown {
   char units[DECK_UNITS];
 } shown;
 
-/* How many rows of so many are printed, and the place of the i-th of them. */
+/* How far apart the rows of so many are that are printed, how many these are, and the place of the
+   i-th of them. */
+static size_t step_of(size_t all)
+{
+  return all <= MOST_PRINTED ? 1 : (all - 2) / (MOST_PRINTED - 1) + 1;
+}
+
 static size_t printed(size_t all)
 {
-  const size_t step = (all - 1) / (MOST_PRINTED - 1) + 1;
-  return all <= MOST_PRINTED ? all : (all - 2) / step + 2;
+  return all <= MOST_PRINTED ? all : (all - 2) / step_of(all) + 2;
 }
 
 static size_t place(size_t all, size_t i)
 {
-  return i + 1 == printed(all) ? all - 1 : i * ((all - 1) / (MOST_PRINTED - 1) + 1);
+  return i + 1 == printed(all) ? all - 1 : i * step_of(all);
 }
 
 /* A line of `all` numbers of a result, which has `lines` of them. */
@@ -249,13 +254,14 @@ static void tell_columns(scene_run *run, const shown *along, const shown *column
   }
 }
 
-/* What is held fixed is told without a dimension, and zeros need no column. */
+/* What is held fixed is told without a dimension, and zeros need no column, nor what is nowhere. */
 static int varies(const shown *s)
 {
   int varied = 0;
   for (size_t i = 0; i < s->n; i++) {
-    const double error = s->has_error ? s->error[i] + s->error[0] : 0.0;
-    varied |= fabs(s->value[i] - s->value[0]) > error || (error > 0.0 && fabs(s->value[i]) > error);
+    const double error = s->has_error ? fmax(s->error[i] + s->error[0], 0.0) : 0.0;
+    varied |= isnan(s->value[i]) != isnan(s->value[0]) ||
+              fabs(s->value[i] - s->value[0]) > error || (error > 0.0 && fabs(s->value[i]) > error);
   }
   return varied;
 }

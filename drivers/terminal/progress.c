@@ -153,6 +153,7 @@ void progress_doing(progress *p, const char *what)
   if (p == NULL || p->total > 0) return;
   clear(p);
   snprintf(p->doing, sizeof p->doing, "%s", what);
+  safe_text_clean(p->doing);
   p->start = p->spoken = clock_wall();
   p->drawn = 0.0;
 }

@@ -92,16 +92,18 @@ static pendres_status close_again(pendres_store_file *file, pendres_status statu
   return status;
 }
 
-/* Where the mark of a part stands in the open file; -1: nowhere. HDF5 writes it with the first
-   texts, not compressed and without a checksum of theirs. */
+/* Where the mark of a part stands in the open file; -1: nowhere, or behind the seal, in a title.
+   HDF5 writes it with the first texts, not compressed and without a checksum of theirs. */
 static off_t find_mark(int fd)
 {
   char begin[8192];
   const size_t size = sizeof PENDRES_STORE_MARK - 1;
   const ssize_t n = pread(fd, begin, sizeof begin, 0);
 
-  for (ssize_t at = 0; at + (ssize_t)size <= n; at++)
+  for (ssize_t at = 0; at + (ssize_t)size <= n; at++) {
     if (!memcmp(begin + at, PENDRES_STORE_MARK, size)) return at;
+    if (!memcmp(begin + at, PENDRES_STORE_SEAL, size)) break;
+  }
   return -1;
 }
 
