@@ -203,8 +203,7 @@ pendres_status pendres_switching_conclude(const pendres_switching_survey *survey
                                           double temperature, const pendres_switching_tally *all,
                                           pendres_switching_rates *rates)
 {
-  const pendres_switching_rate none = {NAN, NAN, NAN, NAN, NAN, NAN,
-                                       NAN, NAN, NAN, NAN, NAN};
+  const pendres_switching_rate none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
   pendres_status status = PENDRES_OK;
   if (survey == NULL || rates == NULL || refuse(survey) != NULL) return PENDRES_INVALID_ARGUMENT;
   const double level = survey->level > 0.0 ? survey->level : pendres_noise_level;

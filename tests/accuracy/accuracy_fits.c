@@ -295,11 +295,11 @@ static void judge(accuracy *a, const char *family,
   printf("\nfits: %s\n", how);
   if (sum.values >= 400 && !(fabs(mean) < farthest_mean && fabs(width - 1.0) < farthest_width))
     accuracy_complain(a, "standard errors are not what they say", how);
-  accuracy_fit_errors(a);
 }
 
 void accuracy_fits(accuracy *a)
 {
   judge(a, "bent sweeps", compute_bent);
   judge(a, "weak sweeps", compute_weak);
+  accuracy_fit_errors(a);
 }

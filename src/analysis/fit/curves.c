@@ -147,9 +147,9 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
   const double wide = m->axis == PENDRES_DRIVE_FREQUENCY ? middle.damping : 0.0;
   const double across = fmax(wide, (r->high - r->low) / fit_steps_across) / scale;
   const double spacing = fmin(0.1, fmax(across, 1e-5));
-  /* What softens bends away before it is as large. */
-  while (pendres_fit_stiffness(m, v, highest) < 0.5 * pendres_fit_stiffness(m, v, 0.0))
-    highest *= 0.5;
+  /* What softens bends away before it is as large; a barrier at the origin never stiffens. */
+  const double half = 0.5 * pendres_fit_stiffness(m, v, 0.0);
+  while (half > 0.0 && pendres_fit_stiffness(m, v, highest) < half) highest *= 0.5;
   o.symmetric = keeps_symmetry(m, &p);
   o.mean_angle = 0.0;
   c->kind = pendres_followed_of(&o, PENDRES_CONDITION_NONE, &m->axis, spacing, u);

@@ -360,8 +360,7 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
   size_t open = 0;
   for (size_t i = 0; i < c->model->unknowns; i++) open += !c->model->unknown[i].fixed;
   fit_problem p = {.m = m, .errors_known = c->errors_known,
-                   .terms = {.jump_error = c->options.jump_error,
-                             .huber = c->options.huber}};
+                   .terms = {.jump_error = c->options.jump_error, .huber = c->options.huber}};
   fit_result best = {.computed = 0}, now = {.computed = 0};
   double *error = pendres_room_take(room, m->data, sizeof *error);
   double *work = pendres_room_take(room, m->data, sizeof *work);
@@ -389,7 +388,9 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
     status = pendres_fit_profile(&p, c->options.iterations, &best, &now);
   if (best.impossible) best.converged *= 2;
   if (!p.known) forget_curves(&p);
-  if (status == PENDRES_OK && !pendres_fit_evaluate(&p, best.v)) status = p.status;
+  if (status == PENDRES_OK && !pendres_fit_evaluate(&p, best.v))
+    status = p.status != PENDRES_OK ? p.status : pendres_context_fail(
+      ctx, PENDRES_NOT_CONVERGED, "the model could not be computed anew at the best values");
   if (status != PENDRES_OK) return status;
   status = pendres_fit_result(c, &p, &best);
   if (status == PENDRES_NOT_CONVERGED)

@@ -102,7 +102,10 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
     note(fit, "chi-square is %.4g with %g degrees of freedom, which chance gives with a "
          "probability of %.1g: the model, the errors of the data or the minimum are wrong%s",
          s->chi_square, s->degrees_of_freedom, s->probability,
-         s->converged == 2 ? "; errors are those by which it would be what is expected" : "");
+         s->converged == 2 && !(c->options.huber > 0.0)
+           ? "; errors are those by which it would be what is expected" : "");
+  if (s->converged == 2 && c->options.huber > 0.0)
+    note(fit, "more than half of the data are outliers: it is the fit that is off");
   const double correlated = correlation_of(p);
   if (correlated > fit_correlated)
     note(fit, "residuals of neighbours are correlated (%.1f standard deviations): the model does "
