@@ -51,6 +51,13 @@ static double node(int k)
   return two_pi * ((double)k / NODES - 0.5);
 }
 
+/* Periods in which what lies beside the curve fades. */
+static long fading(const pendres_attractor_set *c)
+{
+  const double contracts = c->pendulum.damping * two_pi / c->pendulum.drive_frequency;
+  return (long)fmin(ceil(annulus_faded / contracts) + 1.0, ANNULUS_LONGEST);
+}
+
 /* ---- the curve ---- */
 
 typedef struct place {
@@ -112,8 +119,7 @@ static pendres_status find_curve(pendres_context *ctx, const pendres_attractor_s
                                  const pendres_strobe_lane *suspect, pendres_annulus *a,
                                  int *found)
 {
-  const double contracts = c->pendulum.damping * two_pi / c->pendulum.drive_frequency;
-  const long settled = (long)fmin(ceil(annulus_faded / contracts) + 1.0, ANNULUS_LONGEST);
+  const long settled = fading(c);
   const int way = suspect->turns > 0 ? 1 : -1;
   size_t count = 0;
   pendres_room room = pendres_room_open(ctx, "a rotation");
@@ -170,7 +176,8 @@ static pendres_status comes_in(pendres_context *ctx, const pendres_attractor_set
   *in = 0;
   for (int k = 0; k < NODES && status == PENDRES_OK; k++)
     status = load(ctx, c, node(k), a->centre[k] + off, &lanes[k]);
-  for (long period = 1; period <= ANNULUS_RETURNS && !*in && status == PENDRES_OK; period *= 2) {
+  const long most = 2 * fading(c) < ANNULUS_RETURNS ? 2 * fading(c) : ANNULUS_RETURNS;
+  for (long period = 1; period <= most && !*in && status == PENDRES_OK; period *= 2) {
     status = advance(ctx, NODES, lanes, period);
     if (status == PENDRES_OK) *in = inside(a, lanes);
   }
@@ -193,20 +200,30 @@ static pendres_status widen(pendres_context *ctx, const pendres_attractor_set *c
   return status;
 }
 
-static pendres_status find_edges(pendres_context *ctx, const pendres_attractor_set *c,
-                                 pendres_annulus *a, int *found)
+static double fastest_of(const pendres_annulus *a)
 {
   double fastest = 0.0;
-  int in[2] = {0, 0};
   for (int k = 0; k < NODES; k++) fastest = fmax(fastest, fabs(a->centre[k]));
-  a->below = a->above = annulus_thin * fastest;
+  return fastest;
+}
+
+static pendres_status find_thin(pendres_context *ctx, const pendres_attractor_set *c,
+                                pendres_annulus *a, int *found)
+{
+  int in[2] = {0, 0};
+  a->below = a->above = annulus_thin * fastest_of(a);
   pendres_status status = comes_in(ctx, c, a, -a->below, &in[0]);
   if (status == PENDRES_OK) status = comes_in(ctx, c, a, a->above, &in[1]);
   *found = in[0] && in[1];
-  if (!*found || status != PENDRES_OK) return status;
-  status = widen(ctx, c, a, &a->above, 1.0, annulus_far * fastest);
-  if (status == PENDRES_OK) status = widen(ctx, c, a, &a->below, -1.0, annulus_far * fastest);
   return status;
+}
+
+static pendres_status find_wide(pendres_context *ctx, const pendres_attractor_set *c,
+                                pendres_annulus *a)
+{
+  const double far = annulus_far * fastest_of(a);
+  const pendres_status status = widen(ctx, c, a, &a->above, 1.0, far);
+  return status == PENDRES_OK ? widen(ctx, c, a, &a->below, -1.0, far) : status;
 }
 
 /* ---- the mean ---- */
@@ -323,8 +340,9 @@ static pendres_status look(pendres_context *ctx, pendres_attractor_set *c,
   if (a == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a rotation");
   pendres_status status = find_curve(ctx, c, suspect, a, found);
-  if (status == PENDRES_OK && *found) status = find_edges(ctx, c, a, found);
+  if (status == PENDRES_OK && *found) status = find_thin(ctx, c, a, found);
   if (status == PENDRES_OK && *found) status = find_mean(ctx, c, a, &of, found);
+  if (status == PENDRES_OK && *found) status = find_wide(ctx, c, a);
   if (status == PENDRES_OK && *found) return append(ctx, c, &of, a);
   free(a);
   return status;

@@ -346,11 +346,11 @@ static const double free_near = 1.0;
 /* ---- rotations without a lock ---- */
 
 enum {
-  ANNULUS_TURNS = 8,       /* of a pendulum that may be on one */
+  ANNULUS_TURNS = 2,       /* of a pendulum that may be on one */
   ANNULUS_LONGEST = 2000,  /* periods in which pendulums come to the curve, at most */
   ANNULUS_STROBES = 8,     /* from then on, that are its points */
   ANNULUS_POINTS = 64,     /* at least */
-  ANNULUS_RETURNS = 256,   /* periods in which an edge comes in, at most; a power of 2 */
+  ANNULUS_RETURNS = 256,   /* periods in which an edge comes in, at most */
   ANNULUS_MEAN = 2048,     /* periods of the first mean, ... */
   ANNULUS_LONGEST_MEAN = 32768 /* ... and of the last */
 };

@@ -33,6 +33,9 @@ static const char *refuses_value(const pendres_fit_model *m, const pendres_fit_d
                        : one->error > 0.0              ? -fit_beyond_errors * one->error
                                                        : -fit_beyond_noise * largest;
   if (!(one->observed < least && one->observed < 0.0)) return NULL;
+  if (adds_offset(m, one->observable))
+    return "readings lie further below 0 than any lies above: decibels do, which become lengths by "
+           "10^(dB/20); where an offset does it, add a number to all of them first";
   return one->observable == PENDRES_FIT_LOOP_AREA
            ? "a loop area is the work of the drive, and this one is negative: give the magnitude"
            : "amplitudes and rms are not negative, and this one is, beyond errors: make lengths of "
