@@ -134,8 +134,17 @@ static const scene_column of_attractors[] = {
   {SCENE_AS("attractor_v", row, of.orbit.v, "velocity at drive phase 0", "1")},
   {SCENE_AS("attractor_lyapunov", row, of.lyapunov, "largest Lyapunov exponent per unit time",
             "1")},
+};
+
+static const scene_column of_drift[] = {
+  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of chaos", "1")},
+};
+static const scene_column of_drift_open[] = {
   {SCENE_AS("attractor_drift", row, of.drift,
             "mean whole turns a drive period, of what does not close", "1")},
+};
+
+static const scene_column of_chaos[] = {
   {SCENE_TYPED(SCENE_PLAIN, "attractor_watched_periods", row, of.watched_periods,
                "drive periods that chaos was watched for without ending, all walkers together")},
   {SCENE_TYPED(SCENE_PLAIN, "attractor_escape_rate_bound", row, of.escape_rate_bound,
@@ -185,6 +194,9 @@ static void write_attractors(basins *b, size_t n, const row *rows)
   label.names = scene_settled_names(&b->pendulum);
   scene_columns_write(b->run, &table, 1, &label);
   SCENE_WRITE(b->run, &table, of_attractors);
+  if (pendres_pendulum_rotates(&b->pendulum)) SCENE_WRITE(b->run, &table, of_drift_open);
+  else SCENE_WRITE(b->run, &table, of_drift);
+  SCENE_WRITE(b->run, &table, of_chaos);
   if (pendres_pendulum_rotates(&b->pendulum)) SCENE_WRITE(b->run, &table, of_rotations);
   scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
   SCENE_WRITE(b->run, &table, of_wells);

@@ -74,7 +74,9 @@ static void put_scalars(scene_run *run, const orbit_work *w)
       waited, 0.0, ALWAYS },
     { SCALAR("lyapunov_exponent", "largest Lyapunov exponent per unit time", "1"), f->of.lyapunov,
       f->of.lyapunov_error, ALWAYS },
-    { SCALAR("drift", "mean whole turns a drive period, of what does not close", "1"), f->of.drift,
+    { SCALAR("drift", pendres_pendulum_rotates(&w->pendulum)
+                         ? "mean whole turns a drive period, of what does not close"
+                         : "mean whole turns a drive period, of chaos", "1"), f->of.drift,
       f->of.drift_error, OPEN },
     { SCALAR("watched_periods",
              "drive periods that chaos was watched for without ending, all walkers", "1"),

@@ -129,9 +129,9 @@ pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_att
 /*
  * The physical order of attractors: order[place] = number. Orbits come first, in the order of their
  * amplitudes and then of their Poincaré points; chaotic attractors follow in the order of their
- * means, then rotations that do not close, in that of their drifts. A difference that rounding alone can make does not decide: attractors whose amplitudes are
- * that close are compared by the next number. The order thus does not depend on that of discovery.
- * Nonzero if out of memory.
+ * means, then rotations that do not close, in that of their drifts. A difference that rounding
+ * alone can make does not decide: attractors whose amplitudes are that close are compared by the
+ * next number. The order thus does not depend on that of discovery. Nonzero if out of memory.
  */
 int pendres_attractor_set_sort(const pendres_attractor_set *c, int *order);
 

@@ -164,7 +164,7 @@ static void append(fit_model *m, const sorted *s, size_t k)
   if (track)
     m->track[m->tracks++] = (fit_track){.curve = m->curves - 1, .direction = s->of->direction,
                                         .first = m->stations};
-  const int station = track || m->station[m->stations - 1].axis != axis;
+  const int station = !is_place && (track || m->station[m->stations - 1].axis != axis);
   if (is_place) {
     m->mark[m->marks++] = (fit_mark){.track = m->tracks - 1, .datum = s->index};
     m->curve[m->curves - 1].marked = 1;
