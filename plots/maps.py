@@ -22,7 +22,7 @@ def attractor_styles(h):
     labels, names, colours = h["attractor_label"], [], []
     for i, label in enumerate(labels):
         name = NAMED[label]
-        if name == "running":
+        if name == "running" and h["attractor_period"][i] > 0:
             name += f" {h['attractor_winding'][i]:+d}/{h['attractor_period'][i]}"
         elif np.count_nonzero(labels == label) > 1:
             name += f" {i}"  # its number in the file and in the table on the terminal
@@ -34,14 +34,14 @@ def attractor_styles(h):
 
 
 def label_plane(fig, ax, index, extent, names, colours):
-    """Numbers of attractors as coloured areas, with a bar of their names; -1 is unresolved, -2
-    escapes."""
-    first = 0
-    if np.any(index == -1):
-        names, colours, first = ["unresolved"] + names, [UNRESOLVED] + colours, -1
-    if np.any(index == -2):
-        names, colours, first = ["escape"] + names, [ESCAPE] + colours, first - 1
-        index = np.where(index == -2, first, index)
+    """Numbers of attractors as coloured areas, with a bar of their names; negative ones are on
+    none."""
+    first, ends = 0, index
+    for end, name, colour in ((-1, "unresolved", UNRESOLVED), (-2, "escape", ESCAPE),
+                              (-3, "unstable", "black")):
+        if np.any(ends == end):
+            names, colours, first = [name] + names, [colour] + colours, first - 1
+            index = np.where(ends == end, first, index)
     n = max(len(names), 1)
     mesh = ax.imshow(index.T, origin="lower", aspect="auto", interpolation="nearest",
                      extent=extent, cmap=ListedColormap(colours or [UNRESOLVED]),
@@ -55,8 +55,10 @@ def write_wells(ax, h, thin):
     """The number of the well in the middle of each large area of one well, as in print."""
     well, index = h["well"][:: thin[0], :: thin[1]], h["attractor_index"][:: thin[0], :: thin[1]]
     x, v = h["x"][:: thin[0]] / unit_of_x(h)[0], h["v"][:: thin[1]] * v_axis(h)[0]
-    for number in np.unique(well[index >= 0]):
-        here = (well == number) & (index >= 0)
+    stays = (h["attractor_period"] > 0) & (h["attractor_winding"] == 0)  # what rotates is in none
+    inside = (index >= 0) & np.append(stays, False)[np.maximum(index, -1)]
+    for number in np.unique(well[inside]):
+        here = (well == number) & inside
         if np.count_nonzero(here) < 0.01 * here.size:
             continue
         # The longest run along x, in the row where it is longest, is inside of the area.

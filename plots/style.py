@@ -18,7 +18,7 @@ MORE = ["#009E73", "#F0E442", "#CC79A7", "#56B4E9", "#E69F00", "#332288", "#1177
 ESCAPE = "#FFFFFF"
 FREE, EXACT = "0.45", "black"
 NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved", "escape",
-         "quasi_periodic"]
+         "quasi_periodic", "unstable"]
 
 plt.rcParams.update({
     "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,
