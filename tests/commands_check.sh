@@ -14,8 +14,9 @@ shared=$(cd "$BUILD" && pwd)/libpendres.so
 
 # A tree like this one, and a place for the files that are written. What is installed by folders is
 # copied, the rest linked: folders and files by name, and no results that somebody keeps at the top,
-# since a run writes to where a link leads.
-cp -r examples input plots docs python "$scratch"
+# since a run writes to where a link leads. With their times: a page that is newer than what was made
+# of it has the program linked anew, under the feet of other checks.
+cp -rp examples input plots docs python "$scratch"
 for entry in .ci */ Makefile Doxyfile LICENSE CITATION.cff ./*.md ./*.map ./*.in; do
   entry=${entry%/}
   [ -e "$scratch/$entry" ] || ln -s "$PWD/$entry" "$scratch/$entry"
