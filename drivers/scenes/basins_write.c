@@ -136,13 +136,8 @@ static const scene_column of_attractors[] = {
             "1")},
 };
 
-static const scene_column of_drift[] = {
-  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of chaos", "1")},
-};
-static const scene_column of_drift_open[] = {
-  {SCENE_AS("attractor_drift", row, of.drift,
-            "mean whole turns a drive period, of what does not close", "1")},
-};
+static const scene_column of_drift =
+  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of chaos", "1")};
 
 static const scene_column of_chaos[] = {
   {SCENE_TYPED(SCENE_PLAIN, "attractor_watched_periods", row, of.watched_periods,
@@ -190,14 +185,15 @@ static void write_attractors(basins *b, size_t n, const row *rows)
   const scene_table orbits = {.dimensions = {"attractor"}, .prefix = "attractor",
                               SCENE_ROWS(rows, n)};
   scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
-  scene_column label = of_label;
+  const int rotates = pendres_pendulum_rotates(&b->pendulum);
+  scene_column label = of_label, drift = of_drift;
   label.names = scene_settled_names(&b->pendulum);
   scene_columns_write(b->run, &table, 1, &label);
   SCENE_WRITE(b->run, &table, of_attractors);
-  if (pendres_pendulum_rotates(&b->pendulum)) SCENE_WRITE(b->run, &table, of_drift_open);
-  else SCENE_WRITE(b->run, &table, of_drift);
+  if (rotates) drift.long_name = "mean whole turns a drive period, of what does not close";
+  scene_columns_write(b->run, &table, 1, &drift);
   SCENE_WRITE(b->run, &table, of_chaos);
-  if (pendres_pendulum_rotates(&b->pendulum)) SCENE_WRITE(b->run, &table, of_rotations);
+  if (rotates) SCENE_WRITE(b->run, &table, of_rotations);
   scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
   SCENE_WRITE(b->run, &table, of_wells);
   basins_write_wells(b);

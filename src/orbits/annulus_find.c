@@ -9,12 +9,12 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/coordinates.h"
 #include "engine/room.h"
 #include "engine/steps.h"
 #include "model/model.h"
 #include "orbits/mean.h"
 #include "orbits/numbers.h"
-#include "engine/coordinates.h"
 #include "orbits/settle_lanes.h"
 
 #include <pendres/rotation.h>
