@@ -386,6 +386,45 @@ static void print_singles(const ensemble *reference, const int steps[TARGETS])
     }
 }
 
+/* Processor seconds of many periods from the bottom with this speed and without a drive, the best
+   of three. */
+static double free_seconds(double damping, double v0)
+{
+  enum { LANES = 64, RUNS = 3, FREE_PERIODS = 1000 };
+  const pendres_options options = {.tolerance = 1e-8, .block_lanes = LANES};
+  pendres_context *ctx = NULL;
+  pendres_pendulum p[LANES];
+  double x[LANES], v[LANES], best = INFINITY;
+  need_ok(pendres_context_create(&options, &ctx), "pendres_context_create");
+  for (int k = 0; k < RUNS; k++) {
+    for (int i = 0; i < LANES; i++) {
+      p[i] = (pendres_pendulum){.damping = damping, .drive_frequency = 1.0};
+      x[i] = half_pi;
+      v[i] = v0;
+    }
+    const clock_t start = clock();
+    need_ok(pendres_strobe_advance(ctx, LANES, p, x, v, FREE_PERIODS, NULL),
+            "pendres_strobe_advance");
+    best = fmin(best, (double)(clock() - start) / CLOCKS_PER_SEC);
+  }
+  pendres_context_free(ctx);
+  return best;
+}
+
+/*
+ * Denormal numbers take processors some 150 cycles an operation. What has come to rest must not
+ * pay for that; what really swings that little pays up to a hundred times, as strobe.h says.
+ */
+static void print_denormals(void)
+{
+  const double rest = free_seconds(0.2, 1e-310) / free_seconds(0.2, 0.1);
+  const double swing = free_seconds(0.0, 1e-310) / free_seconds(0.0, 0.1);
+  const char *kernels = pendres_kernels_select()->name;
+  printf("\nDenormal numbers: at rest %.2f times, swinging %.0f times as long\n", rest, swing);
+  bench_figure(rest, '<', bench_ratio, "flow.denormals.rest.%s", kernels);
+  bench_figure(swing, '<', 2.0 * bench_ratio, "flow.denormals.swing.%s", kernels);
+}
+
 int main(void)
 {
   static ensemble reference;
@@ -397,5 +436,6 @@ int main(void)
   make_reference(&reference);
   print_tables(&reference, steps);
   print_singles(&reference, steps);
+  print_denormals();
   return 0;
 }
