@@ -29,14 +29,17 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   engine/accuracy.h engine/block.h engine/chain.h engine/charts.h engine/context_internal.h engine/door.h engine/coordinates.h engine/kernels_force.h
   engine/rank.h engine/room.h
   engine/steps.h engine/strobe_run.h engine/tables.h engine/team.h
-  orbits/attractor_internal.h orbits/attractor_set.h orbits/escape.h orbits/free_force.h orbits/growth.h orbits/linear.h orbits/label.h orbits/numbers.h orbits/orbit_error.h
+  orbits/free_force.h orbits/label.h orbits/linear.h orbits/mean.h orbits/numbers.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h orbits/orbit_same.h
-  orbits/orbit_reading.h orbits/orbit_series.h orbits/orbit_span.h
-  orbits/settle.h orbits/settle_lanes.h orbits/mean.h
+  orbits/orbit_reading.h orbits/orbit_series.h orbits/orbit_span.h orbits/orbit_table.h orbits/strobe_noise.h
+  settling/attractor_internal.h settling/attractor_set.h settling/growth.h settling/numbers.h
+  settling/settle.h settling/settle_lanes.h
+  settling/trapping/annulus.h settling/trapping/escape.h settling/trapping/trapping_ellipse.h
+  settling/exponents/lyapunov_move.h
   noise/langevin_internal.h noise/noise_common.h continuation/equations.h continuation/parameter.h
   continuation/part.h continuation/follow.h continuation/numbers.h
   continuation/sets.h continuation/units.h
-  analysis/resonance/response_parts.h analysis/chaos/lyapunov_move.h'
+  analysis/resonance/response_parts.h'
 drivers_doors='system/apart.h system/bytes.h system/clock.h system/ending.h system/file.h system/grow.h system/text.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h scenes/scene.h scenes/outer.h
   scenes/columns.h scenes/failed.h scenes/points.h oracle/reference.h'

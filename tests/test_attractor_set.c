@@ -8,7 +8,7 @@
 #include <pendres/pendres.h>
 
 #include "engine/coordinates.h"
-#include "orbits/attractor_set.h"
+#include "settling/attractor_set.h"
 #include "orbits/orbit_same.h"
 
 enum { ALL = 6 };

@@ -9,8 +9,8 @@
 
 #include <pendres/pendres.h>
 
-#include "orbits/chaos.h"
-#include "orbits/recurrence.h"
+#include "settling/chaos.h"
+#include "settling/recurrence.h"
 #include "states_fixture.h"
 
 enum { SIDE = 8, STATES = SIDE * SIDE };

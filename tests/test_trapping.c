@@ -11,9 +11,9 @@
 #include <pendres/pendres.h>
 #include "oracle/reference.h"
 
-#include "orbits/attractor_set.h"
+#include "settling/attractor_set.h"
 #include "golden.h"
-#include "orbits/trapping_ring.h"
+#include "settling/trapping/trapping_ring.h"
 
 static int setup(void **state)
 {

@@ -7,7 +7,7 @@
 #include <pendres/pendres.h>
 
 #include "golden.h"
-#include "orbits/trapping_ring.h"
+#include "settling/trapping/trapping_ring.h"
 
 /*
  * Rings of ensembles are run in single precision, which rounds by 1e-6 a period, a hundredth of

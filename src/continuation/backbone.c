@@ -20,7 +20,7 @@
 #include "engine/room.h"
 #include "engine/coordinates.h"
 #include "model/model.h"
-#include "orbits/attractor_set.h"
+#include "orbits/orbit_table.h"
 #include "orbits/free_force.h"
 #include "orbits/numbers.h"
 

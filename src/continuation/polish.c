@@ -12,7 +12,7 @@
 #include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
-#include "orbits/attractor_set.h"
+#include "orbits/orbit_table.h"
 #include "orbits/orbit_measure.h"
 
 /* The share of a branch's way that goes along its parameter, where the state counts as it is, or

@@ -9,7 +9,7 @@
 #include "engine/door.h"
 #include "noise/cores.h"
 #include "noise/noise_common.h"
-#include "orbits/attractor_internal.h"
+#include "settling/attractor_internal.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = PENDRES_NOISE_LANES };
 

@@ -8,7 +8,7 @@
 #include "engine/door.h"
 #include "model/model.h"
 #include "noise/numbers.h"
-#include "orbits/attractor_internal.h"
+#include "settling/attractor_internal.h"
 
 /* A symmetric matrix over (x, v): a covariance, or its inverse. */
 typedef pendres_langevin_covariance matrix;

@@ -10,7 +10,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
-#include "orbits/attractor_internal.h"
+#include "settling/attractor_internal.h"
 #include "model/model.h"
 #include "noise/cores.h"
 #include "noise/noise_common.h"

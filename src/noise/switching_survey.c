@@ -8,7 +8,7 @@
 #include "engine/door.h"
 #include "noise/cores.h"
 #include "noise/noise_common.h"
-#include "orbits/attractor_internal.h"
+#include "settling/attractor_internal.h"
 
 enum {
   WAYS = PENDRES_SWITCHING_WAYS,

@@ -25,4 +25,7 @@ int pendres_orbit_same(const pendres_orbit *a, const pendres_orbit *b);
 /* Whether two orbits are as wide: one orbit, and a pair of mirror images, always are. */
 int pendres_orbit_as_wide(const pendres_orbit *a, const pendres_orbit *b);
 
+/* Whether two orbits of a pendulum with the mirror symmetry are each other's images. */
+int pendres_orbit_are_images(const pendres_orbit *a, const pendres_orbit *b);
+
 #endif

@@ -164,3 +164,22 @@ double *pendres_orbit_row_error(const pendres_orbit_row *row, pendres_orbit *o)
   return row->shown.error == PENDRES_ORBIT_EXACT
            ? NULL : (double *)(void *)((char *)o + row->shown.error);
 }
+
+pendres_orbit pendres_orbit_none(const pendres_pendulum *p)
+{
+  pendres_orbit o = {.pendulum = *p};
+  double *const numbers[] = {
+    &o.x, &o.v, &o.x_error, &o.v_error, &o.multiplier_error, &o.mean_angle, &o.loop_area_slope,
+    &o.loop_area_slope_error, &o.multiplier_re[0], &o.multiplier_re[1], &o.multiplier_im[0],
+    &o.multiplier_im[1], &o.frequency_derivative[0], &o.frequency_derivative[1],
+    &o.monodromy[0][0], &o.monodromy[0][1], &o.monodromy[1][0], &o.monodromy[1][1]};
+  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) *numbers[i] = NAN;
+  const pendres_orbit_row *row;
+  for (size_t k = 0; (row = pendres_orbit_row_get(k)) != NULL; k++) {
+    double *error = pendres_orbit_row_error(row, &o);
+    *pendres_orbit_row_value(row, &o) = NAN;
+    if (error != NULL) *error = NAN;
+  }
+  for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) o.cosine[m] = o.sine[m] = NAN;
+  return o;
+}

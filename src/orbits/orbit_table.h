@@ -31,4 +31,7 @@ const pendres_orbit_row *pendres_orbit_row_get(size_t number);
 double *pendres_orbit_row_value(const pendres_orbit_row *row, pendres_orbit *o);
 double *pendres_orbit_row_error(const pendres_orbit_row *row, pendres_orbit *o);
 
+/* An orbit of which nothing but the pendulum is known: all of its numbers are NaN. */
+pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
+
 #endif

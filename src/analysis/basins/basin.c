@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "analysis/basins/numbers.h"
-#include "orbits/attractor_internal.h"
+#include "settling/attractor_internal.h"
 #include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
-#include "orbits/settle.h"
+#include "settling/settle.h"
 
 static pendres_status check_grid(pendres_context *ctx, const pendres_attractors *set,
                                  const pendres_basin_grid *grid)

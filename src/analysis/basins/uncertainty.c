@@ -7,7 +7,7 @@
 
 #include "analysis/basins/numbers.h"
 #include "base/mix.h"
-#include "orbits/attractor_internal.h"
+#include "settling/attractor_internal.h"
 #include "analysis/basins/scatter.h"
 #include "analysis/basins/uncertainty.h"
 #include "engine/accuracy.h"
@@ -15,7 +15,7 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "engine/team.h"
-#include "orbits/settle.h"
+#include "settling/settle.h"
 
 /* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */
 static void place(const pendres_basin_window *w, const pendres_basin_sample *s, uint64_t i,

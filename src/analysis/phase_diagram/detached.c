@@ -20,7 +20,7 @@ static int resonances(const pendres_pendulum *p, double well, double amplitude[D
   const double square = p->drive_frequency * p->drive_frequency;
   double before = pendres_free_stiffness(p, well, well_near) - square;
   int n = 0;
-  for (double a = well_near * detached_pace; a < GUESS_FAR && n < DETACHED_RESONANCES;
+  for (double a = well_near * detached_pace; a < WELL_FAR && n < DETACHED_RESONANCES;
        a *= detached_pace) {
     const double off = pendres_free_stiffness(p, well, a) - square;
     if (off * before <= 0.0 && off != before)

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "model/model.h"
-#include "orbits/attractor_set.h"
+#include "orbits/orbit_same.h"
 
 enum { MOST_FAMILIES = 2 * PENDRES_RESPONSE_STATES };
 
@@ -93,7 +93,7 @@ static int image_of(const pendres_response *r, size_t i)
 {
   if (!pendres_pendulum_symmetric(&r->pendulum)) return -1;
   for (size_t k = 0; k < i; k++)
-    if (pendres_attractor_set_are_images(&r->state[k].orbit, &r->state[i].orbit)) return (int)k;
+    if (pendres_orbit_are_images(&r->state[k].orbit, &r->state[i].orbit)) return (int)k;
   return -1;
 }
 

@@ -13,7 +13,7 @@
 #include <pendres/continuation.h>
 
 #include "model/model.h"
-#include "orbits/attractor_set.h"
+#include "orbits/orbit_same.h"
 #include "analysis/resonance/response_parts.h"
 #include "continuation/sets.h"
 
@@ -66,7 +66,7 @@ static pendres_status move_to(pendres_context *ctx, const pendres_scan_point *fr
   if (status != PENDRES_OK) return status;
   for (size_t j = 0; j < to->response.states; j++) {
     const pendres_orbit *o = &from->response.state[j].orbit;
-    if (o == state || pendres_attractor_set_are_images(o, state))
+    if (o == state || pendres_orbit_are_images(o, state))
       to->response.state[j].orbit = b->orbit;
   }
   to->fold = NAN;

@@ -10,10 +10,10 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "model/model.h"
-#include "orbits/attractor_internal.h"
+#include "settling/attractor_internal.h"
 #include "orbits/orbit_measure.h"
 #include "analysis/resonance/response_parts.h"
-#include "orbits/settle.h"
+#include "settling/settle.h"
 #include "engine/coordinates.h"
 
 /* An ensemble's members by attractor; attractors without members count for nothing. */

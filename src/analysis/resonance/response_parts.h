@@ -9,7 +9,7 @@
 #include <pendres/response.h>
 
 #include "analysis/resonance/numbers.h"
-#include "orbits/attractor_set.h"
+#include "settling/attractor_set.h"
 #include "orbits/label.h"
 
 /*

@@ -11,6 +11,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
+#include "settling/settle.h"
 
 pendres_search_budget pendres_search_budget_of(pendres_context *ctx, double most)
 {
@@ -145,7 +146,9 @@ static pendres_status add_batch(const wanted *w, size_t first, size_t n)
  */
 static double expected_work(const pendres_search *s, double omega)
 {
-  const double periods = settle_least + settle_times * omega / (pi * s->pendulum.damping);
+  pendres_pendulum p = s->pendulum;
+  p.drive_frequency = omega;
+  const double periods = (double)pendres_settle_first_budget(&p);
   return 20.0 * work_of_period * periods * (double)s->ensemble->members *
          fmax(1.0, s->rate / omega);
 }

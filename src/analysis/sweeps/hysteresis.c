@@ -14,7 +14,7 @@
 #include "analysis/sweeps/hysteresis_rotation.h"
 #include "analysis/sweeps/hysteresis_steps.h"
 #include "analysis/sweeps/hysteresis_unlocked.h"
-#include "analysis/chaos/lyapunov_move.h"
+#include "settling/exponents/lyapunov_move.h"
 #include "analysis/sweeps/numbers.h"
 #include "model/model.h"
 #include "model/parameter.h"

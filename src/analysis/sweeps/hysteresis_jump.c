@@ -12,7 +12,7 @@
 #include "engine/context_internal.h"
 #include "engine/team.h"
 #include "model/model.h"
-#include "orbits/attractor_set.h"
+#include "orbits/orbit_table.h"
 #include "orbits/orbit_span.h"
 #include "analysis/sweeps/rotation_table.h"
 

@@ -9,7 +9,7 @@
 #include <pendres/hysteresis.h>
 #include <pendres/rotation.h>
 
-#include "analysis/chaos/lyapunov_move.h"
+#include "settling/exponents/lyapunov_move.h"
 
 /* What a pendulum settled on, and its state then. */
 typedef struct pendres_settled {

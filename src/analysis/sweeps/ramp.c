@@ -12,7 +12,7 @@
 #include "engine/strobe_run.h"
 #include "model/parameter.h"
 #include "noise/langevin_internal.h"
-#include "orbits/escape.h"
+#include "settling/trapping/escape.h"
 #include "analysis/sweeps/ramp_watch.h"
 
 /* ---- ramps ---- */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "analysis/chaos/lyapunov_move.h"
+#include "settling/exponents/lyapunov_move.h"
 #include "analysis/sweeps/numbers.h"
 #include "continuation/numbers.h"
 #include "continuation/parameter.h"

@@ -1,0 +1,87 @@
+/*
+ * numbers.h -- numbers that were chosen for exponents, each with its reason.
+ */
+#ifndef PENDRES_EXPONENTS_NUMBERS_H
+#define PENDRES_EXPONENTS_NUMBERS_H
+
+#include "settling/numbers.h"
+
+/* ---- exponents: how long pendulums are followed ---- */
+
+enum {
+  EXPONENT_PERIODS = 512, /* of a first average, unless the caller says so: half of them for what
+                             is known to be close to a rotation, and three times as many by which
+                             what may be chaos is followed before */
+  EXPONENT_ROUNDS = 6,    /* of averages, each twice as long as the one before: next to the end of a
+                             lock a rotation slips once in thousands of periods */
+  EXPONENT_TURNING = 16   /* periods in which tangent vectors turn into the growing direction */
+};
+
+/* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more:
+   half a minute's where it is alone. */
+static const double exponent_most_steps = 5e7;
+
+/* Times in which a deviation falls to 1/e that pendulums are followed for before an average, next
+   to an orbit and elsewhere. */
+static const double exponent_forgets = 25.0, exponent_forgets_all = 80.0;
+
+/* Chaos that stretches by less than this in a drive period, or in one of small oscillations if that
+   is shorter, is in bands, or next to a window: the errors of a first look may make it of an orbit.
+   One hump of a map stretches by up to ln 2, in two bands by half of that. */
+static const double exponent_weak = 0.35;
+
+/* ---- exponents: what is next to an orbit ---- */
+
+enum {
+  LOOK_SOON = 8, /* periods for which strobe points are compared with an earlier one, and ... */
+  LOOK_AGAIN = 4 /* ... a quarter of all so far if that is more: no longer is waited in vain */
+};
+
+/* A pendulum whose strobe point comes back this closely is taken to be next to an orbit, at first.
+   Each time that an orbit has turned out not to attract it, as the unstable one beside a fold does
+   not, it must come closer, by the second factor. */
+static const double caught_close_by = 1e-4, caught_closer = 0.1;
+
+/* The same where it may be chaotic: there points come back by chance. */
+static const double caught_in_chaos = 1e-5;
+
+/* Copies of a pendulum that are caught this close to each other are next to the same orbit. */
+static const double caught_same_place = 1e-3;
+
+/* ---- exponents: copies, which tell whether a verdict depends on rounding ---- */
+
+enum {
+  COPIES_FEW = 4, /* that are tried first: most of those that differ are seen by them */
+  COPIES = 16     /* what one copy in five does is missed by all of them once in thirty times */
+};
+
+/* An error this many times as large as one that may decide has parted motions for good. */
+static const double copies_parted = 100.0;
+
+/* Verdicts of copies agree within this many times their errors. */
+static const double copies_agree = 5.0;
+
+/* A chaos that comes back this close to the last state that the pendulum was in for certain is the
+   one that its start leads to. The errors there are a hundredth at most. */
+static const double copies_returned = 0.1;
+
+/* ---- means of rotations ---- */
+
+enum {
+  MEANS_SLIPS = 3,        /* of a rotation by where a lock has ended, for its mean to be known */
+  MEANS_SHOW = 1024,      /* periods after which chaos shows in means */
+  MEANS_SHORT_ORBIT = 16  /* drive periods of one beside which a rotation may be slow */
+};
+
+/* A rotation that slips once in n periods is known to a few slips in n periods. In less than half a
+   slip nothing is seen of how it becomes slower and faster. */
+static const double means_few_slips = 5.0, means_half_slip = 0.5;
+
+/* Mean turns a period are known to this at least, and the mean square of the velocity to ten times
+   this share of it: in chaos that would take 1e10 periods. */
+static const double means_least = 1e-6;
+
+/* The last digits of a mean are lost to rounding. */
+static const double means_rounding = 2.2e-14;
+
+#endif
