@@ -120,6 +120,9 @@ static const sample samples[] = {
   {"basins", "&scene kind = 'basins' /\n&pendulum damping = 0.12, drive_period = 8 /\n"
    "&sweep x_range = -1.5, 4.7, 12, v_range = -2, 2, 12 /\n", "drive_amplitude", "pendulum",
    {0.1, 0.2, 0.3}},
+  {"clock", "&scene kind = 'basins' /\n&pendulum damping = 0.12, drive_amplitude = 0.2 /\n"
+   "&sweep x_range = -1.5, 4.7, 8, v_range = -2, 2, 8 /\n", "drive_period", "pendulum",
+   {7.5, 8, 9}},
   {"coefficient", "&scene kind = 'basins' /\n&pendulum damping = 0.1, drive_frequency = 1.3,\n"
    "  drive_amplitude = 0.3, force = 'polynomial', force_coefficients = 1 /\n"
    "&sweep x_range = -3, 3, 8, v_range = -3, 3, 8 /\n&precision tolerance = 1e-9 /\n&ANY /\n",
@@ -256,6 +259,12 @@ static void what_is_no_outer_axis_is_told(void **state)
                       "&pendulum damping = 0.1 /\n&sweep drive_frequency = 0.7, 0.8,\n"
                       "  drive_amplitude = 0.1, 0.2 /\n",
                       "&outer takes several values of one more");
+  scene_check_refused("&scene kind = 'response' /\n"
+                      "&pendulum damping = 0.2, drive_amplitude = 0.2 /\n"
+                      "&sweep drive_frequency = 0.7, 0.8 /\n"
+                      "&ensemble shape = 'rectangle', rows = 3, v_last = 1 /\n"
+                      "&outer key = 'ensemble.members', values = 6, 7, 9 /\n",
+                      "with ensemble.members = 7.0: 'members' must make whole 'rows'");
   scene_check_refused("&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
                       "&sweep drive_frequency = 0.7, 0.8 /\n"
                       "&outer key = 'damping', values = 0.1, 0.2 /\n",

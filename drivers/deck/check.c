@@ -155,6 +155,13 @@ static void check_drive(deck_builder *b, const char *group)
   }
 }
 
+void deck_derive_clock(deck *d)
+{
+  const double turn = 2.0 * PENDRES_PI;
+  if (d->by_period) d->pendulum.drive_frequency = turn / d->drive_period;
+  else d->drive_period = turn / d->pendulum.drive_frequency;
+}
+
 static void resolve_drive(deck_builder *b)
 {
   deck *d = b->d;
@@ -165,9 +172,7 @@ static void resolve_drive(deck_builder *b)
   if (!deck_in_scene(b, "pendulum", "drive_period")) return;
   check_drive(b, "pendulum");
   d->by_period = deck_given_of(b, "pendulum", "drive_period")->given;
-  const double turn = 2.0 * PENDRES_PI;
-  if (d->by_period) d->pendulum.drive_frequency = turn / d->drive_period;
-  else d->drive_period = turn / d->pendulum.drive_frequency;
+  deck_derive_clock(d);
 }
 
 /* An axis has its values in &sweep, or its only value in &pendulum. */
@@ -297,6 +302,19 @@ static void check_output(deck_builder *b)
     deck_complain(b, at, "output", "'output' would overwrite the deck");
 }
 
+void deck_check_values(deck_builder *b)
+{
+  check_size(b);
+  deck_check_axes(b);
+  deck_check_tolerance(b);
+  check_ensemble(b);
+  check_spectrum(b);
+  deck_check_fit(b);
+  if (b->d->precision.block_lanes % 8 != 0)
+    deck_complain(b, deck_given_of(b, "precision", "block_lanes"), "block_lanes",
+                  "'block_lanes' must be a multiple of 8");
+}
+
 void deck_check(deck_builder *b)
 {
   deck *d = b->d;
@@ -310,15 +328,8 @@ void deck_check(deck_builder *b)
   d->search_given = deck_in_scene(b, "sweep", "resonance_range") &&
                     deck_given_of(b, "sweep", "resonance_range")->given;
   check_idle_keys(b);
-  check_size(b);
-  deck_check_axes(b);
   deck_outer_check(b);
   check_output(b);
-  deck_check_units(b);
-  check_ensemble(b);
-  check_spectrum(b);
-  deck_check_fit(b);
-  if (d->precision.block_lanes % 8 != 0)
-    deck_complain(b, deck_given_of(b, "precision", "block_lanes"), "block_lanes",
-                  "'block_lanes' must be a multiple of 8");
+  deck_bring_defaults(b);
+  deck_check_values(b);
 }

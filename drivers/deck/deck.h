@@ -332,9 +332,10 @@ size_t deck_slices(const deck *d);
 const char *deck_outer_name(const deck *d, char name[2 * DECK_NAME]);
 const char *deck_outer_words(const deck *d);
 
-/** The deck of one of these scenes, number 0 to deck_slices() - 1: as resolved, without the outer
- *  axis, with that value in its place. Returns as deck_read_set does. */
-pendres_status deck_slice(const deck *d, size_t slice, deck *out, namelist_errors *errors);
+/** The deck of one of these scenes, number 0 to deck_slices() - 1: the same without the outer axis,
+ *  with that value in its place. It owns nothing: it lasts as long as the whole, and is not
+ *  freed. */
+deck deck_slice(const deck *d, size_t slice);
 
 /** Does it tell a laboratory's scales, in &units? */
 int deck_has_units(const deck *d);

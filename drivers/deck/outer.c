@@ -1,7 +1,7 @@
 /*
  * outer.c -- the outer axis: a number of the deck, named by &outer, for each value of which the
  * scene is computed once. Whatever reads a deck sees one of these scenes, that of the value of the
- * largest size; deck_slice() makes the deck of each.
+ * largest size; deck_slice() gives the number any other one.
  */
 #include "deck/table.h"
 
@@ -101,21 +101,18 @@ int deck_outer_is(const deck *d, const deck_key *key)
   return key == own || (axis && other && key->axis == own->axis);
 }
 
-/* Give the number one value, of an axis in listed[1]. */
-static void set_value(deck *d, double value, double *listed)
+/* Give the number one value; of an axis it is where that has its values. */
+static void set_value(deck *d, double *value)
 {
   const deck_key *key = &deck_table[d->outer.row];
   char *field = (char *)d + key->offset;
-  if (d->outer.coefficient > 0) {
-    d->pendulum.force_coefficients[d->outer.coefficient - 1] = value;
-  } else if (key->type == DECK_SWEEP_VALUE) {
-    *listed = value;
-    d->axis[key->axis] = (deck_axis){ .listed = listed, .listed_count = 1 };
-  } else if (key->type == DECK_INTEGER) {
-    *(int64_t *)field = (int64_t)value;
-  } else {
-    *(double *)field = value;
-  }
+  if (d->outer.coefficient > 0)
+    d->pendulum.force_coefficients[d->outer.coefficient - 1] = *value;
+  else if (key->type == DECK_SWEEP_VALUE)
+    d->axis[key->axis] =
+      (deck_axis){ .value = value, .count = 1, .listed = value, .listed_count = 1 };
+  else if (key->type == DECK_INTEGER) *(int64_t *)field = (int64_t)*value;
+  else *(double *)field = *value;
 }
 
 /* Complain of a value that stands elsewhere, too. */
@@ -171,14 +168,13 @@ void deck_outer_apply(deck_builder *b)
     deck_complain(b, values, "values", "%s", why);
     return;
   }
-  double *listed = malloc(sizeof *listed);
-  if (listed == NULL) {
-    b->out_of_memory = 1;
-    return;
-  }
-  const int used = d->outer.coefficient == 0 && deck_table[d->outer.row].type == DECK_SWEEP_VALUE;
-  set_value(d, deck_axis_largest(&d->axis[DECK_AXIS_OUTER]), listed);
-  if (!used) free(listed);
+  double largest = deck_axis_largest(&d->axis[DECK_AXIS_OUTER]);
+  set_value(d, &largest);
+  deck_axis *axis = &d->axis[deck_table[d->outer.row].axis];
+  if (axis->listed != &largest) return;
+  *axis = (deck_axis){ .listed = malloc(sizeof largest), .listed_count = 1 }; /* the deck's own */
+  if (axis->listed == NULL) b->out_of_memory = 1;
+  else *axis->listed = largest;
 }
 
 /* What the results have as an axis already cannot be an outer one. */
@@ -218,24 +214,22 @@ const char *deck_outer_words(const deck *d)
                                   : deck_table_words(&deck_table[d->outer.row])->meaning;
 }
 
-pendres_status deck_slice(const deck *d, size_t slice, deck *out, namelist_errors *errors)
+deck deck_slice(const deck *d, size_t slice)
 {
+  const deck_key *key = &deck_table[d->outer.row];
+  double *value = &d->axis[DECK_AXIS_OUTER].value[slice];
   deck one = *d;
-  double listed = 0.0;
-  char *text = NULL;
-  *out = (deck){ 0 };
   one.outer.known = 0;
   one.outer.key[0] = '\0';
   one.axis[DECK_AXIS_OUTER] = (deck_axis){ 0 };
-  set_value(&one, d->axis[DECK_AXIS_OUTER].value[slice], &listed);
-  one.outer.row = 0;
-  pendres_status status = deck_resolved(&one, &text);
-  if (status == PENDRES_OK) status = deck_read_memory(d->name, text, strlen(text), out, errors);
-  free(text);
-  return status;
+  set_value(&one, value);
+  if (key->type == DECK_REAL && (key->offset == offsetof(deck, drive_period) ||
+                                 key->offset == offsetof(deck, pendulum.drive_frequency)))
+    deck_derive_clock(&one);
+  return one;
 }
 
-/* The first of a list's messages, as it is told behind the place in a text that no user has. */
+/* The first of a list's messages, as it is told behind the place of one value. */
 static const char *first_of(const namelist_errors *errors, char text[300])
 {
   const char *words = errors->count > 0 ? errors->item[0].text : "out of memory";
@@ -248,18 +242,19 @@ static const char *first_of(const namelist_errors *errors, char text[300])
 void deck_outer_try(deck_builder *b)
 {
   const deck *d = b->d;
-  for (size_t i = 0; i < deck_slices(d); i++) {
-    deck one;
+  for (size_t i = 0; i < deck_slices(d) && b->errors->count == 0 && !b->out_of_memory; i++) {
+    deck one = deck_slice(d, i);
     char text[300], number[DECK_DECIMAL];
     namelist_errors errors = { 0 };
-    const pendres_status status = deck_slice(d, i, &one, &errors);
-    if (status == PENDRES_OUT_OF_MEMORY) b->out_of_memory = 1;
-    else if (status != PENDRES_OK)
+    deck_builder of_one = *b;
+    of_one.d = &one;
+    of_one.errors = &errors;
+    deck_check_values(&of_one);
+    if (errors.out_of_memory || of_one.out_of_memory) b->out_of_memory = 1;
+    else if (errors.count > 0)
       deck_complain(b, deck_given_of(b, "outer", "values"), "values", "with %s = %s: %s",
                     d->outer.key, deck_decimal(d->axis[DECK_AXIS_OUTER].value[i], number),
                     first_of(&errors, text));
     namelist_errors_free(&errors);
-    deck_free(&one);
-    if (status != PENDRES_OK) return;
   }
 }

@@ -172,8 +172,12 @@ void deck_check_fit(deck_builder *b);
 enum { DECK_DECIMAL = 40 };
 const char *deck_decimal(double x, char text[DECK_DECIMAL]);
 
-/* check.c: everything that concerns several keys. */
+/* check.c: everything that concerns several keys; and that part of it which depends on values, for
+   any of an outer axis. */
 void deck_check(deck_builder *b);
+void deck_check_values(deck_builder *b);
+/* Of the drive's frequency and period, set the one that was not given. */
+void deck_derive_clock(deck *d);
 /* Complain of a key or, of a group as a whole, at its head; without one, at the kind. */
 void deck_complain(deck_builder *b, const deck_given *at, const char *name, const char *format,
                    ...) __attribute__((format(printf, 4, 5)));
@@ -206,8 +210,9 @@ void deck_outer_apply(deck_builder *b);
 void deck_outer_check(deck_builder *b);
 void deck_outer_try(deck_builder *b);
 
-/* units.c: brings defaults into the pendulum's units, in which it checks the tolerance. */
-void deck_check_units(deck_builder *b);
+/* units.c: brings defaults into the pendulum's units; checks the tolerance in these. */
+void deck_bring_defaults(deck_builder *b);
+void deck_check_tolerance(deck_builder *b);
 
 /* Decks that a laboratory begins with; NULL: no more, or none of that name. */
 typedef struct deck_starter {

@@ -15,7 +15,7 @@ static void bring(const deck_builder *b, const char *group, const char *name, do
   for (int i = 0; i < count; i++) value[i] *= unit;
 }
 
-void deck_check_units(deck_builder *b)
+void deck_bring_defaults(deck_builder *b)
 {
   deck *d = b->d;
   const pendres_units u = deck_pendulum_units(d);
@@ -25,11 +25,17 @@ void deck_check_units(deck_builder *b)
   bring(b, "sweep", "drive_frequency_range", 1.0 / u.time, d->search, 2);
   bring(b, "sweep", "resonance_range", 1.0 / u.time, d->search, 2);
   bring(b, "precision", "tolerance", u.length, &d->precision.tolerance, 1);
+}
+
+void deck_check_tolerance(deck_builder *b)
+{
+  const double length = deck_pendulum_units(b->d).length;
+  const double tolerance = b->d->precision.tolerance / length;
   const deck_given *at = deck_given_of(b, "precision", "tolerance");
-  const double tolerance = d->precision.tolerance / u.length;
-  if (!at->given || (tolerance >= 1e-13 && tolerance <= 1e-2)) return;
+  if (!deck_in_scene(b, "precision", "tolerance") || at->broken) return;
+  if (tolerance >= 1e-13 && tolerance <= 1e-2) return;
   deck_complain(b, at, "tolerance",
                 "'tolerance' must lie between %.3g and %.3g%s: less is beyond double precision",
-                1e-13 * u.length, 1e-2 * u.length,
-                u.length == 1.0 ? "" : ", 1e-13 and 0.01 of the pendulum's unit of length");
+                1e-13 * length, 1e-2 * length,
+                length == 1.0 ? "" : ", 1e-13 and 0.01 of the pendulum's unit of length");
 }

@@ -29,23 +29,11 @@ static const deck_axis *axis_of(const deck *d)
 
 /* ---- one slice ----------------------------------------------------------------------------- */
 
-static int read_slice(scene_run *run, const deck *whole, size_t slice, deck *one)
-{
-  namelist_errors errors = { 0 };
-  const pendres_status status = deck_slice(whole, slice, one, &errors);
-  if (status != PENDRES_OK)
-    (void)scene_fail(run, status, "%s", status == PENDRES_OUT_OF_MEMORY
-                     ? "out of memory for a deck" : errors.count > 0 ? errors.item[0].text : "");
-  namelist_errors_free(&errors);
-  return status == PENDRES_OK;
-}
-
 /* Compute one slice; its results go onto the tape, which is the run's while it lasts. */
 static pendres_status compute(scene_run *run, outer *o, size_t slice)
 {
-  deck one = { 0 };
+  const deck one = deck_slice(o->whole, slice);
   char name[2 * DECK_NAME];
-  if (!read_slice(run, o->whole, slice, &one)) return run->status;
   snprintf(run->where, sizeof run->where, "%s %.10g", deck_outer_name(o->whole, name),
            axis_of(o->whole)->value[slice]);
   if (run->table != NULL)
@@ -57,7 +45,6 @@ static pendres_status compute(scene_run *run, outer *o, size_t slice)
   run->tape = NULL;
   run->deck = o->whole;
   scene_room_end(&run->room);
-  deck_free(&one);
   return status;
 }
 
@@ -195,9 +182,7 @@ pendres_status scene_run_all(scene_run *run, const scene_kind *scene)
 
 void scene_describe_all(const deck *d, const scene_kind *scene, FILE *out)
 {
-  deck one;
   char name[2 * DECK_NAME];
-  namelist_errors errors = { 0 };
   const deck_axis *a = axis_of(d);
   if (deck_slices(d) == 0) {
     scene->describe(d, out);
@@ -205,9 +190,8 @@ void scene_describe_all(const deck *d, const scene_kind *scene, FILE *out)
   }
   fprintf(out, "for each of %zu values of %s, %g to %g; at the first of them:\n", a->count,
           deck_outer_name(d, name), a->value[0], a->value[a->count - 1]);
-  if (deck_slice(d, 0, &one, &errors) == PENDRES_OK) scene->describe(&one, out);
-  namelist_errors_free(&errors);
-  deck_free(&one);
+  const deck one = deck_slice(d, 0);
+  scene->describe(&one, out);
 }
 
 size_t scene_trials(const deck *d)
