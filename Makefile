@@ -42,6 +42,7 @@
 #   tests/oracle/*.c, what the program is measured against. They see the public headers alone.
 # - tests/test_NAME.c are programs of their own, tests/NAME_check.sh scripts; both count.
 #   They run at the top of the tree, with RESONANCE naming the program to try.
+# - tools/*.mk are the goals that make documents, pictures, fuzzers and packages.
 
 VERSION_H := include/pendres/version.h
 version_part = $(shell sed -n 's/^.define PENDRES_VERSION_$(1) //p' $(VERSION_H))
@@ -199,15 +200,9 @@ SCRIPT_NAMES := $(if $(SANITIZE)$(VALGRIND),,$(patsubst tests/%.sh,%,$(wildcard 
 CHECKS ?= $(filter-out $(SKIP),$(TEST_NAMES) $(SCRIPT_NAMES))
 ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
 ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
-FUZZ_NAMES := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-FUZZ_SECONDS ?= 60
-
-.PHONY: all accuracy check check-run faults fuzz bench bench-baseline install uninstall deps deps-mpi \
-        deps-fuzz deps-plots deps-python doc decks-reference results-reference interface-list style figures gallery \
-        clean \
-        help sdist wheel FORCE
+.PHONY: all accuracy check check-run faults bench bench-baseline install uninstall style clean help
 .SUFFIXES:
 .DELETE_ON_ERROR:
 
@@ -348,41 +343,6 @@ run/bench_check: $(BENCH_PROGRAMS)
 $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
 
-# Of the library and the program what reads, and no more: the rest would take minutes to compile.
-FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/% src/analysis/sweeps/sweep.o \
-  drivers/deck/% drivers/farm/journal% drivers/farm/record.o drivers/terminal/safe_text.o drivers/system/% \
-  drivers/options.o drivers/shard.o drivers/verify.o), \
-  $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
-
-.SECONDARY: $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.o)
-# What collects records, and the data of fits, need all of it.
-$(BUILD)/fuzz_collect $(BUILD)/fuzz_data: $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS)
-$(BUILD)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(FUZZED_OBJECTS)
-	@echo "  LD  $@"
-	@$(LINK) -fsanitize=fuzzer -o $@ $^ $(DRIVER_LIBS)
-
-# HDF5 may crash in the process that reads for --verify, and the fuzzer is not to take it for ours;
-# nor does it see what a file is good for, and keeps all that are there.
-FUZZ_data = $(FUZZ_verify)
-FUZZ_verify := -handle_segv=0 -handle_bus=0 -handle_abrt=0 -handle_ill=0 -handle_fpe=0 \
-               -keep_seed=1 -reduce_inputs=0
-
-.PHONY: $(FUZZ_NAMES:%=fuzz/%)
-$(FUZZ_NAMES:%=fuzz/%): fuzz/%: $(BUILD)/fuzz_%
-	@mkdir -p $(BUILD)/corpus/$*
-	ASAN_OPTIONS=allocator_may_return_null=1 $< -max_total_time=$(FUZZ_SECONDS) -timeout=100 \
-	  -print_final_stats=1 -artifact_prefix=$(BUILD)/$*- $(FUZZ_$*) $(BUILD)/corpus/$* \
-	  tests/fuzz/corpus/$*
-
-# What is found of new ways through the code is kept in build/fuzz/corpus, and gone on from.
-CLANG ?= $(shell for c in clang clang-19 clang-17 clang-16 clang-15 clang-14; do \
-           command -v $$c && break; done)
-fuzz:
-	@test -n '$(CLANG)' && $(CLANG) --version >/dev/null 2>&1 || { \
-	  echo 'make fuzz needs clang with libFuzzer (Debian: make deps-fuzz)' >&2; exit 1; }
-	+@$(MAKE) --no-print-directory -k CC=$(CLANG) BUILD=build/fuzz \
-	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZ_NAMES:%=fuzz/%)
-
 # Memory that is refused, six times at each place that asks for it; make check does so once.
 faults: all
 	@$(RUN_ENVIRONMENT) FAULTS=6 tests/faults_memory_check.sh
@@ -455,47 +415,6 @@ uninstall:
 	rm -rf "$(DESTDIR)$(INCLUDEDIR)/pendres" "$(DESTDIR)$(LIBDIR)/cmake/pendres" "$(DESTDIR)$(DATADIR)"
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
-sdist wheel:
-	@packaging/wheel.sh $@
-
-doc:
-	@command -v doxygen >/dev/null || { echo 'make doc needs Doxygen (Debian: apt-get install' \
-	  'doxygen); without it, each header in include/pendres/ is its own manual' >&2; exit 1; }
-	@mkdir -p build
-	doxygen Doxyfile
-
-man: $(PROGRAM)
-	@command -v help2man >/dev/null || { echo 'make man needs help2man (Debian: apt-get install' \
-	  'help2man)' >&2; exit 1; }
-	LC_ALL=C help2man -N -n 'resonance of driven pendulums' -o man/resonance.1 ./$(PROGRAM)
-
-decks-reference: $(PROGRAM)
-	@./$(PROGRAM) --reference >docs/decks.md.new && mv docs/decks.md.new docs/decks.md
-
-results-reference: $(PROGRAM)
-	@$${PYTHON:-/usr/bin/python3} -B tests/results_list.py ./$(PROGRAM) tests/kinds/*.nml \
-	  >docs/results.md.new && mv docs/results.md.new docs/results.md
-
-interface-list:
-	@$${PYTHON:-/usr/bin/python3} -B tests/interface_list.py '$(CC)' include >tests/interface.txt
-
-# Every deck that computes a figure, and its picture, into build/figures. The shell makes the names:
-# those of make end at a blank.
-figures: $(PROGRAM)
-	@mkdir -p $(BUILD)/figures; top=$$PWD; cd $(BUILD)/figures && failed=0 && \
-	for deck in "$$top"/input/*.nml; do \
-	  case $${deck##*/} in workprec_*) continue ;; esac; echo "$${deck##*/}"; \
-	  "$(PROGRAM_PATH)" --quiet "$$deck" >/dev/null || [ $$? -eq 3 ] || failed=1; \
-	done; plot() { $${PYTHON:-/usr/bin/python3} "$$top/plots/plot.py" "$$@"; }; \
-	plot *.h5 && plot --surface f10.h5 && exit $$failed
-
-# The few pictures that docs/gallery.md and the README show, from what `make figures` left.
-GALLERY := f05 f07 f08 f09 integrity duffing drives resonator fit hysteresis josephson cascade
-gallery:
-	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 200 -o docs/gallery \
-	  $(GALLERY:%=$(BUILD)/figures/%.h5)
-	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 200 -o docs $(BUILD)/figures/f02.h5
-
 style:
 	@tests/style_check.sh
 
@@ -509,32 +428,9 @@ else
 	@rmdir $(BUILD) 2>/dev/null || true
 endif
 
-# ---- What is needed --------------------------------------------------------------------------
-
-# Without what is in folders of its own.
-PACKAGES := gcc make pkg-config libc6-dev $(if $(SUNDIALS_DIR),,libsundials-dev) \
-            $(if $(HDF5_DIR),,libhdf5-dev) $(if $(GSL_DIR),,libgsl-dev) libcmocka-dev \
-            librandom123-dev zlib1g-dev
-MPI_PACKAGES := openmpi-bin libopenmpi-dev
-PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
-FUZZ_PACKAGES := clang libclang-rt-dev
-PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
-
-deps:
-	@.ci/packages $(PACKAGES)
-
-deps-mpi:
-	@.ci/packages $(MPI_PACKAGES)
-
-deps-plots:
-	@.ci/packages $(PLOT_PACKAGES)
-
-deps-fuzz:
-	@.ci/packages $(FUZZ_PACKAGES)
-
-deps-python:
-	@.ci/packages $(PYTHON_PACKAGES)
+# Documents and pictures, fuzzing, packages: what neither builds, tests nor installs.
+include $(wildcard tools/*.mk)
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(DRIVER_OBJECTS:.o=.d) $(OBJ)/drivers/main.d \
          $(TEST_NAMES:%=$(OBJ)/tests/%.d) $(ACCURACY_OBJECTS:.o=.d) \
-         $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.d) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)
+         $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)

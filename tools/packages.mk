@@ -1,0 +1,31 @@
+# packages.mk -- what this needs of others, `make deps` and its like, and what others take of it,
+# `make sdist` and `make wheel`.
+
+.PHONY: deps deps-mpi deps-fuzz deps-plots deps-python sdist wheel
+
+sdist wheel:
+	@packaging/wheel.sh $@
+
+# Without what is in folders of its own.
+PACKAGES := gcc make pkg-config libc6-dev $(if $(SUNDIALS_DIR),,libsundials-dev) \
+            $(if $(HDF5_DIR),,libhdf5-dev) $(if $(GSL_DIR),,libgsl-dev) libcmocka-dev \
+            librandom123-dev zlib1g-dev
+MPI_PACKAGES := openmpi-bin libopenmpi-dev
+PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
+FUZZ_PACKAGES := clang libclang-rt-dev
+PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
+
+deps:
+	@.ci/packages $(PACKAGES)
+
+deps-mpi:
+	@.ci/packages $(MPI_PACKAGES)
+
+deps-plots:
+	@.ci/packages $(PLOT_PACKAGES)
+
+deps-fuzz:
+	@.ci/packages $(FUZZ_PACKAGES)
+
+deps-python:
+	@.ci/packages $(PYTHON_PACKAGES)
