@@ -16,13 +16,16 @@ HEAD = """# Results: the variables of files
      of a variable is what its attributes `long_name`, `units` and `comment` say. -->
 
 Every variable that a file may have, by its name, with the scenes that write it and the dimensions that it is
-over. Each that has an error has it beside it, as `NAME_error`. Parameters that the deck holds fixed are
-coordinates without dimension. `resonance --explain=loop_area` prints what stands here of a variable, and of
-those whose names begin with it.
+over, and of angles the unit. Each that has an error has it beside it, as `NAME_error`. Parameters that the
+deck holds fixed are coordinates without dimension. `resonance --explain=loop_area` prints what stands here of a
+variable, and of those whose names begin with it.
 
-| result | of | over | what | unit |
-|---|---|---|---|---|
+| result | of | over | what |
+|---|---|---|---|
 """
+
+# Labels as many as these are listed once.
+LONG_LIST = 6
 
 
 def text(value):
@@ -35,13 +38,28 @@ def attribute(of, name):
 
 def meaning(variable):
     said = [attribute(variable, name) for name in ("long_name", "comment")]
-    if "flag_meanings" in variable.attrs:
-        said.append("values: " + attribute(variable, "flag_meanings").replace(" ", ", "))
+    unit = attribute(variable, "units")
+    if said[1].startswith(said[0]):  # a definition that begins with the name
+        del said[0]
+    if unit != "1" and f"in {unit}" not in said[-1]:
+        said.append("in " + unit)
     return "; ".join(part for part in said if part)
 
 
+def values(names, name, listed):
+    """The labels of a variable or, of a long list that came before, where it stands."""
+    if names not in listed:
+        listed[names] = name
+    before = listed[names]
+    if not names:
+        return ""
+    if before != name and names.count(" ") + 1 >= LONG_LIST:
+        return f"; values as of `{before}`"
+    return "; values: " + names.replace(" ", ", ")
+
+
 def read(path, known):
-    """Add the variables of a file to known: (name, meaning, dimensions, unit) -> kinds."""
+    """Add the variables of a file to known: (name, meaning, labels) -> dimensions -> kinds."""
     with h5py.File(path, "r") as file:
         kind = attribute(file, "scene")
         outer = attribute(file, "outer_axis")
@@ -57,8 +75,7 @@ def read(path, known):
             over = tuple("outer axis" if name == outer else name for name in over)
             if is_scale and not meaning(variable):
                 continue
-            unit = attribute(variable, "units")
-            row = (name, meaning(variable), "" if unit == "1" else unit)
+            row = (name, meaning(variable), attribute(variable, "flag_meanings"))
             known["rows"].setdefault(row, {}).setdefault(over, []).append(kind)
 
 
@@ -76,10 +93,12 @@ def main(program, decks):
         for _, path in sorted(paths):
             read(path, known)
     print(HEAD, end="")
-    for (name, said, unit), places in sorted(known["rows"].items()):
+    listed = {}
+    for (name, said, names), places in sorted(known["rows"].items()):
         over = sorted({", ".join(dimensions) for dimensions in places})
         kinds = sorted({kind for some in places.values() for kind in some})
-        cells = (f"`{name}`", ", ".join(kinds), " or ".join(o for o in over if o), said, unit)
+        cells = (f"`{name}`", ", ".join(kinds), " or ".join(o for o in over if o),
+                 said + values(names, name, listed))
         print("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
 
 

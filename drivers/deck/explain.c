@@ -138,12 +138,12 @@ static void add_names(char *text, const deck_key *key, const char *quote)
 static void add_scenes(char *text, unsigned scenes)
 {
   const char *comma = "";
-  if (scenes == (1u << DECK_KIND_COUNT) - 1u) {
-    add(text, "all");
-    return;
-  }
+  const unsigned others = ~scenes & ((1u << DECK_KIND_COUNT) - 1u);
+  const int most = __builtin_popcount(scenes) > DECK_KIND_COUNT / 2;
+  const unsigned listed = most ? others : scenes;
+  if (most) add(text, others == 0 ? "all" : "all but ");
   for (int k = 0; k < DECK_KIND_COUNT; k++) {
-    if ((scenes & (1u << k)) == 0) continue;
+    if ((listed & (1u << k)) == 0) continue;
     add(text, "%s%s", comma, deck_kind_name((deck_kind)k));
     comma = ", ";
   }
@@ -352,7 +352,9 @@ static const char page_head[] =
   "last, count`, or both, which are united.\n"
   "\n"
   "Numbers may have units, `'1.2 MHz'`, where the column of units shows one: [units](units.md)\n"
-  "tells which scales a deck then has in `&units`. Numbers without a unit are in ours.\n";
+  "tells which scales a deck then has in `&units`. Numbers without a unit are in ours.\n"
+  "\n"
+  "Where a kind takes a group, `&units`, the tables of keys tell which of its keys.\n";
 
 /* In a cell of a table a bar would end the cell. Empties the text. */
 static void write_cell(FILE *out, char *text)
@@ -366,16 +368,26 @@ static void write_cell(FILE *out, char *text)
   text[0] = '\0';
 }
 
+/* Keys of these have their names in the list of a kind, those of other groups stand for it. */
+static int is_listed(const char *group)
+{
+  return strcmp(group, "pendulum") == 0 || strcmp(group, "sweep") == 0;
+}
+
 static void reference_kind(FILE *out, deck_kind kind)
 {
   const unsigned scene = 1u << kind;
   char needed[SENTENCE] = "", others[SENTENCE] = "";
+  const char *group = "";
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if ((key->scenes & scene) == 0 || strcmp(key->group, "scene") == 0) continue;
     char *list = (key->needed & scene) != 0 ? needed : others;
     const char *other = list == needed ? other_group(key, scene) : NULL;
-    add(list, "%s`%s.%s`", list[0] == '\0' ? "" : ", ", key->group, key->name);
+    const char *comma = list[0] == '\0' ? "" : ", ";
+    const int named = list == needed || is_listed(key->group);
+    if (named) add(list, "%s`%s.%s`", comma, key->group, key->name);
+    else if (strcmp(key->group, group) != 0) add(list, "%s`&%s`", comma, group = key->group);
     if (other != NULL) add(list, " (or in `&%s`)", other);
   }
   fprintf(out, "\n### %s\n\nComputes: %s.\n\n", deck_kind_name(kind), deck_kind_of(kind)->words);
