@@ -235,7 +235,7 @@ $(BUILD)/sources: ;
 $(OBJ)/drivers/resume.o: $(BUILD)/sources
 
 # Headings and tables of the docs, for --explain, but of pages on the program itself.
-PAGES := $(filter-out $(patsubst %,docs/%.md,decks accuracy architecture auto comparison install \
+PAGES := $(filter-out $(patsubst %,docs/%.md,decks accuracy architecture auto install \
            interface platforms replication scaling),$(wildcard docs/*.md))
 $(BUILD)/pages.inc: $(PAGES) drivers/pages.awk
 	@mkdir -p $(@D); LC_ALL=C awk -f drivers/pages.awk $(PAGES) </dev/null >$@.new && mv $@.new $@

@@ -20,13 +20,13 @@ has hysteresis '&hysteresis' 'the cascade' 'docs/gallery.md'
 has loop_area 'work of the drive' 'of: hysteresis, orbit'
 has step_width 'width of the step'
 has duffing 'docs/models.md' 'a1 = α' 'docs/gallery.md'
-has FOLD 'fold_frequency' 'docs/model.md' 'the pendulum jumps'
-has 'period doubling' 'docs/model.md' 'read about it:'
+has FOLD 'fold_frequency' 'docs/models.md' 'the pendulum jumps'
+has 'period doubling' 'docs/models.md' 'read about it:'
 has Shapiro 'docs/sweeps.md, Current and voltage of a junction'
 has Q "damping = 'Q 5000'" 'docs/units.md, Words of a laboratory'
 has beta_c '1/sqrt' capacitance
 has linewidth "damping = '240 Hz'"
-has f0 natural_frequency 'docs/model.md'
+has f0 natural_frequency 'docs/models.md'
 for word in 'quality factor' Ic 'plasma frequency' ringdown kelvin MEMS Kerr bistability 'IV curve'; do
   has "$word" 'docs/units.md, Words of a laboratory'
 done

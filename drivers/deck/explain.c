@@ -45,6 +45,9 @@ static void add_choices(char *text, const deck_key *key)
   }
 }
 
+/* A limit of this size is that of what is computed with, and not told. */
+#define UNBOUNDED 1e100
+
 /* What may stand behind the equals sign: "a number from 0 to 1e+06". */
 static void add_form(char *text, const deck_key *key)
 {
@@ -52,16 +55,24 @@ static void add_form(char *text, const deck_key *key)
     [DECK_REAL] = "a number", [DECK_INTEGER] = "a whole number",
     [DECK_LOGICAL] = ".true. or .false.", [DECK_STRING] = "a string", [DECK_CHOICE] = "one of ",
     [DECK_CHOICES] = "some of ", [DECK_BOUNDS] = "two ascending numbers",
-    [DECK_NUMBERS] = "some numbers, each", [DECK_LIST] = "numbers, each", [DECK_SWEEP] = "numbers",
+    [DECK_NUMBERS] = "some numbers", [DECK_LIST] = "numbers", [DECK_SWEEP] = "numbers",
     [DECK_SWEEP_VALUE] = "a number",
   };
   add(text, "%s", key->type == DECK_CHOICES && key->choices == NULL ? "strings" : form[key->type]);
   if (key->choices != NULL) add_choices(text, key);
   if (!is_number(key)) return;
-  add(text, key->open ? " above " : " from ");
-  add_number(text, key->low);
-  add(text, key->open ? " and below " : " to ");
-  add_number(text, key->high);
+  const int above = key->low > -UNBOUNDED, below = key->high < UNBOUNDED;
+  const int several = key->type == DECK_NUMBERS || key->type == DECK_LIST;
+  if ((above || below) && several) add(text, ", each");
+  if (above) {
+    add(text, key->open ? " above " : " from ");
+    add_number(text, key->low);
+  }
+  if (above && !below && !key->open) add(text, " on");
+  if (below) {
+    add(text, "%s", key->open ? (above ? " and below " : " below ") : above ? " to " : " up to ");
+    add_number(text, key->high);
+  }
 }
 
 static void add_unit(char *text, const deck_key *words)
