@@ -25,7 +25,7 @@ layers()
 # Doors: the headers of a folder that other folders may include.
 src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions.h base/numbers.h base/mix.h base/sine.h base/sized.h
   base/student.h
-  model/forces.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
+  model/equation.h model/forces.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
   engine/accuracy.h engine/block.h engine/chain.h engine/charts.h engine/context_internal.h engine/door.h engine/coordinates.h engine/kernels_force.h
   engine/rank.h engine/room.h
   engine/steps.h engine/strobe_run.h engine/tables.h engine/team.h

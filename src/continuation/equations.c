@@ -133,18 +133,17 @@ pendres_condition_rules_of(pendres_condition condition)
   return &rules[condition];
 }
 
-/* Whether orbits at u are so weakly damped that both of their multipliers are close to 1. */
-static int is_weak(const pendres_u u)
+static int is_weak(const pendres_system *s, const pendres_u u)
 {
-  return scale_weak * fabs(u[PENDRES_U_GAMMA]) < 1.0;
+  return pendres_arc_damped(s->map.force, u) < 1.0;
 }
 
 /* There the determinant, a product of what multipliers lack, is small in proportion to the damping,
    and its derivative along a branch is what is left where those by the unknowns cancel. */
-static double nudge_at(const pendres_u u)
+static double nudge_at(const pendres_system *s, const pendres_u u)
 {
-  const double weak = scale_weak * fabs(u[PENDRES_U_GAMMA]);
-  return is_weak(u) ? determinant_step / fmax(weak, determinant_weakest) : determinant_step;
+  const double weak = pendres_arc_damped(s->map.force, u);
+  return weak < 1.0 ? determinant_step / fmax(weak, determinant_weakest) : determinant_step;
 }
 
 /* The images at all stencils of the points, each along its null vector. */
@@ -172,7 +171,7 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
   const pendres_condition_rules *rules = pendres_condition_rules_of(s->condition);
   const size_t nudges = (size_t)s->unknowns;
   int weak = 0;
-  for (size_t i = 0; i < n; i++) weak |= rules->critical && is_weak(u[i]);
+  for (size_t i = 0; i < n; i++) weak |= rules->critical && is_weak(s, u[i]);
   const size_t each = rules->rows == NULL ? 1 : 1 + (weak ? 2 : 1) * nudges;
   const size_t points = n * each, around = rules->stencils ? points * STENCIL : 0;
   pendres_room room = pendres_room_open(ctx, "points");
@@ -185,16 +184,16 @@ pendres_status pendres_equations_at(pendres_context *ctx, const pendres_system *
     for (size_t k = 0; k < each; k++) {
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
       if (k > 0)
-        w.u[i * each + k][s->unknown[(k - 1) % nudges]] += k <= nudges ? nudge_at(u[i])
-                                                                       : -nudge_at(u[i]);
+        w.u[i * each + k][s->unknown[(k - 1) % nudges]] +=
+          k <= nudges ? nudge_at(s, u[i]) : -nudge_at(s, u[i]);
     }
   pendres_status status = pendres_map_images(ctx, s, points, (const pendres_u *)w.u, w.image);
   if (status == PENDRES_OK && rules->stencils) status = look_around(ctx, s, n, each, &w);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_image *image = w.image + i * each;
     const pendres_image *along = rules->stencils ? w.around_image + i * each * STENCIL : NULL;
-    out[i].nudge = nudge_at(u[i]);
-    out[i].central = rules->critical && is_weak(u[i]);
+    out[i].nudge = nudge_at(s, u[i]);
+    out[i].central = rules->critical && is_weak(s, u[i]);
     if (rules->rows != NULL) rules->rows(s, image, along, &out[i]);
     else plain_rows(image, &out[i]);
   }
@@ -277,7 +276,7 @@ pendres_status pendres_equations_solve(pendres_context *ctx, const pendres_syste
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
     pendres_status status = PENDRES_OK;
     /* At weak damping a determinant says something only where there is an orbit. */
-    if (critical && is_weak(u)) status = approach_orbit(ctx, s, u);
+    if (critical && is_weak(s, u)) status = approach_orbit(ctx, s, u);
     if (status == PENDRES_OK) status = pendres_equations_at(ctx, s, 1, (const pendres_u *)u, at);
     if (status != PENDRES_OK) return status;
     for (int r = 0; r < n; r++) {

@@ -10,6 +10,7 @@
 #include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "model/parameter.h"
 
@@ -115,7 +116,7 @@ pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
   const double speed = pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
   /* A large orbit's resonance is as narrow as its damping: what the steps add must be less. */
   const pendres_map map = {.force = force};
-  const double large = pendres_arc_large(&map, u), decay = two_pi * p.damping / p.drive_frequency;
+  const double large = pendres_arc_large(&map, u), decay = 2.0 * pendres_equation_fading(&p);
   if (large > 1.0 && decay > 0.0) tolerance = fmin(tolerance, map_undamped * large * decay);
   const pendres_status status = pendres_steps_choose(ctx, &p, speed, tolerance, steps);
   *steps += *steps % 2;
@@ -162,11 +163,17 @@ double pendres_arc_large(const pendres_map *map, const pendres_u u)
   return fmax(1.0, hypot(u[PENDRES_U_Y] - map->middle, u[PENDRES_U_W]) - 1.0);
 }
 
+double pendres_arc_damped(pendres_force force, const pendres_u u)
+{
+  const pendres_pendulum p = pendres_map_pendulum(force, u);
+  return scale_weak * fabs(pendres_equation_rate(&p));
+}
+
 /* Of y and w. At weak damping branches turn where orbits are small: there these count by their
    ratios. */
 static double state_scale(const pendres_map *map, const pendres_u u)
 {
-  const double least = fmax(scale_least, scale_weak * fabs(u[PENDRES_U_GAMMA]));
+  const double least = fmax(scale_least, pendres_arc_damped(map->force, u));
   const double large = pendres_arc_large(map, u);
   if (!(least < 1.0) || large > 1.0) return large;
   const double orbit = hypot(u[PENDRES_U_Y] - map->middle, u[PENDRES_U_W]);
@@ -223,7 +230,9 @@ static void read_image(const pendres_rows *rows, size_t lane, const pendres_map 
     out->j[i][i] -= 1.0;
   }
   out->trace = out->n[0][0] + out->n[1][1];
-  out->determinant = exp(-u[PENDRES_U_GAMMA] * time);
+  const pendres_pendulum p = pendres_map_pendulum(map->force, u);
+  const double computed = out->n[0][0] * out->n[1][1] - out->n[0][1] * out->n[1][0];
+  out->determinant = pendres_equation_left(pendres_equation_contraction(&p) * time, computed);
 }
 
 /* Points whose images are wanted, few enough for a block. */

@@ -19,7 +19,7 @@
  * born, and its fold where the strobe map itself has a flip, where orbits of period 2 are born: the
  * boundaries of the tongues of parametric resonance.
  *
- * N = DG has the known determinant exp(-gamma time) (Liouville). A fold has det(N - I) = 0, a flip
+ * N = DG has a determinant that is known by Liouville's formula. A fold has det(N - I) = 0, a flip
  * det(N + I) = 0: of the first map a flip is a period doubling, of the second the loss of mirror
  * symmetry. So a symmetric orbit's folds and symmetry breakings, both a Floquet multiplier +1, are
  * told apart by different equations. A cusp is a fold at which det(N - I) is stationary along
@@ -158,6 +158,10 @@ double pendres_arc_scale(const pendres_map *map, int i, const pendres_u u);
 /* What of it is due to a place far out, from 1 up: a state more than two lengths from the middle
    counts by its ratio to its distance less one. An angle does not, since its force has a period. */
 double pendres_arc_large(const pendres_map *map, const pendres_u u);
+
+/* The rate at which motions at u lose their energy, in units in which less than 1 is weak: both
+   multipliers of an orbit are then close to 1. */
+double pendres_arc_damped(pendres_force force, const pendres_u u);
 
 /* The same half way from a to b. */
 double pendres_arc_scale_between(const pendres_map *map, int i, const pendres_u a,

@@ -7,6 +7,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
+#include "model/equation.h"
 #include "orbits/numbers.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_reading.h"
@@ -22,18 +23,20 @@ void pendres_orbit_set_critical(pendres_special kind, int parameters,
                                 const pendres_parameter *parameter, const double *error,
                                 pendres_orbit *o)
 {
-  const double damping = o->pendulum.damping, omega = o->pendulum.drive_frequency;
-  const double time = two_pi * o->period / omega, product = exp(-damping * time);
+  const double rate = pendres_equation_contraction(&o->pendulum);
+  const double omega = o->pendulum.drive_frequency, time = two_pi * o->period / omega;
+  const double product = pendres_equation_left(rate * time, pendres_orbit_determinant(o));
   const double critical = kind == PENDRES_PERIOD_DOUBLING ? -1.0 : 1.0;
-  double off = DBL_EPSILON * (1.0 + damping * time); /* of the product, relative */
+  double off = DBL_EPSILON * (1.0 + rate * time); /* of the product, relative */
   for (int k = 0; k < parameters; k++) {
     if (parameter[k] == PENDRES_DAMPING) off += time * error[k];
-    if (parameter[k] == PENDRES_DRIVE_FREQUENCY) off += damping * time * error[k] / omega;
+    if (parameter[k] == PENDRES_DRIVE_FREQUENCY) off += rate * time * error[k] / omega;
   }
   o->multiplier_re[0] = critical;
   o->multiplier_re[1] = critical * product;
   o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
-  o->multiplier_error = product * off;
+  /* Computed, the product is known no better than the multipliers were. */
+  if (!isnan(rate)) o->multiplier_error = product * off;
   o->stable = 0;
 }
 

@@ -26,7 +26,7 @@ pendres_status pendres_solution_measure(pendres_context *ctx, size_t n,
 
 /*
  * The multipliers of an orbit at a bifurcation, whose parameters are known to these errors: one is
- * +1 or -1, and the product of both follows from the damping (Liouville). Those of the map that was
+ * +1 or -1, and the product of both follows from Liouville's formula. Those of the map that was
  * computed there differ from them, since it is a little off the bifurcation.
  */
 void pendres_orbit_set_critical(pendres_special kind, int parameters,

@@ -12,8 +12,9 @@
 #include "engine/room.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
-#include "orbits/orbit_table.h"
+#include "model/equation.h"
 #include "orbits/orbit_measure.h"
+#include "orbits/orbit_table.h"
 
 /* The share of a branch's way that goes along its parameter, where the state counts as it is, or
    far out by its ratio: errors are such lengths. */
@@ -262,6 +263,14 @@ static pendres_status polish_neighbours(pendres_context *ctx, pendres_curve *c)
     &room, status == PENDRES_OK ? pendres_curve_polish(ctx, c, n, index) : status);
 }
 
+/* Of the derivative over all of the orbit's period, where Liouville's formula does not tell it. */
+static double determinant_of(const pendres_map *map, const pendres_image *image)
+{
+  const int half = map->mirror == PENDRES_MIRROR_HALF ||
+                   (map->mirror == PENDRES_MIRROR_WHOLE && map->period > 1);
+  return half ? image->determinant * image->determinant : image->determinant;
+}
+
 /* The trace of the derivative over all of the orbit's period, from that of its map. */
 static double trace_of(const pendres_map *map, const pendres_image *image)
 {
@@ -282,7 +291,9 @@ static pendres_orbit coarse_orbit(const pendres_solution *pair, const pendres_im
   pendres_coordinates_out(&p, &place, &o.x, &o.v);
   o.period = pair->map.period;
   o.winding = pair->map.mirror ? 0 : pair->map.winding;
-  pendres_orbit_set_multipliers(trace_of(&pair->map, image), exp(-0.5 * p.damping * time), &o);
+  const double root = pendres_equation_left(0.5 * pendres_equation_contraction(&p) * time,
+                                            sqrt(fabs(determinant_of(&pair->map, image))));
+  pendres_orbit_set_multipliers(trace_of(&pair->map, image), root, &o);
   return o;
 }
 

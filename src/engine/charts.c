@@ -11,6 +11,7 @@
 #include "engine/coordinates.h"
 #include "engine/numbers.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 enum { PLACES = PENDRES_CHART_PLACES, SIDE = 2 * CHARTS_FAR };
@@ -70,7 +71,7 @@ static long periods_of(int number)
 int pendres_charts_worth(const pendres_context *ctx, const pendres_pendulum *p)
 {
   return ctx->options.method == PENDRES_BLOCK_FIXED && ctx->options.steps_per_period == 0 &&
-         p->damping > 0.0 && pendres_model_settling(p) >= charts_worth;
+         pendres_equation_undamped(p) == NULL && pendres_model_settling(p) >= charts_worth;
 }
 
 /* ---- what a context keeps ---- */

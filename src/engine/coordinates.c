@@ -5,6 +5,7 @@
 
 #include "base/angles.h"
 #include "base/numbers.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 /* What two_pi lacks, so that taking out many turns costs no digits. */
@@ -12,7 +13,8 @@ static const double two_pi_low = 2.4492935982947064e-16;
 
 const char *pendres_coordinates_refuses(const pendres_pendulum *p, double x, double v)
 {
-  const double w = p->drive_frequency, slowest = fmax(w, p->damping);
+  const double w = p->drive_frequency, drag = pendres_equation_drag(p, 0.0);
+  const double slowest = fmax(w, drag);
   if (!(isfinite(x) && isfinite(v))) return "position and velocity must be finite";
   if (!(fabs(x) <= pendres_farthest))
     return "beyond 1e15 double precision knows a position to a tenth of a radian at best";
@@ -22,7 +24,7 @@ const char *pendres_coordinates_refuses(const pendres_pendulum *p, double x, dou
     return "so strong a drive shakes the pendulum farther than 1e15, where its angle is not known";
   if (!(fabs(p->torque) / w / slowest <= pendres_farthest))
     return "so strong a torque turns the pendulum farther than 1e15, where its angle is not known";
-  if (!(p->damping / w <= pendres_farthest))
+  if (!(drag / w <= pendres_farthest))
     return "so strong a damping acts within less of a period than double precision can tell";
   if (!(isfinite(1.0 / (w * w)) && isfinite(p->drive_amplitude / (w * w)) &&
         isfinite(p->torque / (w * w))))
@@ -77,7 +79,7 @@ void pendres_coordinates_arrive(const pendres_pendulum *p, double *y, double *w,
 {
   static const double nothing = 1e-290;
   pendres_coordinates_wrap(p, y, turns);
-  if (p->drive_amplitude == 0.0 && p->torque == 0.0 && p->damping > 0.0 && fabs(*y) < nothing &&
-      fabs(*w) < nothing)
+  if (p->drive_amplitude == 0.0 && p->torque == 0.0 && pendres_equation_undamped(p) == NULL &&
+      fabs(*y) < nothing && fabs(*w) < nothing)
     *y = *w = 0.0;
 }

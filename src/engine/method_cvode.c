@@ -11,6 +11,7 @@
 #include "base/numbers.h"
 #include "engine/compat.h"
 #include "engine/method_one.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 /* What b->memory points to. */
@@ -90,15 +91,15 @@ static int jacobian(sunrealtype theta, N_Vector state, N_Vector f, SUNMatrix j, 
                     N_Vector t1, N_Vector t2, N_Vector t3)
 {
   const pendres_one *b = arg;
-  const double omega = b->p->drive_frequency;
+  const double *s = N_VGetArrayPointer(state), omega = b->p->drive_frequency;
   double force, by_y;
-  pendres_model_force(b->p, N_VGetArrayPointer(state)[0], &force, &by_y);
+  pendres_model_force(b->p, s[0], &force, &by_y);
   by_y *= 1.0 + b->p->parametric_amplitude * cos(theta);
   (void)f, (void)t1, (void)t2, (void)t3;
   SM_ELEMENT_D(j, 0, 0) = 0.0;
   SM_ELEMENT_D(j, 0, 1) = 1.0;
   SM_ELEMENT_D(j, 1, 0) = -by_y / (omega * omega);
-  SM_ELEMENT_D(j, 1, 1) = -b->p->damping / omega;
+  SM_ELEMENT_D(j, 1, 1) = -pendres_equation_drag(b->p, s[1] * omega) / omega;
   return 0;
 }
 

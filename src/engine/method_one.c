@@ -14,23 +14,14 @@
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one)
 {
   pendres_one *b = one;
-  const double *s = N_VGetArrayPointer(state), omega = b->p->drive_frequency;
+  const double *s = N_VGetArrayPointer(state);
   double *d = N_VGetArrayPointer(out);
   b->ctx->cost.rhs_evaluations += 1.0;
   if (++b->evaluations % PENDRES_STEPS_BETWEEN_CHECKS == 0 && !b->stopped)
     b->stopped = pendres_context_stops(b->ctx);
   if (b->stopped) return -1;
   d[0] = s[1];
-  if (pendres_model_kind(b->p) == PENDRES_MODEL_PLAIN) {
-    d[1] = (b->p->drive_amplitude * cos(theta) - sin(s[0])) / (omega * omega) -
-           b->p->damping / omega * s[1];
-    return 0;
-  }
-  double force, by_y;
-  pendres_model_force(b->p, s[0], &force, &by_y);
-  d[1] = (b->p->torque + b->p->drive_amplitude * cos(theta) -
-          force * (1.0 + b->p->parametric_amplitude * cos(theta))) / (omega * omega) -
-         b->p->damping / omega * s[1];
+  d[1] = pendres_model_slope(b->p, s[0], s[1], cos(theta));
   return 0;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/block.h"
 #include "engine/numbers.h"
 #include "engine/tables.h"
+#include "model/equation.h"
 
 int pendres_steps_rung(int n)
 {
@@ -144,14 +145,15 @@ double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
   if (!open_ended(p)) return fabs(v);
   /* At resonance a drive may lead to a speed that is limited by friction; beyond some speed the
      oscillation gets out of phase instead. */
-  const double driven = fmin(probe_fast, fabs(p->drive_amplitude) / p->damping);
+  const double driven = fmin(probe_fast, pendres_equation_speed(p, p->drive_amplitude));
   return fmax(driven, sqrt(fma(v, v, 2.0 * pendres_model_climb(p, x - pendres_model_origin(p)))));
 }
 
 double pendres_steps_turning_speed(const pendres_pendulum *p)
 {
-  const double driven = fabs(p->drive_amplitude) / hypot(p->drive_frequency, p->damping);
-  return 2.0 + driven + fabs(p->torque) / p->damping;
+  const double least = pendres_equation_drag(p, 0.0);
+  const double driven = fabs(p->drive_amplitude) / hypot(p->drive_frequency, least);
+  return 2.0 + driven + pendres_equation_speed(p, p->torque);
 }
 
 /* ---- probes ---- */
@@ -275,14 +277,15 @@ static double largest_error(const sight *coarse, const sight *fine)
 static double least_steps(const probed *of)
 {
   const double period = two_pi / of->pendulum.drive_frequency;
-  return fmax(period * of->pendulum.damping / step_stable, period * of->pace / step_longest);
+  const double drag = pendres_equation_drag(&of->pendulum, of->speed);
+  return fmax(period * drag / step_stable, period * of->pace / step_longest);
 }
 
 /* With a drive that moves a pendulum this far in a period there are less than two steps a turn. */
 static int shaken(const pendres_pendulum *p)
 {
   const double push = fabs(p->drive_amplitude) + fabs(p->torque);
-  const double speed = push / fmax(p->drive_frequency, p->damping);
+  const double speed = push / fmax(p->drive_frequency, pendres_equation_drag(p, 0.0));
   return speed / p->drive_frequency > 0.5 * PENDRES_MOST_STEPS;
 }
 
@@ -330,11 +333,12 @@ static pendres_status too_many(pendres_context *ctx, const cell *c, const pendre
 {
   pendres_pendulum worst;
   double fastest, tolerance;
+  const double drag = pendres_equation_drag(p, speed);
   worst_of(c, &worst, &fastest, &tolerance);
   const char *why = "the drive frequency at this tolerance";
   if (worst.drive_frequency > 0.0 && shaken(&worst)) why = "the drive amplitude";
-  else if (fmax(p->damping, speed / probe_fast) > 2.0)
-    why = p->damping > speed / probe_fast ? "the damping" : "the speed";
+  else if (fmax(drag, speed / probe_fast) > 2.0)
+    why = drag > speed / probe_fast ? "the damping" : "the speed";
   else if (fabs(p->drive_amplitude) > 2.0) why = "the drive amplitude at this tolerance";
   return pendres_context_fail(
     ctx, PENDRES_TOLERANCE_UNREACHABLE,

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "base/angles.h"
+#include "model/equation.h"
 #include "model/forces.h"
 #include "model/numbers.h"
 #include "model/parameter.h"
@@ -190,7 +190,7 @@ double pendres_model_origin(const pendres_pendulum *p)
 
 double pendres_model_settling(const pendres_pendulum *p)
 {
-  return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
+  return 1.0 / pendres_equation_fading(p);
 }
 
 /* ---- the scale of a force ---- */
@@ -244,11 +244,12 @@ double pendres_model_scale(const pendres_pendulum *p)
   return scale > 0.0 ? scale : 1.0;
 }
 
-/* Whether drive and torque can move a pendulum as far as `reach`: on average a drive balances the
-   damping at speeds below F0/damping, and at rest both together hold it. */
+/* Whether drive and torque can move a pendulum as far as `reach`: on average a drive balances
+   friction up to some speed, and at rest both together hold it. */
 static int reached(const pendres_pendulum *p, double reach)
 {
-  const double speed = p->drive_amplitude / p->damping, climb = pendres_model_climb(p, reach);
+  const double speed = pendres_equation_speed(p, p->drive_amplitude);
+  const double climb = pendres_model_climb(p, reach);
   return climb <= 0.5 * speed * speed ||
          climb <= (fabs(p->drive_amplitude) + fabs(p->torque)) * reach;
 }

@@ -87,7 +87,10 @@ int pendres_model_is_linear(const pendres_pendulum *p);
 /* Whether two pendulums have the same parameters, but for the temperature. */
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b);
 
-/* Derivatives of the acceleration by x and v: *dx = -f'(x), *dv = -damping. The parametric drive,
+/* dw/dtheta at y and w = v/omega, at a drive phase theta of that cosine. */
+double pendres_model_slope(const pendres_pendulum *p, double y, double w, double cosine);
+
+/* Derivatives of the acceleration by x and v: *dx = -f'(x), *dv = -h'(v). The parametric drive,
     which multiplies *dx by 1 + parametric_amplitude cos(drive_frequency t), is left out. dx and dv
     may be NULL. If p is NULL, *dx is that of the plain pendulum and *dv is NaN. */
 void pendres_model_jacobian(const pendres_pendulum *p, double x, double v,

@@ -10,6 +10,7 @@
 #include <gsl/gsl_sf_ellint.h>
 
 #include "base/angles.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **why)
@@ -34,16 +35,25 @@ double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double
   if (p == NULL || pendres_model_of(p->force) == NULL) return NAN;
   const double drive = cos(p->drive_frequency * t);
   if (pendres_model_kind(p) == PENDRES_MODEL_PLAIN)
-    return cos(x) - p->damping * v + p->drive_amplitude * drive;
+    return cos(x) - pendres_equation_friction(p, v) * v + p->drive_amplitude * drive;
   double force, slope;
   pendres_model_force(p, x - pendres_model_of(p->force)->origin, &force, &slope);
-  return p->torque + p->drive_amplitude * drive - p->damping * v -
+  return p->torque + p->drive_amplitude * drive - pendres_equation_friction(p, v) * v -
          force * (1.0 + p->parametric_amplitude * drive);
+}
+
+double pendres_model_slope(const pendres_pendulum *p, double y, double w, double cosine)
+{
+  const double omega = p->drive_frequency;
+  double force, slope;
+  pendres_model_force(p, y, &force, &slope);
+  const double push =
+    p->torque + p->drive_amplitude * cosine - force * (1.0 + p->parametric_amplitude * cosine);
+  return push / (omega * omega) - pendres_equation_friction(p, w * omega) / omega * w;
 }
 
 void pendres_model_jacobian(const pendres_pendulum *p, double x, double v, double *dx, double *dv)
 {
-  (void)v;
   if (dx != NULL && p != NULL && pendres_model_of(p->force) == NULL) {
     *dx = NAN;
   } else if (dx != NULL && p != NULL && p->force != PENDRES_FORCE_PENDULUM) {
@@ -53,7 +63,7 @@ void pendres_model_jacobian(const pendres_pendulum *p, double x, double v, doubl
   } else if (dx != NULL) {
     *dx = -sin(x);
   }
-  if (dv != NULL) *dv = p != NULL ? -p->damping : NAN;
+  if (dv != NULL) *dv = p != NULL ? -pendres_equation_drag(p, v) : NAN;
 }
 
 double pendres_pendulum_energy(const pendres_pendulum *p, double x, double v)

@@ -14,6 +14,7 @@
 
 #include "base/angles.h"
 #include "engine/coordinates.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "model/units.h"
 #include "noise/noise_common.h"
@@ -101,12 +102,13 @@ static pendres_status theory(const pendres_pendulum *p, double x, double v, int 
   return pendres_langevin_lyapunov(out->monodromy, &out->injected, &out->covariance);
 }
 
-/* By Liouville's theorem the determinant of M is exp(-gamma t): where it is not, the steps are too
- * long for the force. */
+/* Where the determinant of M is not that of Liouville's formula, the steps are too long for the
+ * force. */
 static int is_resolved(const pendres_pendulum *p, int cycle, const pendres_langevin_linear *l)
 {
   const double *m = l->monodromy, ad = m[0] * m[3], bc = m[1] * m[2];
-  const double want = exp(-p->damping * cycle * two_pi / p->drive_frequency);
+  const double want = pendres_equation_left(
+    pendres_equation_contraction(p) * cycle * two_pi / p->drive_frequency, ad - bc);
   return fabs(ad - bc - want) <= linear_resolved * (1.0 + fabs(ad) + fabs(bc));
 }
 
@@ -117,7 +119,8 @@ static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, 
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
       pendres_coordinates_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
-  const double unit = two_pi / pendulum->drive_frequency * fmax(1.0, pendulum->damping);
+  const double fastest = fmax(1.0, pendres_equation_rate(pendulum));
+  const double unit = two_pi / pendulum->drive_frequency * fastest;
   const double fewest = fmin(PENDRES_MOST_STEPS, ceil(linear_steps * unit));
   double steps = fewest;
   if (!(cycle * steps <= PENDRES_MOST_SOLVER_STEPS)) return PENDRES_TOLERANCE_UNREACHABLE;

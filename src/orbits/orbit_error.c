@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/coordinates.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "orbits/numbers.h"
 #include "orbits/orbit_newton.h"
@@ -162,8 +163,10 @@ static void set_spectrum(const pendres_orbit_twice *two, pendres_orbit *o)
 {
   double m[2][2];
   const double left = matrix_at(two, m), omega = o->pendulum.drive_frequency;
-  const double modulus = exp(-o->pendulum.damping * o->period * pi / omega);
   const double trace = m[0][0] + m[1][1], determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  const double rate = pendres_equation_contraction(&o->pendulum);
+  const double modulus =
+    pendres_equation_left(rate * o->period * pi / omega, sqrt(fabs(determinant)));
   double trace_error = trace_error_of(two, (const double (*)[2])m, left);
 
   o->monodromy[0][0] = m[0][0];

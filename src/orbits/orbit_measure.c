@@ -7,32 +7,20 @@
 #include "base/angles.h"
 #include "model/model.h"
 
-/* All of the force but friction, at a drive phase of that cosine. */
-static double force_on(const pendres_pendulum *p, double y, double cosine)
-{
-  double force, slope;
-  pendres_model_force(p, y, &force, &slope);
-  return p->torque + p->drive_amplitude * cosine - force * (1.0 + p->parametric_amplitude * cosine);
-}
-
 pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
                                             const pendres_orbit_samples *s, double *work,
                                             pendres_orbit_series *out)
 {
   const size_t n = s->n;
   const double spacing = two_pi * s->period / (double)n, q = s->period;
-  const double square = p->drive_frequency * p->drive_frequency;
-  const int plain = pendres_model_kind(p) == PENDRES_MODEL_PLAIN;
   double *const sample[3] = {work, work + n, work + 2 * n};
   const double *cosine = pendres_orbit_tables_cosine(s->tables, n, s->period);
   if (cosine == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t k = 0; k < n; k++) {
     const double theta = spacing * (double)k;
-    const double force = plain ? p->drive_amplitude * cosine[k] - sin(s->y[k])
-                               : force_on(p, s->y[k], cosine[k]);
     sample[0][k] = s->y[k] - s->winding * theta / q;
     sample[1][k] = q * s->w[k] - s->winding;
-    sample[2][k] = q * q * (force / square - p->damping / p->drive_frequency * s->w[k]);
+    sample[2][k] = q * q * pendres_model_slope(p, s->y[k], s->w[k], cosine[k]);
   }
   return pendres_orbit_series_build(s->tables, n, sample, work + 3 * n, out);
 }
@@ -158,4 +146,9 @@ void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *
     o->multiplier_re[1] = modulus * share / larger;
   }
   o->stable = hypot(o->multiplier_re[0], o->multiplier_im[0]) < 1.0;
+}
+
+double pendres_orbit_determinant(const pendres_orbit *o)
+{
+  return o->monodromy[0][0] * o->monodromy[1][1] - o->monodromy[0][1] * o->monodromy[1][0];
 }

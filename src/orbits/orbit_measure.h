@@ -74,9 +74,13 @@ double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitud
 
 /*
  * Multipliers from the trace of the monodromy matrix and their geometric mean modulus, which is
- * known exactly (Liouville): exp(-damping time / 2); and whether both are inside the unit circle.
+ * known exactly by Liouville's formula where friction is linear; and whether both are inside the
+ * unit circle.
  */
 void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *o);
+
+/* Of the monodromy matrix, from its entries: without digits where areas contract by many. */
+double pendres_orbit_determinant(const pendres_orbit *o);
 
 /* Half the peak-to-peak of a Fourier series given by its harmonics 1, 2, ... */
 double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],

@@ -13,6 +13,7 @@
 #include "engine/door.h"
 #include "engine/coordinates.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
@@ -49,10 +50,10 @@ static pendres_status check_ends(pendres_context *ctx, size_t n, const pendres_s
   return PENDRES_OK;
 }
 
-/* How many periods leave their errors at the end: errors fade as exp(-gamma t / 2). */
+/* How many periods leave their errors at the end: errors fade in proportion. */
 static double periods_that_count(const pendres_pendulum *p, long periods)
 {
-  const double decay = -expm1(-0.5 * p->damping * two_pi / p->drive_frequency);
+  const double decay = -expm1(-pendres_equation_fading(p));
   return 1.0 / fmax(decay, 1.0 / fmax(1.0, (double)periods));
 }
 
@@ -108,7 +109,7 @@ static double drift_of(const pendres_strobe_lane *l)
   pendres_model_force(p, l->y, &force, &slope);
   const double v = l->w * p->drive_frequency;
   const double pull = p->torque + p->drive_amplitude - (1.0 + p->parametric_amplitude) * force;
-  return late * fmax(fabs(v), fabs(pull - p->damping * v));
+  return late * fmax(fabs(v), fabs(pull - pendres_equation_friction(p, v) * v));
 }
 
 /*

@@ -18,6 +18,7 @@
 #include "engine/coordinates.h"
 #include "engine/door.h"
 #include "engine/room.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
@@ -177,8 +178,8 @@ static pendres_status find_distances(pendres_context *ctx, const pendres_boundar
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) order[i] = &curve->node[i];
   qsort(order, n, sizeof *order, by_generation);
-  measuring m = {.seed = seed, .forward = seed->backward, .curve = curve, .order = order};
-  m.forward.damping = -m.forward.damping;
+  measuring m = {.seed = seed, .forward = pendres_equation_reversed(&seed->backward),
+                 .curve = curve, .order = order};
   return pendres_room_close(&room, pendres_team_run(ctx, n, BOUNDARY_TOGETHER, measure_some, &m));
 }
 
@@ -297,7 +298,7 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
   const char *why = NULL;
   if (options != NULL) o = *options;
   why = resolve(&saddle->pendulum, &o);
-  if (why == NULL && !(saddle->pendulum.damping > 0.0)) why = "without damping there are no basins";
+  if (why == NULL) why = pendres_equation_undamped(&saddle->pendulum);
   if (why == NULL && saddle->stable) why = "no curve of an attractor bounds its basin";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", why);
 

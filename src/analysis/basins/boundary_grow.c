@@ -13,6 +13,7 @@
 #include "engine/coordinates.h"
 #include "engine/strobe_run.h"
 #include "engine/team.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 static const double far_before = -1e4; /* a seed parameter on the saddle */
@@ -97,7 +98,7 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
   const double across[2] = {-stable[1], stable[0]};
   const double l_across = left[0] * across[0] + left[1] * across[1];
   *seed = (pendres_boundary_seed){
-    .backward = saddle->pendulum,
+    .backward = pendres_equation_reversed(&saddle->pendulum),
     .iterates = saddle->period * (small < 0.0 ? 2 : 1),
     .steps = steps,
     .y = u[PENDRES_U_Y],
@@ -108,7 +109,6 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
     .bend = 0.5 * second / ((small * small - large) * l_across),
     .start = boundary_start,
     .ratio = pow(1.0 / fabs(small), small < 0.0 ? 2.0 : 1.0)};
-  seed->backward.damping = -saddle->pendulum.damping;
   return PENDRES_OK;
 }
 
@@ -377,7 +377,8 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
 }
 
 /*
- * Going back in time, d(energy)/dt = damping v^2 -+ push v >= 0 while |v| >= push/damping, and the
+ * Going back in time, friction gives more energy than the push can take while |v| is
+ * above the speed at which the two balance, and the
  * potential of a pendulum varies by 2: faster than out_v, |v| never falls below `speed` again. The
  * push is what drive, torque and parametric drive can do at most. Other potentials vary by more, or
  * without bound, and their states are followed to twice the window's size around it.
@@ -392,7 +393,7 @@ static front front_of(const pendres_boundary_seed *seed, const pendres_boundary_
                    .out_low = o->x_low - 0.5 * width, .out_high = o->x_high + 0.5 * width};
   }
   const double push = fabs(p->drive_amplitude) + fabs(p->torque) + fabs(p->parametric_amplitude);
-  const double speed = fmax(most, push / -p->damping);
+  const double speed = fmax(most, pendres_equation_speed(p, push));
   return (front){.seed = seed, .options = o, .out_v = sqrt(speed * speed + 4.0),
                  .out_low = -INFINITY, .out_high = INFINITY};
 }

@@ -16,7 +16,7 @@
  * was. In (y, w) of the backward pendulum, whose w has the opposite sign.
  */
 typedef struct pendres_boundary_seed {
-  pendres_pendulum backward; /* with negative damping */
+  pendres_pendulum backward; /* in time */
   int iterates;              /* drive periods of the map that keeps the side */
   int steps;
   double y, w;               /* the saddle, w reversed */

@@ -10,6 +10,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/team.h"
+#include "model/equation.h"
 
 enum {
   BINS = PENDRES_CORRELATION_SCALES,
@@ -230,12 +231,13 @@ pendres_status pendres_correlation_find(pendres_context *ctx, const pendres_sect
 double pendres_lyapunov_dimension(const pendres_pendulum *p, double exponent,
                                   double exponent_error, double *error)
 {
-  const int known = pendres_pendulum_check(p, NULL) == PENDRES_OK && p->damping > 0.0 &&
-                    isfinite(exponent) && exponent != 0.0;
+  const double rate =
+    pendres_pendulum_check(p, NULL) == PENDRES_OK ? pendres_equation_contraction(p) : NAN;
+  const int known = rate > 0.0 && isfinite(exponent) && exponent != 0.0;
   if (error != NULL) *error = NAN;
   if (!known) return NAN;
-  const double both = exponent + p->damping;
+  const double both = exponent + rate;
   if (error != NULL)
-    *error = exponent < 0.0 ? 0.0 : p->damping / (both * both) * fabs(exponent_error);
+    *error = exponent < 0.0 ? 0.0 : rate / (both * both) * fabs(exponent_error);
   return exponent < 0.0 ? 0.0 : 1.0 + exponent / both;
 }

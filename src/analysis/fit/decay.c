@@ -13,6 +13,7 @@
 #include "base/angles.h"
 #include "engine/block.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 
 enum { STARTS = 2, COLUMNS = STARTS + PENDRES_PARAMETER_FOLLOWED };
 
@@ -223,7 +224,8 @@ static pendres_status begin(decay *d, const fit_values v, pendres_room *room)
   d->w[0] = w;
   for (int c = 0; c < STARTS; c++) d->by[c][c] = 1.0;
   /* Errors of the phase add up until the motion has decayed. */
-  const double count = fmin(periods, 1.0 + 2.0 / (two_pi * d->pendulum.damping + 1e-12));
+  const double lost = two_pi * pendres_equation_rate(&d->pendulum);
+  const double count = fmin(periods, 1.0 + 2.0 / (lost + 1e-12));
   const double x = y + pendres_model_of(m->base.force)->origin;
   const pendres_status status =
     pendres_steps_choose(m->ctx, &d->pendulum, pendres_steps_speed(&d->pendulum, x, w),

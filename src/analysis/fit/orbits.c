@@ -7,6 +7,7 @@
 #include "base/angles.h"
 #include "continuation/parameter.h"
 #include "engine/block.h"
+#include "model/equation.h"
 
 /* One lane: its samples on the closed orbit, and their derivatives by the fit's parameters. */
 typedef struct orbit {
@@ -116,7 +117,11 @@ static int close_orbit(orbit *o, fit_lane *l)
     l->axis_by_lag =
       -inv[2][2] * in_phase(o, PENDRES_ROW_Y, -l->turn[1], l->turn[0]) * o->scale;
   const double trace = sample(o, end, PENDRES_ROW_BY_Y) + sample(o, end, PENDRES_ROW_BY_W + 1);
-  const double det = exp(-l->u[PENDRES_U_GAMMA] * two_pi / l->u[PENDRES_U_OMEGA]);
+  const pendres_pendulum p = pendres_map_pendulum(o->m->base.force, l->u);
+  const double det = pendres_equation_left(
+    pendres_equation_contraction(&p) * two_pi / p.drive_frequency,
+    sample(o, end, PENDRES_ROW_BY_Y) * sample(o, end, PENDRES_ROW_BY_W + 1) -
+      sample(o, end, PENDRES_ROW_BY_Y + 1) * sample(o, end, PENDRES_ROW_BY_W));
   l->stable = 1.0 - trace + det > 0.0 && 1.0 + trace + det > 0.0;
   l->moved = sqrt(o->shift[0] * o->shift[0] + o->shift[1] * o->shift[1] +
                   o->shift[2] * o->shift[2]);

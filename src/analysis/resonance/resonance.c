@@ -12,6 +12,7 @@
 #include "engine/strobe_run.h"
 #include "analysis/resonance/search.h"
 #include "analysis/resonance/response_parts.h"
+#include "model/equation.h"
 
 /* A resonance that is not known: its numbers are NaN. */
 static void clear(pendres_resonance *out)
@@ -60,7 +61,7 @@ static const char *refuses(const pendres_pendulum *p, double lowest, double high
 /* Without a drive there is nothing to scan, and a pendulum at the upright position stays there. */
 static int is_at_rest(const pendres_pendulum *p)
 {
-  return p->drive_amplitude == 0.0 && p->damping > 0.0;
+  return p->drive_amplitude == 0.0 && pendres_equation_undamped(p) == NULL;
 }
 
 pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,

@@ -9,6 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "settling/attractor_internal.h"
 #include "orbits/orbit_measure.h"
@@ -312,7 +313,7 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
   for (size_t i = 0; i < n; i++) {
     if (pendres_pendulum_check(&pendulums[i], &why) == PENDRES_OK) {
       why = pendres_response_refuses(&pendulums[i], ensemble);
-      if (pendulums[i].damping == 0.0) why = "without damping nothing settles";
+      if (why == NULL) why = pendres_equation_undamped(&pendulums[i]);
     }
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);

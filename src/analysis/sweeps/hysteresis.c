@@ -16,6 +16,7 @@
 #include "analysis/sweeps/hysteresis_unlocked.h"
 #include "settling/exponents/lyapunov_move.h"
 #include "analysis/sweeps/numbers.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "model/parameter.h"
 
@@ -290,8 +291,7 @@ pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hys
   for (size_t i = 0; i < w->n; i++) {
     const char *why = NULL;
     const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
-    if (pendres_pendulum_check(&p, &why) == PENDRES_OK && p.damping == 0.0)
-      why = "without damping nothing settles";
+    if (pendres_pendulum_check(&p, &why) == PENDRES_OK) why = pendres_equation_undamped(&p);
     if (why != NULL)
       return pendres_context_fail(w->ctx, PENDRES_INVALID_ARGUMENT, "value %zu of the path: %s", i,
                                   why);

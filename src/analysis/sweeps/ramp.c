@@ -10,6 +10,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
+#include "model/equation.h"
 #include "model/parameter.h"
 #include "noise/langevin_internal.h"
 #include "settling/trapping/escape.h"
@@ -93,9 +94,9 @@ static pendres_status check(pendres_context *ctx, const pendres_ramp *r)
   for (size_t i = 0; i < r->corners; i++) {
     const pendres_status status = pendres_langevin_moving_accept(ctx, &run, (double)r->period[i]);
     if (status != PENDRES_OK) return status;
-    if (!(pendulum_at(&m, (double)r->period[i]).damping > 0.0))
-      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                  "without damping a pendulum does not stay in a state");
+    const pendres_pendulum p = pendulum_at(&m, (double)r->period[i]);
+    why = pendres_equation_undamped(&p);
+    if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   }
   return PENDRES_OK;
 }
@@ -124,7 +125,7 @@ static pendres_status probe(pendres_context *ctx, const motion *m,
 {
   pendres_pendulum p = pendulum_with(m, point->value);
   p.temperature = 0.0;
-  const double lost = -expm1(-0.5 * p.damping * two_pi / p.drive_frequency);
+  const double lost = -expm1(-pendres_equation_fading(&p));
   double end[2][2];
   pendres_status status = PENDRES_OK;
   for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
@@ -232,7 +233,7 @@ static double left_after(const pendres_ramp *r, double time, double periods)
 {
   motion m = {.ramp = r, .clock = 1};
   const pendres_pendulum p = pendulum_at(&m, time);
-  return exp(-0.5 * p.damping * two_pi / p.drive_frequency * periods);
+  return exp(-pendres_equation_fading(&p) * periods);
 }
 
 /* The rounding errors of the steps that have not died away yet. */

@@ -9,6 +9,7 @@
 #include "engine/context_internal.h"
 #include "analysis/sweeps/hysteresis_jump.h"
 #include "analysis/sweeps/numbers.h"
+#include "model/equation.h"
 
 /* ---- what states look like ---- */
 
@@ -40,7 +41,7 @@ static double own_time(const pendres_ramp *r, const pendres_hysteresis_point *p)
   if (pendres_settled_closed(&p->attractor) && driven(r)) return o->period;
   if (isfinite(turn)) return driven(r) ? fmax(1.0, turn) : turn;
   const double decay = -o->period / log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
-  const double free = o->pendulum.drive_frequency / (two_pi * o->pendulum.damping);
+  const double free = 0.5 / pendres_equation_fading(&o->pendulum);
   return driven(r) ? 1.0 : decay > 0.0 && isfinite(decay) ? decay : free;
 }
 
@@ -134,7 +135,7 @@ static long patience(const pendres_ramp_watch *w, const pendres_ramp_gate *g, do
   const pendres_ramp *r = w->ramp;
   const pendres_pendulum p =
     pendres_parameter_with(&r->pendulum, r->parameter, pendres_ramp_value(r, time));
-  const double fading = 2.0 * p.drive_frequency / (p.damping * two_pi);
+  const double fading = 1.0 / pendres_equation_fading(&p);
   const double own = driven(r) ? 0.0 : ramp_own_times * g->own;
   return (long)fmin(1e6, ceil((fading + own) * (double)w->clock / (double)g->parts));
 }

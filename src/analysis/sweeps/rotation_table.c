@@ -10,6 +10,7 @@
 #include "analysis/sweeps/numbers.h"
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "model/equation.h"
 
 enum {
   NODES = 25,     /* of an interpolation */
@@ -254,7 +255,7 @@ pendres_status pendres_rotation_reached(pendres_context *ctx, const pendres_pend
   /* Without a drive any clock will do: this one ticks about once an oscillation. */
   pendres_pendulum q = *p;
   q.drive_frequency = 1.0;
-  const long most = TABLE_WATCHED + (long)(TABLE_WATCHED / (two_pi * p->damping));
+  const long most = TABLE_WATCHED + (long)(0.5 * TABLE_WATCHED / pendres_equation_fading(&q));
   for (long k = 0; k < most && !*reached; k++) {
     const double before = passed(p, x);
     const pendres_status status = pendres_strobe_advance(ctx, 1, &q, &x, &v, 1, NULL);

@@ -8,6 +8,7 @@
 #include "engine/block.h"
 #include "engine/room.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "settling/trapping/numbers.h"
 
@@ -56,7 +57,8 @@ static double most_beside(const pendres_pendulum *p)
 static pendres_escape_beside beside_of(const pendres_pendulum *p, const spring_period *s)
 {
   const double (*m)[2] = s->end, spacing = two_pi / (double)s->steps;
-  const double loss = p->damping / p->drive_frequency, half = 0.5 * (m[0][0] + m[1][1]);
+  const double loss = pendres_equation_contraction(p) / p->drive_frequency;
+  const double half = 0.5 * (m[0][0] + m[1][1]);
   const double root = half * half - exp(-two_pi * loss);
   const double mu = half + copysign(sqrt(fmax(0.0, root)), half);
   if (!(root > 0.0 && fabs(mu) - 1.0 > escape_grows)) return (pendres_escape_beside){0.0, 0.0};

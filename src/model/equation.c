@@ -1,0 +1,50 @@
+/* equation.c -- what follows from a pendulum's friction; see equation.h. */
+#include "model/equation.h"
+
+#include <stddef.h>
+
+#include "base/angles.h"
+
+double pendres_equation_friction(const pendres_pendulum *p, double v)
+{
+  (void)v;
+  return p->damping;
+}
+
+double pendres_equation_drag(const pendres_pendulum *p, double v)
+{
+  (void)v;
+  return p->damping;
+}
+
+double pendres_equation_contraction(const pendres_pendulum *p)
+{
+  return p->damping;
+}
+
+const char *pendres_equation_undamped(const pendres_pendulum *p)
+{
+  return p->damping > 0.0 ? NULL : "without damping nothing settles";
+}
+
+double pendres_equation_speed(const pendres_pendulum *p, double push)
+{
+  return fabs(push) / fabs(p->damping);
+}
+
+double pendres_equation_rate(const pendres_pendulum *p)
+{
+  return p->damping;
+}
+
+double pendres_equation_fading(const pendres_pendulum *p)
+{
+  return 0.5 * pendres_equation_rate(p) * two_pi / p->drive_frequency;
+}
+
+pendres_pendulum pendres_equation_reversed(const pendres_pendulum *p)
+{
+  pendres_pendulum back = *p;
+  back.damping = -p->damping;
+  return back;
+}
