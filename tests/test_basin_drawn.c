@@ -245,9 +245,34 @@ static void cantor_set(void **state)
   check_near(s.uncertainty_exponent, exact, 0.05);
 }
 
+/* States at rest on top of a barrier, as the middle column here, are an answer, and no error. */
+static void rest_is_an_answer(void **state)
+{
+  enum { ROWS = 40, N = 50, TOP = 25 };
+  double *x = spaced(ROWS, 0.0, 1.0), *v = spaced(N, 0.0, 1.0), error[2][2];
+  const pendres_basin_grid grid = {.nx = ROWS, .nv = N, .x = x, .v = v};
+  (void)state;
+  for (int rest = 0; rest < 2; rest++) {
+    pendres_basin_state row[N] = {{0}};
+    pendres_basin_sums *sums = NULL;
+    pendres_basin_statistics s;
+    for (int j = 0; j < N; j++) row[j].attractor = j > TOP;
+    row[TOP].attractor = rest ? PENDRES_ATTRACTOR_UNSTABLE : PENDRES_ATTRACTOR_UNKNOWN;
+    check_ok(pendres_basin_sums_create(&grid, 2, &sums));
+    for (int i = 0; i < ROWS; i++) check_ok(pendres_basin_sums_add(sums, 1, row));
+    check_ok(pendres_basin_sums_result(sums, &s, NULL, error[rest]));
+    assert_int_equal(s.unresolved, rest ? 0 : ROWS);
+    pendres_basin_sums_free(sums);
+  }
+  check_near(error[0][0] - error[1][0], 1.0 / (N - 1), 1e-12); /* the column's share of the area */
+  free(x);
+  free(v);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(rest_is_an_answer),
     cmocka_unit_test(pictures),
     cmocka_unit_test(straight_boundary),
     cmocka_unit_test(tossed),

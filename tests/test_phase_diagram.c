@@ -241,6 +241,24 @@ static void others_are_told(void **state)
   pendres_context_free(ctx);
 }
 
+/* Without any drive a member on top of the barrier rests there, which is an answer. */
+static void rest_is_told(void **state)
+{
+  const pendres_pendulum at = {.force = PENDRES_FORCE_POLYNOMIAL, .damping = 0.2,
+                               .drive_frequency = 1.0, .force_coefficients = {-1.0, 0.0, 1.0}};
+  pendres_ensemble e = pendres_ensemble_default();
+  pendres_context *ctx = context_of(1e-8);
+  pendres_phase_point point;
+  (void)state;
+  e.members = 2;
+  e.x_first = -0.5;
+  e.x_last = 0.5;
+  check_ok(pendres_phase_line(ctx, 1, &at, with(&e), &point, NULL));
+  assert_true((point.other & PENDRES_OTHER_UNSTABLE) != 0);
+  assert_true((point.other & PENDRES_OTHER_UNRESOLVED) == 0 && point.unresolved == 0);
+  pendres_context_free(ctx);
+}
+
 /* ---- what curves through other dampings know ---- */
 
 static void mistakes_are_told(void **state)
@@ -274,6 +292,7 @@ int main(void)
     cmocka_unit_test(cusp_parts_the_regimes),
     cmocka_unit_test(basins_can_miss_the_members),
     cmocka_unit_test(others_are_told),
+    cmocka_unit_test(rest_is_told),
     cmocka_unit_test(mistakes_are_told),
     cmocka_unit_test(large_folds_name_nothing),
     cmocka_unit_test(branches_end_otherwise),

@@ -73,7 +73,8 @@ typedef enum pendres_other {
   PENDRES_OTHER_RUNNING = 4,    /**< an orbit that closes up to whole turns: its winding is not 0 */
   PENDRES_OTHER_CHAOTIC = 8,    /**< a chaotic attractor */
   PENDRES_OTHER_UNRESOLVED = 16, /**< some member did not settle within its budget */
-  PENDRES_OTHER_ESCAPE = 32     /**< some member escapes to infinity */
+  PENDRES_OTHER_ESCAPE = 32,    /**< some member escapes to infinity */
+  PENDRES_OTHER_UNSTABLE = 64   /**< some member rests in an unstable state, without any drive */
 } pendres_other;
 
 /** One point of the diagram. Amplitudes are in rad, the loop area is the work of the drive in one
@@ -81,8 +82,12 @@ typedef enum pendres_other {
 typedef struct pendres_phase_point {
   pendres_pendulum pendulum;  /**< the parameters there */
   pendres_regime regime;      /**< by the members that settled */
-  pendres_regime exact;       /**< by the branches: which of SA and LA exist as attractors;
-                                   PENDRES_REGIME_OTHER only where neither does */
+  pendres_regime exact;       /**< by the branches: which of SA and LA are known as attractors,
+                                   PENDRES_REGIME_OTHER only where neither is. Known are states that
+                                   members of the line reach, what is on branches through these and,
+                                   but for the plain pendulum, on detached ones near free
+                                   oscillations of the drive's frequency. Orbits of several drive
+                                   periods are not looked for apart from members */
   int other;                  /**< bits of pendres_other */
   size_t unresolved;          /**< members that did not settle within their budget */
   double sa_fraction;         /**< share of the members on SA, 0 to 1; NaN where regime is

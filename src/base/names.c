@@ -33,7 +33,8 @@ static const struct {
   [PENDRES_NAMES_PEAK] = {.name = {"smooth", "edge", "ragged"}},
   [PENDRES_NAMES_REGIME] = {.name = {PENDRES_REGIME_LIST(SECOND)}},
   [PENDRES_NAMES_OTHER] =
-    {.bits = 1, .name = {"asymmetric", "periodic", "running", "chaotic", "unresolved", "escape"}},
+    {.bits = 1,
+     .name = {"asymmetric", "periodic", "running", "chaotic", "unresolved", "escape", "unstable"}},
   [PENDRES_NAMES_BASIN_END] = {.name = {"attractor", "well"}},
   [PENDRES_NAMES_BASIN_HOW] = {.name = {"integrated", "filled", "deferred", "uncertain"}},
   [PENDRES_NAMES_LANGEVIN_ANSWER] = {.name = {"go_on", "enough", "stop"}},

@@ -23,7 +23,7 @@ struct pendres_basin_sums {
   double step;        /* of v */
   size_t rows;        /* added so far */
   double *x_share, *v_share; /* of the window that belongs to each row and column of states */
-  member *members;    /* the last two: what is unresolved, and what escapes */
+  member *members;    /* the last three: what is unresolved, what escapes, and unstable rest */
   pendres_basin_end by;
   int64_t *box_rows;  /* ends of the rows of unfinished boxes */
   uint8_t *box_uncertain; /* states of them that are uncertain, by column */
@@ -82,7 +82,7 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
     s->scales++;
   s->x_share = shares_of(grid->nx, grid->x);
   s->v_share = shares_of(grid->nv, grid->v);
-  s->members = calloc(attractors + 2, sizeof *s->members);
+  s->members = calloc(attractors + 3, sizeof *s->members);
   s->box_rows = calloc(BOX * grid->nv, sizeof *s->box_rows);
   s->box_uncertain = calloc(grid->nv, sizeof *s->box_uncertain);
   if (s->x_share == NULL || s->v_share == NULL || s->members == NULL ||
@@ -175,7 +175,7 @@ static void add_share(const pendres_basin_sums *s, size_t row, member *m)
 
 static void add_shares(pendres_basin_sums *s, size_t row)
 {
-  for (size_t a = 0; a <= s->attractors + 1; a++) add_share(s, row, &s->members[a]);
+  for (size_t a = 0; a <= s->attractors + 2; a++) add_share(s, row, &s->members[a]);
   for (size_t i = 0; i < s->tally.places; i++)
     if (s->tally.place[i].well.states > 0) add_share(s, row, &s->tally.place[i].sums);
 }
@@ -198,11 +198,13 @@ static void count_unlike(pendres_basin_sums *s, const int64_t *a)
   }
 }
 
-/* The attractor of a state; their number if it is unresolved, and one more if it escapes. */
+/* The attractor of a state; their number if it is unresolved, one more if it escapes, and two if it
+   rests in an unstable state. */
 static size_t attractor_of(const pendres_basin_sums *s, const pendres_basin_state *state)
 {
   const int known = state->attractor >= 0 && (size_t)state->attractor < s->attractors;
   if (state->attractor == PENDRES_ATTRACTOR_ESCAPED) return s->attractors + 1;
+  if (state->attractor == PENDRES_ATTRACTOR_UNSTABLE) return s->attractors + 2;
   return known ? (size_t)state->attractor : s->attractors;
 }
 

@@ -55,6 +55,7 @@ static void judge_ensemble(const pendres_small_end *end, const pendres_label_sta
   }
   if (r->unresolved > 0) p->other |= PENDRES_OTHER_UNRESOLVED;
   if (r->escaped > 0) p->other |= PENDRES_OTHER_ESCAPE;
+  if (r->unstable > 0) p->other |= PENDRES_OTHER_UNSTABLE;
   p->unresolved = r->unresolved;
   p->escaped = r->escaped;
   p->uncertain = r->uncertain;

@@ -66,7 +66,7 @@ static int point_fits(const pendres_phase_point *p)
 {
   return (unsigned)p->pendulum.force < PENDRES_FORCE_COUNT &&
          (unsigned)p->regime < PENDRES_REGIME_COUNT && (unsigned)p->exact < PENDRES_REGIME_COUNT &&
-         (unsigned)p->other < 2 * PENDRES_OTHER_ESCAPE;
+         (unsigned)p->other < 2 * PENDRES_OTHER_UNSTABLE;
 }
 
 static int line_fits(const pendres_phase_done *l)
