@@ -117,7 +117,7 @@ static int tell_named(const char *word, int named, int exact, int found, FILE *o
   return found;
 }
 
-/* Rows that are named so; those whose names only begin with the word are listed behind. */
+/* Rows that are named so; names, or lists of these, that only begin with the word come behind. */
 static int tell_rows(const char *word, int exact, FILE *out)
 {
   char name[CELL], last[CELL] = "";
@@ -126,7 +126,8 @@ static int tell_rows(const char *word, int exact, FILE *out)
   for (int i = 0; i < LINES && !exact; i++) {
     if (lines[i][0] != 'R' || !cell_of(lines[i] + 1, 0, name)) continue;
     const char *behind = find(name, word);
-    const int is_name = behind != NULL && *behind == '_' && strchr(name, ' ') == NULL;
+    const int words = strchr(name, ' ') != NULL && strchr(name, ',') == NULL;
+    const int is_name = behind != NULL && *behind == '_' && !words;
     if (!is_name || strcmp(name, last) == 0) continue;
     snprintf(last, sizeof last, "%s", name);
     fprintf(out, "%s%s", more > 0 ? ", " : found > 0 ? "\nalso: " : "there are: ", name);

@@ -4,6 +4,7 @@
     results_list.py PROGRAM DECK.nml ... >docs/results.md
 """
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,7 +19,8 @@ HEAD = """# Results: the variables of files
 Every variable that a file may have, by its name, with the scenes that write it and the dimensions that it is
 over, and of angles the unit. Each that has an error has it beside it, as `NAME_error`. Parameters that the
 deck holds fixed are coordinates without dimension. `resonance --explain=loop_area` prints what stands here of a
-variable, and of those whose names begin with it.
+variable, and of those whose names begin with it. Of switching, `..._la_sa` is from LA to SA, `..._1_2` from
+attractor 1 to 2, `..._well_sa` from SA to another well.
 
 | result | of | over | what |
 |---|---|---|---|
@@ -79,6 +81,25 @@ def read(path, known):
             known["rows"].setdefault(row, {}).setdefault(over, []).append(kind)
 
 
+def of_states(said):
+    """The same of any state, or of the way from any to another."""
+    one = r"(attractor \d|the (large|small)-amplitude state)"
+    way = rf"from (the (large|small)- to the (large|small)-amplitude state|{one} to (attractor \d|another well))"
+    return re.sub(one, "that state", re.sub(way, "from the one state to the other", said))
+
+
+def families(rows):
+    """Results that differ only in the states that they are of, as one row with all their names."""
+    found = {}
+    for (name, said, names), places in sorted(rows.items()):
+        key = (name, said)
+        if of_states(said) != said and all(some == ["switching"] for some in places.values()):
+            key = ("", of_states(said))
+        found.setdefault((*key, names), []).append((name, places))
+    return sorted((members[0][0], [name for name, _ in members], said, names, members[0][1])
+                  for (_, said, names), members in found.items())
+
+
 def main(program, decks):
     known = {"seen": set(), "rows": {}}
     with tempfile.TemporaryDirectory() as folder:
@@ -94,10 +115,10 @@ def main(program, decks):
             read(path, known)
     print(HEAD, end="")
     listed = {}
-    for (name, said, names), places in sorted(known["rows"].items()):
+    for name, members, said, names, places in families(known["rows"]):
         over = sorted({", ".join(dimensions) for dimensions in places})
         kinds = sorted({kind for some in places.values() for kind in some})
-        cells = (f"`{name}`", ", ".join(kinds), " or ".join(o for o in over if o),
+        cells = (", ".join(f"`{member}`" for member in members), ", ".join(kinds), " or ".join(o for o in over if o),
                  said + values(names, name, listed))
         print("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
 
