@@ -86,6 +86,11 @@ static void parameters(void **state)
   (void)state;
   assert_null(pendres_name_get(PENDRES_NAMES_PARAMETER, PENDRES_PARAMETER_COUNT));
   assert_null(pendres_parameter_of(PENDRES_PARAMETER_COUNT));
+  assert_null(pendres_kind_of(PENDRES_KIND_COUNT));
+  assert_null(pendres_kind_of((pendres_kind)-1));
+  assert_null(pendres_quantity_get((size_t)-1));
+  assert_null(pendres_quantity_of(NULL));
+  assert_null(pendres_quantity_of(""));
   assert_null(pendres_name_get(PENDRES_NAMES_SPECIAL, PENDRES_SPECIAL_COUNT));
   assert_true(isnan(pendres_parameter_get(PENDRES_DAMPING, NULL)));
   assert_true(isnan(pendres_parameter_get((pendres_parameter)-1, &p)));

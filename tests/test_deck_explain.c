@@ -34,7 +34,8 @@ static void every_key_has_words(void **state)
       fail_msg("&%s %s has no meaning", key->group, key->name);
     const int is_number = key->type == DECK_REAL || key->type == DECK_BOUNDS ||
                           key->type == DECK_SWEEP || key->type == DECK_SWEEP_VALUE;
-    if (is_number && words->unit == NULL) fail_msg("&%s %s has no unit", key->group, key->name);
+    if (is_number && deck_key_unit(words) == NULL)
+      fail_msg("&%s %s has no unit", key->group, key->name);
     char *text = explained(key->name);
     assert_non_null(strstr(text, words->meaning) != NULL ? text : strstr(text, key->name));
     free(text);

@@ -41,7 +41,10 @@ static void each_has_words(void **state)
   for (int k = 0; k < PENDRES_PARAMETER_COUNT; k++) {
     const pendres_parameter_info *info = pendres_parameter_of((pendres_parameter)k);
     assert_non_null(info);
-    assert_true(info->words[0] != '\0' && info->brief[0] != '\0' && info->unit[0] != '\0');
+    assert_true(info->words[0] != '\0' && info->brief[0] != '\0');
+    assert_non_null(pendres_kind_of(info->kind));
+    /* x, v and the temperature are results as well, with rows of their own. */
+    assert_int_equal(pendres_quantity_of(info->name)->kind, info->kind);
     assert_string_equal(info->name, pendres_name_get(PENDRES_NAMES_PARAMETER, k));
     const int coefficient = k >= PENDRES_A1 && k <= PENDRES_A5 ? k - PENDRES_A1 + 1 : 0;
     assert_int_equal(info->coefficient, coefficient);
@@ -50,6 +53,24 @@ static void each_has_words(void **state)
   }
   assert_null(pendres_parameter_of(PENDRES_PARAMETER_COUNT));
   assert_null(pendres_parameter_of((pendres_parameter)-1));
+}
+
+/* A name is one quantity; what only ends in its words is another one, or none. */
+static void quantities_have_one_row(void **state)
+{
+  const pendres_quantity *q;
+  size_t n = 0;
+  (void)state;
+  for (; (q = pendres_quantity_get(n)) != NULL; n++) {
+    assert_ptr_equal(pendres_quantity_of(q->name), q);
+    assert_true(q->words[0] != '\0' && pendres_kind_of(q->kind) != NULL);
+  }
+  assert_true(n > 50);
+  assert_int_equal(pendres_quantity_of("mean_velocity")->kind, PENDRES_KIND_VELOCITY);
+  assert_int_equal(pendres_quantity_of("start_velocity")->kind, PENDRES_KIND_VELOCITY);
+  assert_null(pendres_quantity_of("velocity"));
+  assert_null(pendres_quantity_of("terminal_velocity"));
+  assert_null(pendres_quantity_of("loop_area_error"));
 }
 
 /*
@@ -101,6 +122,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_has_its_field),
     cmocka_unit_test(each_has_words),
+    cmocka_unit_test(quantities_have_one_row),
     cmocka_unit_test(units_are_those_of_the_equation),
     cmocka_unit_test(who_is_followed),
   };

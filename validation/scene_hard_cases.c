@@ -123,9 +123,9 @@ static const scene_column columns[] = {
   {SCENE_TYPED(SCENE_TEXT, "quantity", row, of.quantity, "what was measured")},
   {SCENE_TYPED(SCENE_PLAIN, "bound", row, of.bound, "what the figure must not exceed")},
   {.name = "figure", .long_name = "what was measured", .value = offsetof(row, of.figure),
-   .error = offsetof(row, figure_error), .units = "1", .comment = NO_ERROR},
+   .error = offsetof(row, figure_error), .comment = NO_ERROR},
   SCENE_CODE(row, holds, "is the figure within its bound", holds_names),
-  {.name = "naive_figure", .long_name = "the same figure by plain adaptive ARKODE", .units = "1",
+  {.name = "naive_figure", .long_name = "the same figure by plain adaptive ARKODE",
    .value = offsetof(row, of.naive), .error = offsetof(row, naive_figure_error),
    .comment = NO_ERROR},
 };

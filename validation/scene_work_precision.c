@@ -119,17 +119,23 @@ typedef struct row {
   {.name = #field, .long_name = words, .units = unit, .type = SCENE_PLAIN,          \
    .value = offsetof(row, field)}
 static const scene_column columns[] = {
-  SCENE_COLUMN(row, error_10, "largest error of x and v after 10 drive periods", "1"),
-  SCENE_COLUMN(row, error_100, "largest error of x and v after 100 drive periods", "1"),
-  SCENE_COLUMN(row, estimated_error, "largest estimate of the error after 100 drive periods", "1"),
-  SCENE_COLUMN(row, steps_per_period, "steps a pendulum and drive period", "1"),
-  SCENE_COLUMN(row, rhs_per_period, "right-hand sides a pendulum and drive period", "1"),
-  SCENE_COLUMN(row, seconds, "processor time of the best run", "s"),
-  SCENE_COLUMN(row, throughput, "pendulum-periods a second on one thread", "s-1"),
+  SCENE_COLUMN(row, error_10, "largest error of x and v after 10 drive periods"),
+  SCENE_COLUMN(row, error_100, "largest error of x and v after 100 drive periods"),
+  {SCENE_AS("estimated_error", row, estimated_error,
+            "largest estimate of the error after 100 drive periods", NULL),
+   .comment = "largest over the members; infinite where the method says of one that nothing is "
+              "known of it, NaN where the method makes no estimate"},
+  SCENE_COLUMN(row, steps_per_period, "steps a pendulum and drive period"),
+  SCENE_COLUMN(row, rhs_per_period, "right-hand sides a pendulum and drive period"),
+  {SCENE_AS("seconds", row, seconds, "processor time of the best run", NULL), .units = "s",
+   .comment = "of the fastest of several runs. Its error is the distance to the next, and NaN "
+              "where one run took so long that it was the only one"},
+  {SCENE_AS("throughput", row, throughput, "pendulum-periods a second on one thread", NULL),
+   .units = "s-1"},
   /* What is said about the figures: no results, so without errors. */
-  NOTE(estimate_ratio_least, "least estimate of a member's error over its true one", "1"),
-  NOTE(estimate_ratio_median, "median over members of estimate over true error", "1"),
-  NOTE(pendulums, "pendulums of the unit that were run", "1"),
+  NOTE(estimate_ratio_least, "least estimate of a member's error over its true one", NULL),
+  NOTE(estimate_ratio_median, "median over members of estimate over true error", NULL),
+  NOTE(pendulums, "pendulums of the unit that were run", NULL),
   SCENE_COLUMN_OF(SCENE_TEXT, row, failure, "why there are no figures; else empty"),
 };
 
@@ -181,9 +187,9 @@ static void write_settling(scene_run *run, const settling *settled)
 {
   static const scene_column about[] = {
     SCENE_COLUMN(settling, cost_periods, "drive periods integrated for each pendulum that is asked "
-                 "what it settles on, search and proof of attractors included", "1"),
-    SCENE_COLUMN(settling, seconds, "time for each of them", "s"),
-    SCENE_COLUMN(settling, resolved, "share of them that got an answer", "1"),
+                 "what it settles on, search and proof of attractors included"),
+    {SCENE_AS("seconds", settling, seconds, "time for each of them", NULL), .units = "s"},
+    SCENE_COLUMN(settling, resolved, "share of them that got an answer"),
   };
   const scene_table table = {.prefix = "settling", SCENE_ROWS(settled, 1)};
   SCENE_WRITE(run, &table, about);

@@ -26,6 +26,13 @@ const char *deck_axis_name(deck_axis_id axis)
   return info != NULL ? info->name : NULL;
 }
 
+pendres_kind deck_axis_kind(deck_axis_id axis)
+{
+  const pendres_parameter_info *info = pendres_parameter_of(deck_axis_parameter(axis));
+  if (info != NULL) return info->kind;
+  return axis == DECK_AXIS_AMPLITUDE ? PENDRES_KIND_POSITION : PENDRES_KIND_NUMBER;
+}
+
 int deck_is_clock(deck_axis_id axis)
 {
   return axis == DECK_AXIS_DRIVE_FREQUENCY || axis == DECK_AXIS_DRIVE_PERIOD;

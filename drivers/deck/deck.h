@@ -340,14 +340,15 @@ deck deck_slice(const deck *d, size_t slice);
 /** Does it tell a laboratory's scales, in &units? */
 int deck_has_units(const deck *d);
 
-/** What makes SI of the numbers of a key or a result, by its name: they times `factor` are in
-    `units`, which UDUNITS reads. 0 where the deck does not tell enough, or they have no unit; of an
-    error the same as of its result. */
+/** What makes SI of the numbers of a kind, or of a quantity by its name (pendres/quantity.h): they
+    times `factor` are in `units`, which UDUNITS reads. 0 where the deck does not tell enough, or
+    they have no unit. */
 enum { DECK_UNITS = 40 };
 typedef struct deck_si {
   double factor;
   char units[DECK_UNITS];
 } deck_si;
+int deck_si_of_kind(const deck *d, pendres_kind kind, deck_si *out);
 int deck_si_of(const deck *d, const char *name, deck_si *out);
 
 /** Is a quantity of a fit sought, or held at a value that &fit gives? And what makes SI of it, as
@@ -398,6 +399,7 @@ int deck_leaves(const deck *d);
 const deck_kind_info *deck_kind_of(deck_kind kind);
 const char *deck_kind_name(deck_kind kind);
 const char *deck_axis_name(deck_axis_id axis);
+pendres_kind deck_axis_kind(deck_axis_id axis);
 
 /* ---- explain.c: kinds and keys in words for readers (--list, --explain, --init, docs/decks.md),
    all from the table that the reader checks decks by ---- */

@@ -77,8 +77,8 @@ static void add_form(char *text, const deck_key *key)
 
 static void add_unit(char *text, const deck_key *words)
 {
-  const char *example = deck_unit_example(words);
-  if (words->unit != NULL && strcmp(words->unit, "1") != 0) add(text, ", in %s", words->unit);
+  const char *example = deck_unit_example(words), *unit = deck_key_unit(words);
+  if (unit != NULL && strcmp(unit, "1") != 0) add(text, ", in %s", unit);
   if (example != NULL) add(text, ", or as %s", example);
 }
 
@@ -418,8 +418,8 @@ static void reference_key(FILE *out, const deck_key *key)
   add(cell, "%s", words->meaning);
   if (condition(key) != NULL) add(cell, "; %s", condition(key));
   write_cell(out, cell);
-  const char *example = deck_unit_example(words);
-  add(cell, "%s", words->unit != NULL ? words->unit : "");
+  const char *example = deck_unit_example(words), *unit = deck_key_unit(words);
+  add(cell, "%s", unit != NULL ? unit : "");
   if (example != NULL) add(cell, "%s%s", cell[0] != '\0' ? ", " : "", example);
   write_cell(out, cell);
   add_form(cell, key);

@@ -40,6 +40,14 @@ const deck_key *deck_table_words(const deck_key *key)
   return other;
 }
 
+const char *deck_key_unit(const deck_key *words)
+{
+  const int number = words->type == DECK_REAL || words->type == DECK_BOUNDS ||
+                     words->type == DECK_SWEEP || words->type == DECK_SWEEP_VALUE;
+  if (words->unit != NULL || !number) return words->unit;
+  return pendres_kind_of(words->kind)->unit;
+}
+
 int64_t deck_spectrum_least(const deck *d)
 {
   const int64_t samples = d->orbit.samples;

@@ -1,6 +1,6 @@
 /*
- * quantity.c -- which quantity a key or a result is, what one of the model's units of it is in SI,
- * and numbers with units in decks. See deck.h (deck_si_of) and table.h.
+ * quantity.c -- what one of the model's units of a kind of quantities is in SI, and numbers with
+ * units in decks. See deck.h (deck_si_of) and table.h.
  *
  * All follows from the scales that a deck has in &units (scales.c), which are at most those of
  * time, length, mass or current. A model's unit of time is 1/(2 pi natural_frequency).
@@ -11,77 +11,6 @@
 
 #include <math.h>
 #include <string.h>
-
-typedef enum quantity {
-  NUMBER, /* it has no unit */
-  POSITION,
-  VELOCITY,
-  RATE,
-  FREQUENCY, /* an angular one, in Hz */
-  TIME,
-  FORCE,
-  ENERGY,
-  POWER,
-  TEMPERATURE,
-  COVARIANCE_XX,
-  COVARIANCE_XV,
-  COVARIANCE_VV,
-  SPECTRUM,    /* of the velocity, by angular frequency */
-  COEFFICIENT, /* a1 ... a5 */
-  SWEPT        /* that of the parameter that is swept */
-} quantity;
-
-/*
- * Names, in decks and in files: whole, or the end of a name behind an underscore; with a star the
- * beginning. The first row that fits decides.
- */
-static const struct {
-  const char *name;
-  quantity is;
-} names[] = {
-  { "parametric_amplitude", NUMBER },
-  { "drive_amplitude", FORCE }, { "drive", FORCE }, { "torque", FORCE },
-  { "amplitude", POSITION }, { "x", POSITION }, { "x_first", POSITION }, { "x_last", POSITION },
-  { "displacement", POSITION },
-  { "tolerance", POSITION }, { "turning_point_*", POSITION },
-  { "v", VELOCITY }, { "v_last", VELOCITY }, { "velocity", VELOCITY },
-  { "damping", RATE }, { "lyapunov", RATE }, { "lyapunov_exponent", RATE }, { "rate_*", RATE },
-  { "escape_rate_bound", NUMBER }, { "escape_rate*", RATE },
-  { "frequency", FREQUENCY }, { "frequency_*", FREQUENCY },
-  { "drive_frequency_range", FREQUENCY }, { "resonance_range", FREQUENCY },
-  { "drive_period", TIME }, { "resonance_period", TIME }, { "rotation_period", TIME },
-  { "exposure", TIME }, { "exposure_*", TIME },
-  { "loop_area", ENERGY }, { "dissipation", ENERGY }, { "torque_work", ENERGY },
-  { "parametric_work", ENERGY }, { "activation_energy*", ENERGY },
-  { "linear_depth_*", ENERGY },
-  { "power", POWER },
-  { "temperature", TEMPERATURE }, { "fit_temperature*", TEMPERATURE },
-  { "cov_xx", COVARIANCE_XX }, { "cov_xv", COVARIANCE_XV }, { "cov_vv", COVARIANCE_VV },
-  { "power_spectrum", SPECTRUM },
-  { "a1", COEFFICIENT }, { "a2", COEFFICIENT }, { "a3", COEFFICIENT }, { "a4", COEFFICIENT },
-  { "a5", COEFFICIENT },
-  { "parameter", SWEPT }, { "cascade_limit", SWEPT }, { "jump_mean", SWEPT },
-  { "jump_delay", SWEPT }, { "jump_deviation", SWEPT },
-  { "step_lower", SWEPT }, { "step_upper", SWEPT }, { "step_width", SWEPT },
-  { "rate", SWEPT }, { "protocol", SWEPT },
-};
-
-static int fits(const char *name, size_t n, const char *row)
-{
-  const size_t m = strlen(row);
-  if (row[m - 1] == '*') return n >= m - 1 && strncmp(name, row, m - 1) == 0;
-  return n >= m && strncmp(name + n - m, row, m) == 0 && (n == m || name[n - m - 1] == '_');
-}
-
-/* Of an error, that of its result. */
-static quantity quantity_of(const char *name)
-{
-  size_t n = strlen(name);
-  if (n > 6 && strcmp(name + n - 6, "_error") == 0) n -= 6;
-  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-    if (fits(name, n, names[i].name)) return names[i].is;
-  return NUMBER;
-}
 
 /* ---- what one of the model's units is ------------------------------------------------------ */
 
@@ -142,24 +71,27 @@ static deck_si si_of_coefficient(const deck *d, int k)
   return si(factor, s.f, per);
 }
 
-static deck_si si_of_quantity(const deck *d, quantity q, int told)
+/* Of a kind other than that of what is swept. */
+static deck_si si_of_own(const deck *d, pendres_kind kind, int told)
 {
   const scales s = scales_of(d, told);
   char square[32];
-  switch (q) {
-  case POSITION: return si(s.position, s.x, "");
-  case VELOCITY: return si(s.velocity, s.v, "");
-  case RATE: return si(s.rate, "s-1", "");
-  case FREQUENCY: return si(d->units.natural_frequency, "Hz", "");
-  case TIME: return si(1.0 / s.rate, "s", "");
-  case FORCE: return si(s.force, s.f, "");
-  case ENERGY: return si(s.energy, "J", "");
-  case POWER: return si(s.energy * s.rate, "W", "");
-  case TEMPERATURE: return si(s.energy / SI_BOLTZMANN, "K", "");
-  case COVARIANCE_XX: return si(s.position * s.position, s.x, s.x);
-  case COVARIANCE_XV: return si(s.position * s.velocity, s.x, s.v);
-  case COVARIANCE_VV: return si(s.velocity * s.velocity, s.v, s.v);
-  case SPECTRUM:
+  if (kind >= PENDRES_KIND_A1 && kind <= PENDRES_KIND_A5)
+    return si_of_coefficient(d, (int)(kind - PENDRES_KIND_A1) + 1);
+  switch (kind) {
+  case PENDRES_KIND_POSITION: return si(s.position, s.x, "");
+  case PENDRES_KIND_VELOCITY: return si(s.velocity, s.v, "");
+  case PENDRES_KIND_RATE: return si(s.rate, "s-1", "");
+  case PENDRES_KIND_FREQUENCY: return si(d->units.natural_frequency, "Hz", "");
+  case PENDRES_KIND_TIME: return si(1.0 / s.rate, "s", "");
+  case PENDRES_KIND_FORCE: return si(s.force, s.f, "");
+  case PENDRES_KIND_ENERGY: return si(s.energy, "J", "");
+  case PENDRES_KIND_POWER: return si(s.energy * s.rate, "W", "");
+  case PENDRES_KIND_TEMPERATURE: return si(s.energy / SI_BOLTZMANN, "K", "");
+  case PENDRES_KIND_VARIANCE_X: return si(s.position * s.position, s.x, s.x);
+  case PENDRES_KIND_COVARIANCE: return si(s.position * s.velocity, s.x, s.v);
+  case PENDRES_KIND_VARIANCE_V: return si(s.velocity * s.velocity, s.v, s.v);
+  case PENDRES_KIND_SPECTRUM:
     snprintf(square, sizeof square, "%s Hz-1", s.v);
     return si(s.velocity * s.velocity / d->units.natural_frequency, s.v, square);
   default: return si(NAN, "", "");
@@ -184,28 +116,24 @@ static deck_axis_id swept_of(const deck *d)
   return DECK_AXIS_COUNT;
 }
 
-/* Of a name whose quantity is that. */
-static deck_si si_of_name(const deck *d, const char *name, quantity q, int told)
+static deck_si si_of_kind(const deck *d, pendres_kind kind, int told)
 {
-  if (q == SWEPT) {
-    name = deck_axis_name(swept_of(d));
-    q = name != NULL ? quantity_of(name) : NUMBER;
-  }
-  if (q != COEFFICIENT) return si_of_quantity(d, q, told);
-  const char *digit = strpbrk(name, "12345");
-  return si_of_coefficient(d, digit != NULL ? *digit - '0' : 0);
+  if (kind == PENDRES_KIND_SWEPT) kind = deck_axis_kind(swept_of(d));
+  return si_of_own(d, kind, told);
 }
 
 const char *deck_unit_example(const deck_key *key)
 {
-  static const char *const example[] = {
-    [POSITION] = "'2 nm'", [VELOCITY] = "'3 mm/s'", [RATE] = "'Q 5000'",
-    [FREQUENCY] = "'1.2 MHz'", [TIME] = "'5 us'", [FORCE] = "'3 pN'", [TEMPERATURE] = "'300 K'",
-    [COEFFICIENT] = "'3 N/m^3'", [SWEPT] = "'3 Hz'",
+  static const char *const example[PENDRES_KIND_COUNT] = {
+    [PENDRES_KIND_POSITION] = "'2 nm'", [PENDRES_KIND_VELOCITY] = "'3 mm/s'",
+    [PENDRES_KIND_RATE] = "'Q 5000'", [PENDRES_KIND_FREQUENCY] = "'1.2 MHz'",
+    [PENDRES_KIND_TIME] = "'5 us'", [PENDRES_KIND_FORCE] = "'3 pN'",
+    [PENDRES_KIND_TEMPERATURE] = "'300 K'", [PENDRES_KIND_SWEPT] = "'3 Hz'",
+    [PENDRES_KIND_A1] = "'3 N/m^3'", [PENDRES_KIND_A2] = "'3 N/m^3'",
+    [PENDRES_KIND_A3] = "'3 N/m^3'", [PENDRES_KIND_A4] = "'3 N/m^3'",
+    [PENDRES_KIND_A5] = "'3 N/m^3'",
   };
-  const int has_own = strcmp(key->group, "units") == 0;
-  if (has_own || (key->type == DECK_SWEEP && key->axis == DECK_AXIS_TOLERANCE)) return NULL;
-  return key->type == DECK_NUMBERS ? "'50 N/m'" : example[quantity_of(key->name)];
+  return key->type == DECK_NUMBERS ? "'50 N/m'" : example[deck_table_words(key)->kind];
 }
 
 int deck_has_units(const deck *d)
@@ -214,11 +142,17 @@ int deck_has_units(const deck *d)
          !isnan(d->units.critical_current);
 }
 
-int deck_si_of(const deck *d, const char *name, deck_si *out)
+int deck_si_of_kind(const deck *d, pendres_kind kind, deck_si *out)
 {
   if (!deck_has_units(d)) return 0;
-  *out = si_of_name(d, name, quantity_of(name), 1);
+  *out = si_of_kind(d, kind, 1);
   return isfinite(out->factor);
+}
+
+int deck_si_of(const deck *d, const char *name, deck_si *out)
+{
+  const pendres_quantity *q = pendres_quantity_of(name);
+  return q != NULL && deck_si_of_kind(d, q->kind, out);
 }
 
 deck_si deck_si_prefixed(const deck_si *si, double value)
@@ -387,14 +321,15 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
   parts p;
   si_unit from, to;
   char bad[SI_SYMBOL];
-  const quantity q = quantity_of(key->name);
+  const pendres_kind kind = deck_table_words(key)->kind;
   if (!take_apart(b->nl, v, &p) || !read_number(b, v, name, &p, out)) return 0;
   if (strcmp(key->group, "units") == 0) return read_scale(b, v, key, &p, out);
   if (b->no_scales) return 0;
-  if (strcmp(p.unit, "Q") == 0 && q == RATE) return read_quality(b, v, name, *out, out);
+  if (strcmp(p.unit, "Q") == 0 && kind == PENDRES_KIND_RATE)
+    return read_quality(b, v, name, *out, out);
   if (!parse_unit(b, v, name, p.unit, &from)) return 0;
-  const deck_si seen = si_of_name(b->d, key->name, q, 1);
-  const deck_si plain = q == RATE ? si_of_drag(b->d) : si_of_name(b->d, key->name, q, 0);
+  const deck_si seen = si_of_kind(b->d, kind, 1);
+  const deck_si plain = kind == PENDRES_KIND_RATE ? si_of_drag(b->d) : si_of_kind(b->d, kind, 0);
   const deck_si *in = &seen;
   const int of_clock = strstr(seen.units, "Hz") != NULL;
   if (seen.units[0] == '\0') return refuse_any(b, v, name);
@@ -404,7 +339,8 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
     if (!si_parse(plain.units, &to, bad)) return 0;
   }
   /* The force of an angle is a torque or a current, as the scales tell. */
-  const int open = q == FORCE && strcmp(in->units, "N m") == 0 && isnan(in->factor);
+  const int open =
+    kind == PENDRES_KIND_FORCE && strcmp(in->units, "N m") == 0 && isnan(in->factor);
   if ((!si_fits(&from, &to) && !open) || (of_clock && from.power[SI_RAD] == 0))
     return refuse_unit(b, v, name, of_clock ? "Hz or rad/s" : seen.units, p.unit);
   if (isnan(in->factor)) return refuse_scale(b, v, name, p.unit);

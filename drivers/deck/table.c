@@ -2,11 +2,12 @@
  * table.c -- the keys of all decks: one row a key holds what the reader checks and what
  * --explain, --init and docs/decks.md say.
  *
- * To add a key: a field in struct deck and a row here with SAYS(unit, meaning). To give a scene a
- * key: its bit in .scenes. One name may have several rows if they belong to different scenes; the
- * first of them has the words. EXAMPLE makes --init write the key with that value instead of its
- * default in a comment: needed keys have one. Rows of a group stand together, in the order in which
- * deck_dump writes them. `make decks-reference` renews docs/decks.md.
+ * To add a key: a field in struct deck and a row here with IS(kind, meaning), or SAYS(unit,
+ * meaning) where it has a unit of its own, or none. To give a scene a key: its bit in .scenes. One
+ * name may have several rows if they belong to different scenes; the first of them has the words.
+ * EXAMPLE makes --init write the key with that value instead of its default in a comment: needed
+ * keys have one. Rows of a group stand together, in the order in which deck_dump writes them.
+ * `make decks-reference` renews docs/decks.md.
  *
  * Units: omega0 = sqrt(g/l) is the angular frequency of small oscillations without drive.
  */
@@ -68,17 +69,18 @@
 #define RATIO .low = -1e6, .high = 1e6
 #define UNLESS(a) .when = DECK_UNLESS_AXIS, .axis = DECK_AXIS_##a
 #define SAYS(u, words) .unit = u, .meaning = words
+#define IS(k, words) .kind = PENDRES_KIND_##k, .meaning = words
 #define EXAMPLE(values) .example = values
 
 /* Lengths and times may be of any size (units.c). */
 #define BIG 1e100
 
 /* The axis of a parameter that a plain pendulum has not. */
-#define SWEEP_OTHER(code, number, name, field, over, positive, length, time, unit, words, brief) \
-  { SWEEP(name, code), IN(CURVE | RESPONSE | ALONG | GRID),                                      \
-    RANGE((positive) ? 0.0 : (length) == 0 && (time) == 0 ? -1e6 : -BIG,                         \
-          (length) == 0 && (time) == 0 ? 1e6 : BIG), .open = positive,                           \
-    SAYS(unit, words "; one value may stand in &pendulum instead") },
+#define SWEEP_OTHER(code, number, name, field, over, positive, kind, words, brief)  \
+  { SWEEP(name, code), IN(CURVE | RESPONSE | ALONG | GRID),                         \
+    RANGE((positive) ? 0.0 : PENDRES_KIND_##kind == PENDRES_KIND_NUMBER ? -1e6 : -BIG, \
+          PENDRES_KIND_##kind == PENDRES_KIND_NUMBER ? 1e6 : BIG), .open = positive, \
+    IS(kind, words "; one value may stand in &pendulum instead") },
 
 static const char *const kinds[] = {
 #define KIND_NAME(code, name, ...) name,
@@ -145,13 +147,13 @@ const deck_key deck_table[] = {
   { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude),
     NEEDED_IN(DRIVEN & ~(CURVE | RESPONSE | GRID)), NOT_NEGATIVE, .number = NAN,
     EXAMPLE("0.2"),
-    SAYS("m g l", "amplitude F0 of the torque that drives the pendulum") },
+    IS(FORCE, "amplitude F0 of the torque that drives the pendulum") },
   { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude),
     NEEDED_IN(CURVE | RESPONSE | GRID), NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"),
     UNLESS(DRIVE_AMPLITUDE) },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(ORBIT), NOT_NEGATIVE,
     .number = NAN, EXAMPLE("0.12"),
-    SAYS("omega0", "friction coefficient gamma; a pendulum's quality factor Q is 1/gamma") },
+    IS(RATE, "friction coefficient gamma; a pendulum's quality factor Q is 1/gamma") },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE,
     .number = NAN, EXAMPLE("0.12") },
   { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), IN(FIT), RANGE(-BIG, BIG),
@@ -166,19 +168,19 @@ const deck_key deck_table[] = {
   { VALUE("damping", DAMPING), NEEDED_IN(ALONG), POSITIVE, EXAMPLE("0.12") },
   { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(POINT), FREQUENCY,
     .number = NAN, .when = DECK_BY_FREQUENCY,
-    SAYS("omega0", "angular frequency of the drive; instead of 'drive_period'") },
+    IS(FREQUENCY, "angular frequency of the drive; instead of 'drive_period'") },
   { REAL("pendulum", "drive_period", drive_period), IN(POINT), FREQUENCY,
     .number = NAN, .when = DECK_BY_PERIOD, EXAMPLE("8.0"),
-    SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
+    IS(TIME, "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
   { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID | ALONG), FREQUENCY },
   { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE | ALONG), FREQUENCY },
   { REAL("pendulum", "torque", pendulum.torque), IN((MODELS & ~ALONG) | FREE), RANGE(-BIG, BIG),
     UNLESS(TORQUE),
-    SAYS("m g l",
+    IS(FORCE,
          "constant torque I on the side of the drive; a Josephson junction's bias current") },
   { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~ALONG),
     RATIO, UNLESS(PARAMETRIC_AMPLITUDE),
-    SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
+    IS(NUMBER, "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
   { VALUE("torque", TORQUE), IN(ALONG), RANGE(-BIG, BIG) },
   { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RATIO },
   { CHOICE("pendulum", "force", force), IN(MODELS | FREE), .choices = forces,
@@ -190,43 +192,43 @@ const deck_key deck_table[] = {
     SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5; of "
          "'squid' a1") },
   { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE,
-    SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
+    IS(TEMPERATURE, "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },
 
   { SWEEP("amplitude", AMPLITUDE), NEEDED_IN(FREE), POSITIVE, EXAMPLE("0.1, 3.1, 31"),
-    SAYS("rad", "amplitude, half peak to peak; of a pendulum without a torque below pi") },
+    IS(POSITION, "amplitude, half peak to peak; of a pendulum without a torque below pi") },
   { SWEEP("damping", DAMPING), NEEDED_IN(CURVE | RESPONSE | GRID), POSITIVE,
     EXAMPLE("0.1, 0.4, 4"),
-    SAYS("omega0", "friction coefficient gamma; one value may stand in &pendulum instead") },
+    IS(RATE, "friction coefficient gamma; one value may stand in &pendulum instead") },
   { SWEEP("damping", DAMPING), IN(ALONG), POSITIVE },
   { BOUNDS("sweep", "drive_frequency_range", search), IN(CURVE), FREQUENCY, .number = 0.5,
-    .number2 = 1.2, SAYS("omega0", "lowest and highest drive frequency where the resonance is "
+    .number2 = 1.2, IS(FREQUENCY, "lowest and highest drive frequency where the resonance is "
                          "looked for") },
   { BOUNDS("sweep", "resonance_range", search), IN(RESPONSE), FREQUENCY, .number = 0.5,
     .number2 = 1.2, .when = DECK_WITH_SEARCH,
-    SAYS("omega0", "lowest and highest drive frequency where the resonance of each line is looked "
+    IS(FREQUENCY, "lowest and highest drive frequency where the resonance of each line is looked "
          "for; scene 'resonance_curve' has 'drive_frequency_range' for that. With a torque, a "
          "parametric drive or another force none is looked for without this key") },
   { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE), FREQUENCY,
-    SAYS("omega0", "angular frequency of the drive; instead of 'drive_period' where both are "
+    IS(FREQUENCY, "angular frequency of the drive; instead of 'drive_period' where both are "
          "possible") },
   { SWEEP("drive_frequency", DRIVE_FREQUENCY), NEEDED_IN(GRID), FREQUENCY,
     EXAMPLE("0.7, 0.9, 21") },
   { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(ALONG), FREQUENCY, EXAMPLE("0.7, 0.9, 21") },
   { SWEEP("drive_period", DRIVE_PERIOD), IN(ALONG), FREQUENCY },
   { SWEEP("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY, EXAMPLE("5.0, 12.0, 29"),
-    SAYS("1/omega0", "period of the drive; instead of 'drive_frequency'") },
+    IS(TIME, "period of the drive; instead of 'drive_frequency'") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(PATH), NOT_NEGATIVE,
-    SAYS("m g l", "amplitude F0 of the drive; where results have two axes it is one of them "
+    IS(FORCE, "amplitude F0 of the drive; where results have two axes it is one of them "
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(CURVE | RESPONSE | GRID), POSITIVE },
   PENDRES_PARAMETERS_OTHER(SWEEP_OTHER)
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
-    SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },
+    IS(POSITION, "initial position of the particle; the pendulum's angle is x - pi/2") },
   { SWEEP("v", V), NEEDED_IN(BASINS), RANGE(-BIG, BIG), EXAMPLE("-2.5, 2.5, 64"),
-    SAYS("omega0", "initial velocity") },
+    IS(VELOCITY, "initial velocity") },
   { SWEEP("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE },
   { SWEEP("temperature", TEMPERATURE), NEEDED_IN(SWITCHING), POSITIVE,
     EXAMPLE("0.0125, 0.02, 3") },
@@ -235,7 +237,7 @@ const deck_key deck_table[] = {
     SAYS(NULL, "parts into which each step of the ranges of axes is divided: one key for a finer "
          "grid over all of them") },
   { SWEEP("tolerance", TOLERANCE), NEEDED_IN(WORK), RANGE(1e-14, 1e-2),
-    EXAMPLE("1e-4, 1e-6, 1e-8"), SAYS("1", "tolerances that each method is asked for") },
+    EXAMPLE("1e-4, 1e-6, 1e-8"), IS(NUMBER, "tolerances that each method is asked for") },
   { CHOICES("sweep", "method", methods), NEEDED_IN(WORK), .choices = compared,
     EXAMPLE("'block_fixed', 'block_adaptive'"),
     SAYS(NULL, "methods compared; a Butcher table may follow a method of blocks; 'single_...' is "
@@ -261,15 +263,15 @@ const deck_key deck_table[] = {
          "contain the sampling") },
   { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = -PENDRES_PI / 2,
-    SAYS("rad", "initial positions lie above this one, which a line leaves out; the default is in "
+    IS(POSITION, "initial positions lie above this one, which a line leaves out; the default is in "
          "the pendulum's unit of length, as that of 'x_last' and others") },
   { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = 3 * PENDRES_PI / 2,
-    SAYS("rad", "initial positions go up to this one, equally spaced") },
+    IS(POSITION, "initial positions go up to this one, equally spaced") },
   { REAL("ensemble", "v", ensemble.v), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
-    SAYS("omega0", "initial velocity, of a rectangle the lowest") },
+    IS(VELOCITY, "initial velocity, of a rectangle the lowest") },
   { REAL("ensemble", "v_last", ensemble.v_last), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
-    .when = DECK_OFF_LINE, SAYS("omega0", "highest initial velocity") },
+    .when = DECK_OFF_LINE, IS(VELOCITY, "highest initial velocity") },
   { INTEGER("ensemble", "rows", ensemble.rows), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
     .number = 10, .when = DECK_IN_RECTANGLE,
     SAYS(NULL, "velocities of the grid, a divisor of 'members'") },
@@ -280,9 +282,9 @@ const deck_key deck_table[] = {
     SAYS(NULL, "attractor recorded: SA, LA, or its number in the order of amplitude; without it "
          "the one reached from 'x', 'v'") },
   { REAL("orbit", "x", orbit.x), IN(ORBIT), RANGE(-BIG, BIG), .number = NAN,
-    .when = DECK_WITHOUT_START, SAYS("rad", "initial position, at the drive's maximum") },
+    .when = DECK_WITHOUT_START, IS(POSITION, "initial position, at the drive's maximum") },
   { REAL("orbit", "v", orbit.v), IN(ORBIT), RANGE(-BIG, BIG), .number = 0,
-    .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
+    .when = DECK_WITHOUT_START, IS(VELOCITY, "initial velocity") },
   { INTEGER("orbit", "periods", orbit.periods), IN(ORBIT), RANGE(1, DECK_MAX_COUNT),
     .number = 4, SAYS(NULL, "drive periods recorded") },
   { INTEGER("orbit", "samples", orbit.samples), IN(ORBIT), RANGE(1, 65536), .number = 256,
@@ -303,16 +305,16 @@ const deck_key deck_table[] = {
     SAYS(NULL, "attractor at the first value that the pendulum is on: SA, LA, or its number in the "
          "order of amplitude; without it the one reached from 'x', 'v'") },
   { REAL("hysteresis", "x", orbit.x), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = NAN,
-    .when = DECK_WITHOUT_START, SAYS("rad", "initial position, at the drive's maximum") },
+    .when = DECK_WITHOUT_START, IS(POSITION, "initial position, at the drive's maximum") },
   { REAL("hysteresis", "v", orbit.v), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = 0,
-    .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
+    .when = DECK_WITHOUT_START, IS(VELOCITY, "initial velocity") },
 
   { REAL("hysteresis", "rate", ramp.rate), IN(HYSTERESIS), POSITIVE, .number = NAN,
-    SAYS("1",
+    IS(SWEPT,
          "what the swept parameter moves by in a drive period: beside the sweep without end it "
          "is also moved in real time, up and then down") },
   { LIST("hysteresis", "protocol", ramp.protocol), IN(HYSTERESIS), RANGE(-BIG, 0x1p31),
-    SAYS(NULL, "instead of 'rate': time, value, time, value, ... of the way up, straight lines "
+    IS(SWEPT, "instead of 'rate': time, value, time, value, ... of the way up, straight lines "
          "between; times are whole drive periods from 0 on, values go from the first of the sweep "
          "to its last. The way down is the same backwards") },
   { INTEGER("hysteresis", "points", ramp.points), IN(HYSTERESIS), RANGE(1, DECK_MAX_COUNT),
@@ -336,9 +338,9 @@ const deck_key deck_table[] = {
     SAYS(NULL, "write Lyapunov exponents; without them chaos is only told, in less time") },
 
   { REAL("lyapunov_map", "x", orbit.x), IN(MAP), RANGE(-BIG, BIG), .number = PENDRES_PI / 2,
-    SAYS("rad", "initial position of each pendulum, at the drive's maximum") },
+    IS(POSITION, "initial position of each pendulum, at the drive's maximum") },
   { REAL("lyapunov_map", "v", orbit.v), IN(MAP), RANGE(-BIG, BIG), .number = 0,
-    SAYS("omega0", "initial velocity") },
+    IS(VELOCITY, "initial velocity") },
   { INTEGER("lyapunov_map", "transient", lyapunov.transient), IN(MAP), RANGE(0, 1e9), .number = 0,
     SAYS(NULL, "drive periods before averages are taken; 0: 200, or more where damping is weak") },
   { INTEGER("lyapunov_map", "periods", lyapunov.periods), IN(MAP), RANGE(0, 1e9), .number = 0,
@@ -367,7 +369,7 @@ const deck_key deck_table[] = {
   { REAL("data", "error", data.error), IN(FIT), NOT_NEGATIVE, .number = 0,
     SAYS("unit of the data", "standard error of each datum where no column has it") },
   { REAL("data", "relative_error", data.relative_error), IN(FIT), NOT_NEGATIVE, .number = 0,
-    SAYS("1", "standard error as a share of the datum, added to 'error' in squares; without "
+    IS(NUMBER, "standard error as a share of the datum, added to 'error' in squares; without "
          "either, errors follow from the scatter about the fit") },
 
   { CHOICES("fit", "free", fit.free), NEEDED_IN(FIT), .choices = quantities,
@@ -383,7 +385,7 @@ const deck_key deck_table[] = {
     SAYS(NULL, "what is known of free quantities beside the data, a mean and its standard error, "
          "as 'a3 -0.16 0.01'") },
   { REAL("fit", "huber", fit.huber), IN(FIT), NOT_NEGATIVE, .number = 0,
-    SAYS("1", "standard errors beyond which a residual counts by its size instead of its square, "
+    IS(NUMBER, "standard errors beyond which a residual counts by its size instead of its square, "
          "against outliers; 0: none does") },
   { REAL("fit", "jump_error", fit.jump_error), IN(FIT), NOT_NEGATIVE, .number = 0,
     SAYS("unit of the data", "standard error of the axis at which jumps were seen, beside the "
@@ -450,6 +452,7 @@ const deck_key deck_table[] = {
     SAYS("F", "of the junction: with the critical current it makes the plasma frequency") },
 
   { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), POSITIVE, .number = 1e-8,
+    .kind = PENDRES_KIND_POSITION,
     SAYS("1", "wanted error of the results: absolute, of lengths as x is and of what follows from "
          "them; 1e-13 to 1e-2 of the pendulum's unit of length, which is 1 but for polynomials "
          "(docs/models.md). Without it 1e-8 of that unit") },
@@ -469,10 +472,11 @@ const deck_key deck_table[] = {
     RANGE(0, 1e9), .number = 0, SAYS(NULL, "drive periods after which a pendulum that has not "
          "settled is called unresolved; 0: from damping and tolerance") },
   { REAL("precision", "unresolved_share", precision.unresolved_share), IN(SETTLING),
-    RANGE(0, 1), .number = 0.0, SAYS("1", "share of the points, or of the states of a grid, that "
+    RANGE(0, 1), .number = 0.0, IS(NUMBER, "share of the points, or of the states of a grid, that "
          "may stay unresolved before the program ends with 3; they are marked all the same") },
   { REAL("precision", "exponent_error", precision.exponent_error), IN(DIAGRAM),
-    RANGE(1e-6, 1), .number = 0.01, SAYS("1", "wanted standard error of the exponents of chaos, as "
+    RANGE(1e-6, 1), .number = 0.01,
+    IS(NUMBER, "wanted standard error of the exponents of chaos, as "
          "a part of them; the longest averages have what error they have") },
   /* clang-format on */
 };

@@ -69,7 +69,8 @@ typedef struct deck_key {
   const char *text;            /* default of a string; NULL: "" */
   const char *const *choices;  /* NULL-terminated */
   deck_when when;
-  const char *unit;            /* NULL: a number of things, a name, a choice */
+  pendres_kind kind;           /* of its numbers */
+  const char *unit;            /* where it does not follow from the kind, see deck_key_unit */
   const char *meaning;         /* NULL: that of a row of the same name, see deck_table_words */
   const char *example;         /* what --init writes for it, three values meaning NAME_range;
                                   NULL: its default, as a comment */
@@ -91,9 +92,12 @@ size_t deck_table_find(const char *group, const char *name, unsigned scenes, int
 int deck_table_matches(const deck_key *key, const char *name, int *range);
 int deck_table_has_range(const deck_key *key);
 
-/* What one key means and in which unit, also where its row leaves that to another row of the same
-   name, in the same group or, failing that, in any. Never NULL for a key of the table. */
+/* What one key means and of which kind it is, also where its row leaves that to another row of the
+   same name, in the same group or, failing that, in any. Never NULL for a key of the table. */
 const deck_key *deck_table_words(const deck_key *key);
+
+/* The unit in words of a key that has such words; NULL: a number of things, a name, a choice. */
+const char *deck_key_unit(const deck_key *words);
 
 /* Where and how a key was given. */
 typedef struct deck_given {

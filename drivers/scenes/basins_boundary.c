@@ -10,8 +10,8 @@ typedef struct row {
 } row;
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(row, x, "position on the boundary of basins", "rad"),
-  SCENE_COLUMN(row, v, "velocity on the boundary of basins", "1"),
+  SCENE_COLUMN(row, x, "position on the boundary of basins"),
+  SCENE_COLUMN(row, v, "velocity on the boundary of basins"),
   SCENE_COLUMN_OF(SCENE_NUMBER, row, piece, "piece of the boundary that the point belongs to"),
 };
 

@@ -183,27 +183,29 @@ typedef struct row {
   double xx_error, xv_error, vv_error; /* of linear theory's covariance */
 } row;
 
-#define STATISTIC(label, s, words) \
-  {SCENE_ESTIMATE(#label, row, of.measured.statistics[s], words, NULL)}
-#define LINEAR(label, field, words)                                \
-  {.name = #label, .long_name = words " by linear noise theory",   \
+#define STATISTIC(what, s, words, of_quantity) \
+  {SCENE_ESTIMATE("strobe_" #what, row, of.measured.statistics[s], words, of_quantity)}
+#define LINEAR(field, words)                                                       \
+  {.name = "linear_cov_" #field, .quantity = "cov_" #field,                        \
+   .long_name = words " by linear noise theory",                                   \
    .value = offsetof(row, of.linear.field), .error = offsetof(row, field##_error)}
-#define BIAS(what, s)                                              \
-  {SCENE_ESTIMATE("bias_" #what, row, of.bias.statistics[s],       \
-                  "bias of strobe_" #what " by finite steps", NULL)}
+#define BIAS(what, s, of_quantity)                           \
+  {SCENE_ESTIMATE("bias_" #what, row, of.bias.statistics[s], \
+                  "bias of strobe_" #what " by finite steps", of_quantity)}
 enum { X = PENDRES_LANGEVIN_MEAN_X, V = PENDRES_LANGEVIN_MEAN_V, XX = PENDRES_LANGEVIN_COV_XX,
        XV = PENDRES_LANGEVIN_COV_XV, VV = PENDRES_LANGEVIN_COV_VV };
 
 static const scene_column columns[] = {
-  STATISTIC(strobe_mean_x, X, "mean position of the cloud"),
-  STATISTIC(strobe_mean_v, V, "mean velocity of the cloud"),
-  STATISTIC(strobe_cov_xx, XX, "variance of position in the cloud"),
-  STATISTIC(strobe_cov_xv, XV, "covariance of position and velocity in the cloud"),
-  STATISTIC(strobe_cov_vv, VV, "variance of velocity in the cloud"),
-  LINEAR(linear_cov_xx, xx, "variance of position"),
-  LINEAR(linear_cov_xv, xv, "covariance of position and velocity"),
-  LINEAR(linear_cov_vv, vv, "variance of velocity"),
-  BIAS(mean_x, X), BIAS(mean_v, V), BIAS(cov_xx, XX), BIAS(cov_xv, XV), BIAS(cov_vv, VV),
+  STATISTIC(mean_x, X, "mean position of the cloud", "x"),
+  STATISTIC(mean_v, V, "mean velocity of the cloud", "v"),
+  STATISTIC(cov_xx, XX, "variance of position in the cloud", "cov_xx"),
+  STATISTIC(cov_xv, XV, "covariance of position and velocity in the cloud", "cov_xv"),
+  STATISTIC(cov_vv, VV, "variance of velocity in the cloud", "cov_vv"),
+  LINEAR(xx, "variance of position"),
+  LINEAR(xv, "covariance of position and velocity"),
+  LINEAR(vv, "variance of velocity"),
+  BIAS(mean_x, X, "x"), BIAS(mean_v, V, "v"), BIAS(cov_xx, XX, "cov_xx"),
+  BIAS(cov_xv, XV, "cov_xv"), BIAS(cov_vv, VV, "cov_vv"),
   {SCENE_TYPED(SCENE_FLAG, "linear_theory", row, of.verdict,
                "whether the cloud's covariance agrees with linear noise theory"),
    .names = scene_cloud_names,
@@ -216,12 +218,12 @@ static const scene_column columns[] = {
   SCENE_COLUMN_OF(SCENE_PLAIN, row, escapes,
                   "trajectories that left for another attractor or well"),
   {SCENE_TYPED(SCENE_PLAIN, "escape_exposure", row, of.escape_exposure,
-               "time that trajectories were watched")},
-  {SCENE_ESTIMATE("escape_rate", row, of.escape_rate, "escapes per unit time", NULL)},
+               NULL), .quantity = "exposure"},
+  {SCENE_ESTIMATE("escape_rate", row, of.escape_rate, "escapes per unit time", "rate")},
   {SCENE_TYPED(SCENE_PLAIN, "escape_rate_lower", row, of.escape_rate.lower,
-               "lower end of its 95 % confidence interval")},
+               "lower end of its 95 % confidence interval"), .quantity = "rate"},
   {SCENE_TYPED(SCENE_PLAIN, "escape_rate_upper", row, of.escape_rate.upper,
-               "upper end of its 95 % confidence interval")},
+               "upper end of its 95 % confidence interval"), .quantity = "rate"},
 };
 
 /* What the table says of the verdicts. */
@@ -238,15 +240,15 @@ static void write_strobes(scene_run *run, const cloud_work *w)
   static const char *const names[2] = { "strobe_x", "strobe_v" };
   static const char *const words[2] = { "position at drive phase 0, around well 0",
                                         "velocity at drive phase 0" };
-  static const char *const units[2] = { "rad", "1" };
+  static const char *const quantities[2] = { "x", "v" };
   scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
   for (int k = 0; k < 2; k++) {
     const pendres_store_spec spec = {
       .name = names[k], .dimensions = { "temperature", "attractor", "strobe" },
-      .long_name = words[k], .units = units[k],
+      .long_name = words[k],
       .comment = "trajectory after trajectory; NaN after an escape" };
-    scene_put(run, &spec, k == 0 ? w->x : w->v, NULL,
-              w->temperatures * w->attractors * w->strobes);
+    scene_put_as(run, quantities[k], &spec, k == 0 ? w->x : w->v, NULL,
+                 w->temperatures * w->attractors * w->strobes);
   }
 }
 

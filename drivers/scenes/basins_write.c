@@ -130,28 +130,27 @@ static const scene_column of_attractors[] = {
                "drive periods until the orbit closes; 0: it does not")},
   {SCENE_TYPED(SCENE_NUMBER, "attractor_winding", row, of.orbit.winding,
                "whole turns in that time")},
-  {SCENE_AS("attractor_x", row, of.orbit.x, "position at drive phase 0, in well 0", "rad")},
-  {SCENE_AS("attractor_v", row, of.orbit.v, "velocity at drive phase 0", "1")},
-  {SCENE_AS("attractor_lyapunov", row, of.lyapunov, "largest Lyapunov exponent per unit time",
-            "1")},
+  {SCENE_AS("attractor_x", row, of.orbit.x, "position at drive phase 0, in well 0", "x")},
+  {SCENE_AS("attractor_v", row, of.orbit.v, "velocity at drive phase 0", "v")},
+  {SCENE_AS("attractor_lyapunov", row, of.lyapunov, NULL, "lyapunov")},
 };
 
 static const scene_column of_drift =
-  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of chaos", "1")};
+  {SCENE_AS("attractor_drift", row, of.drift, "mean whole turns a drive period, of chaos", NULL)};
 
 static const scene_column of_chaos[] = {
   {SCENE_TYPED(SCENE_PLAIN, "attractor_watched_periods", row, of.watched_periods,
                "drive periods that chaos was watched for without ending, all walkers together")},
   {SCENE_TYPED(SCENE_PLAIN, "attractor_escape_rate_bound", row, of.escape_rate_bound,
                "largest rate of ending of chaos, a drive period, that is not excluded at 95 %")},
-  {SCENE_AS("basin_fraction", row, basin_fraction, "share of the window's area", "1"),
+  {SCENE_AS("basin_fraction", row, basin_fraction, "share of the window's area", NULL),
    .comment = "each state stands for what is nearest to it: ends of a range count half; plain "
               "counts are basin_states"},
 };
 
 /* Where the pendulum may rotate for ever. */
 static const scene_column of_rotations[] = {
-  {SCENE_AS("attractor_mean_velocity", row, mean_velocity, "mean velocity", "1")},
+  {SCENE_AS("attractor_mean_velocity", row, mean_velocity, "mean velocity", "mean_velocity")},
 };
 
 static const scene_column of_wells[] = {
@@ -210,18 +209,15 @@ static void look_closer(basins *b, pendres_basin_statistics *s)
 }
 
 static const scene_column of_statistics[] = {
-  {SCENE_AS("basin_entropy", pendres_basin_statistics, entropy,
-            "basin entropy over boxes of 5 x 5 states", NULL)},
-  {SCENE_AS("boundary_basin_entropy", pendres_basin_statistics, boundary_entropy,
-            "basin entropy over boxes with a boundary; above log 2 it is fractal", NULL)},
+  {SCENE_AS("basin_entropy", pendres_basin_statistics, entropy, NULL, NULL)},
+  {SCENE_AS("boundary_basin_entropy", pendres_basin_statistics, boundary_entropy, NULL, NULL)},
   SCENE_COLUMN(pendres_basin_statistics, uncertainty_exponent,
-               "exponent of the share of uncertain states over distance", NULL),
+               "exponent of the share of uncertain states over distance"),
 };
 
 /* The statistics hold shares as arrays of doubles: one row is one double away from the next. */
 static const scene_column of_distances[] = {
-  {SCENE_AS("uncertain_fraction", pendres_basin_statistics, uncertain,
-            "share of states with an unlike one so far off", NULL)},
+  {SCENE_AS("uncertain_fraction", pendres_basin_statistics, uncertain, NULL, NULL)},
 };
 
 static void write_statistics(basins *b, const pendres_basin_statistics *s)
@@ -238,7 +234,7 @@ static void write_statistics(basins *b, const pendres_basin_statistics *s)
   SCENE_WRITE(b->run, &whole, of_statistics);
   scene_columns_write(b->run, &states, 1, &random);
   if (s->scales == 0) return;
-  scene_put_dimension(b->run, &distance, s->distance, distances.n);
+  scene_put_dimension_as(b->run, "v", &distance, s->distance, distances.n);
   SCENE_WRITE(b->run, &distances, of_distances);
 }
 
@@ -270,7 +266,7 @@ static const scene_column of_escapes[] = {
   {SCENE_TYPED(SCENE_COUNT, "escaped_states", pendres_basin_statistics, escaped,
                "states that escape to infinity")},
   {SCENE_AS("escape_fraction", pendres_basin_statistics, escape_fraction,
-            "share of the window's area that escapes", "1")},
+            "share of the window's area that escapes", NULL)},
 };
 
 static void write_escapes(basins *b, const pendres_basin_statistics *s)

@@ -170,9 +170,9 @@ static pendres_status collect_strobes(const scene_points *p, size_t first, size_
 static const char of_chaos[] =
   "errors are NaN in chaos: its points are on the attractor, but no two runs have the same ones";
 static const scene_column of_strobes[] = {
-  {SCENE_AS("x", strobe, x, "position at drive phase 0, within one turn", "1"),
+  {SCENE_AS("x", strobe, x, "position at drive phase 0, within one turn", NULL),
    .comment = of_chaos},
-  {SCENE_AS("v", strobe, v, "velocity at drive phase 0", "1"), .comment = of_chaos},
+  {SCENE_AS("v", strobe, v, "velocity at drive phase 0", NULL), .comment = of_chaos},
 };
 
 static int has_exponents(const deck *d)
@@ -181,9 +181,8 @@ static int has_exponents(const deck *d)
 }
 
 static const scene_column of_points[] = {
-  {SCENE_AS("lyapunov", scene_along_row, of.attractor.lyapunov,
-            "largest Lyapunov exponent per unit time", "1"), .when = has_exponents},
-  SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
+  {SCENE_AS("lyapunov", scene_along_row, of.attractor.lyapunov, NULL, NULL), .when = has_exponents},
+  SCENE_COLUMN(scene_along_row, period, NULL),
 };
 
 static const scene_column of_attractors = {
@@ -192,9 +191,9 @@ static const scene_column of_attractors = {
 
 static const scene_column of_bifurcations[] = {
   SCENE_CODE(scene_along_jump, kind, "what ends the motion there", scene_jump_names),
-  SCENE_COLUMN(scene_along_jump, parameter, "value at which it is", "1"),
+  SCENE_COLUMN(scene_along_jump, parameter, "value at which it is"),
   SCENE_COLUMN(scene_along_jump, period,
-               "drive periods of the orbit that the pendulum is on then", "1"),
+               "drive periods of the orbit that the pendulum is on then"),
 };
 
 /* The doublings are two arrays of the cascade, not one of structs: a step is that of its
@@ -203,8 +202,8 @@ static const scene_column of_doublings = {SCENE_AS("parameter", pendres_cascade,
     "value at which the period doubles", NULL)};
 
 static const scene_column of_cascade[] = {
-  SCENE_COLUMN(pendres_cascade, limit, "value at which doublings accumulate", "1"),
-  SCENE_COLUMN(pendres_cascade, ratio, "ratio of the last two distances of doublings", "1"),
+  {SCENE_AS("limit", pendres_cascade, limit, "value at which doublings accumulate", "parameter")},
+  SCENE_COLUMN(pendres_cascade, ratio, "ratio of the last two distances of doublings"),
 };
 
 /* Mark the values at which something is not known, beside those that the path marks. */

@@ -29,17 +29,14 @@ static void describe(const deck *d, FILE *out)
 /* ---- the grid ------------------------------------------------------------------------------ */
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(pendres_phase_point, sa_amplitude,
-               "amplitude of the small-amplitude orbit, reached by members or not", "rad"),
-  SCENE_COLUMN(pendres_phase_point, la_amplitude,
-               "amplitude of the large-amplitude orbit, reached by members or not", "rad"),
-  SCENE_COLUMN(pendres_phase_point, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
-               "rad"),
-  SCENE_COLUMN(pendres_phase_point, mean_loop_area, "mean loop area of the ensemble", "1"),
-  SCENE_COLUMN(pendres_phase_point, sa_fraction,
-               "share of the members on the small-amplitude state", "1"),
-  SCENE_COLUMN(pendres_phase_point, la_fraction,
-               "share of the members on the large-amplitude state", "1"),
+  {SCENE_AS("sa_amplitude", pendres_phase_point, sa_amplitude,
+            "amplitude of the small-amplitude orbit, reached by members or not", "amplitude")},
+  {SCENE_AS("la_amplitude", pendres_phase_point, la_amplitude,
+            "amplitude of the large-amplitude orbit, reached by members or not", "amplitude")},
+  SCENE_COLUMN(pendres_phase_point, mean_loop_amplitude, NULL),
+  SCENE_COLUMN(pendres_phase_point, mean_loop_area, NULL),
+  SCENE_COLUMN(pendres_phase_point, sa_fraction, NULL),
+  SCENE_COLUMN(pendres_phase_point, la_fraction, NULL),
   SCENE_CODE(pendres_phase_point, regime, "states of motion that members settle on",
              scene_regime_names),
 };
@@ -78,7 +75,7 @@ static const scene_column of_points[] = {
                "what the bifurcations do not explain there: sum of the flags"), .names = doubts,
    .codes = doubt_bits},
   {SCENE_TYPED(SCENE_NUMBER, "number", row, number, "number of the branch")},
-  {SCENE_TYPED(SCENE_NUMBER, "period", row, of.period, "drive periods until the orbit closes")},
+  {SCENE_TYPED(SCENE_NUMBER, "period", row, of.period, NULL)},
 };
 
 static row row_of(const scene_lines *l, const pendres_branch_point *p, int number)
@@ -127,10 +124,10 @@ typedef struct backbone_row {
 } backbone_row;
 
 static const scene_column of_backbone[] = {
-  SCENE_COLUMN(backbone_row, frequency, "drive frequency at which the orbit lags by a quarter turn",
-               "1"),
-  SCENE_COLUMN(backbone_row, amplitude, "amplitude of that orbit", "rad"),
-  SCENE_COLUMN(backbone_row, loop_area, "loop area of that orbit", "1"),
+  SCENE_COLUMN(backbone_row, frequency,
+               "drive frequency at which the orbit lags by a quarter turn"),
+  SCENE_COLUMN(backbone_row, amplitude, "amplitude of that orbit"),
+  SCENE_COLUMN(backbone_row, loop_area, "loop area of that orbit"),
 };
 
 /* Where it is looked for: n pendulums, and the values in which they differ. */
@@ -191,8 +188,7 @@ static void write_backbone(const scene_lines *l)
   backbone_row rows[BACKBONE];
   backbone_points at;
   const int over_damping = l->points.axis[0] == DECK_AXIS_DAMPING;
-  const pendres_store_spec along = {.name = "backbone_damping",
-                                    .long_name = "friction coefficient"};
+  const pendres_store_spec along = {.name = "backbone_damping"};
   if (over_damping && !(l->grid.pendulum.drive_amplitude > 0.0)) return;
   if (over_damping) backbone_dampings(l, &at);
   else backbone_lines(l, &at);
@@ -211,7 +207,7 @@ static void write_backbone(const scene_lines *l)
                              o->amplitude_error, o->loop_area, o->loop_area_error};
     if (!has) SCENE_BLANK(of_backbone, &rows[i]);
   }
-  if (over_damping) scene_put_dimension(l->run, &along, at.value, at.n);
+  if (over_damping) scene_put_dimension_as(l->run, "damping", &along, at.value, at.n);
   SCENE_WRITE(l->run, &table, of_backbone);
 }
 
@@ -285,11 +281,11 @@ static void write_free(const scene_lines *l)
   free_curve c;
   const int plain = deck_is_plain(l->run->deck);
   const pendres_store_spec spec = {
-    .name = "free_frequency", .dimensions = {"free_amplitude"}, .units = "1",
+    .name = "free_frequency", .dimensions = {"free_amplitude"},
     .long_name = plain ? "frequency of the undamped, undriven pendulum"
                        : "frequency of oscillations without damping and drive"};
   const pendres_store_spec along = {
-    .name = "free_amplitude", .units = "rad",
+    .name = "free_amplitude",
     .long_name = plain ? "amplitude of the free pendulum" : "amplitude of the free oscillation"};
   const size_t n = plain ? find_plain(&c) : find_free(l, &c);
   if (n == 0) return;
@@ -314,12 +310,12 @@ typedef struct rotation {
 
 static const scene_column of_rotations[] = {
   {SCENE_AS("period", rotation, of.period,
-            "period of the rotation, in which x grows or falls by 2 pi", "1")},
-  {SCENE_AS("mean_velocity", rotation, of.mean_velocity, "mean velocity of the rotation", "1")},
+            NULL, "rotation_period")},
+  {SCENE_AS("mean_velocity", rotation, of.mean_velocity, "mean velocity of the rotation", NULL)},
   {SCENE_AS("multiplier", rotation, of.multiplier,
-            "Floquet multiplier of the rotation; the other one is 1", "1")},
+            "Floquet multiplier of the rotation; the other one is 1", NULL)},
   {SCENE_AS("least_torque", rotation, onset.torque,
-            "least torque, of either sign, that keeps a rotation up", "1")}};
+            "least torque, of either sign, that keeps a rotation up", "torque")}};
 
 /* Whether the lines are those of a pendulum under a torque, without a drive of either kind. */
 static int are_rotations(const scene_lines *l)

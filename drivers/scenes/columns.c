@@ -157,7 +157,8 @@ typedef struct variable {
   pendres_store_spec spec;
 } variable;
 
-static void describe(const scene_run *run, const scene_table *t, const scene_column *c, variable *v)
+static void describe(const scene_run *run, const scene_table *t, const scene_column *c,
+                     const pendres_quantity *q, variable *v)
 {
   static const pendres_store_type types[] = {[SCENE_REAL] = PENDRES_STORE_DOUBLE,
                                              [SCENE_PLAIN] = PENDRES_STORE_DOUBLE,
@@ -170,12 +171,13 @@ static void describe(const scene_run *run, const scene_table *t, const scene_col
     .group = t->group, .name = v->name, .type = types[c->type], .long_name = v->words,
     .units = c->units, .comment = c->comment, .flag_meanings = v->meanings,
     .flag_values = c->codes, .flag_bits = c->codes != NULL, .deflate = t->deflate};
+  const char *words = c->long_name != NULL || q == NULL ? c->long_name : q->words;
   const size_t before = strcspn(c->name, "*");
   const int starred = c->name[before] != '\0';
   (void)snprintf(v->name, sizeof v->name, "%s%s%.*s%s%s", t->prefix != NULL ? t->prefix : "",
                  t->prefix != NULL ? "_" : "", (int)before, c->name,
                  starred && t->star != NULL ? t->star : "", c->name + before + starred);
-  (void)snprintf(v->words, sizeof v->words, "%s%s%s", c->long_name, t->words != NULL ? " " : "",
+  (void)snprintf(v->words, sizeof v->words, "%s%s%s", words, t->words != NULL ? " " : "",
                  t->words != NULL ? t->words : "");
   int k = 0;
   for (; k < 3 && t->dimensions[k] != NULL; k++) v->spec.dimensions[k] = t->dimensions[k];
@@ -192,10 +194,11 @@ static pendres_status define(scene_run *run, const scene_table *t, const scene_c
   variable v;
   char words[SCENE_WORDS];
   if (!scene_going(run)) return run->status;
-  describe(run, t, c, &v);
-  scene_define(run, &v.spec, words);
+  const pendres_quantity *q = scene_quantity(run, c->quantity, c->name);
+  describe(run, t, c, q, &v);
+  const pendres_kind kind = scene_define(run, q, &v.spec, words);
   results_variable(run, &v.spec, &out->value, c->type == SCENE_REAL ? &out->error : NULL);
-  scene_mark_units(run, &v.spec, c->type == SCENE_REAL);
+  scene_mark_units(run, &v.spec, kind, c->type == SCENE_REAL);
   return run->status;
 }
 
@@ -284,7 +287,7 @@ void scene_columns_write_orbits(scene_run *run, const scene_table *t, size_t orb
   const pendres_orbit_quantity *q;
   for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
     const int exact = q->error == PENDRES_ORBIT_EXACT;
-    const scene_column column = {.name = q->name, .long_name = q->long_name, .units = q->units,
+    const scene_column column = {.name = q->name,
                                  .type = exact ? SCENE_PLAIN : SCENE_REAL,
                                  .value = orbit + q->value,
                                  .error = exact ? 0 : orbit + q->error};

@@ -3,7 +3,8 @@
  *
  * Owns: writing a table whose columns are fields of a struct, and printing a short one; whether
  * rows that come from a journal can be what a task has written; the group `paper`. A scene gives
- * for each column its name, its words and the place of the field.
+ * for each column its name and the place of the field; units, and words where it gives none, are
+ * those of its quantity (pendres/quantity.h).
  */
 #ifndef SCENE_COLUMNS_H
 #define SCENE_COLUMNS_H
@@ -35,7 +36,10 @@ typedef const char *(*scene_names)(int value);
   }
 
 typedef struct scene_column {
-  const char *name, *long_name, *units;
+  const char *name;
+  const char *long_name;       /* NULL: the words of its quantity */
+  const char *quantity;        /* by name; NULL: that of the column's own name, or none */
+  const char *units;           /* of what is none of the pendulum's: seconds; else NULL */
   scene_column_type type;
   size_t value, error;         /* offsets of the fields in a row; error: of a SCENE_REAL */
   scene_names names;           /* of a SCENE_FLAG; NULL: it is a plain 0 or 1 */
@@ -47,26 +51,26 @@ typedef struct scene_column {
 } scene_column;
 
 /* What a column begins with: of a field with its error, FIELD_error, beside it; of one that is a
-   struct of value and error; and of a field of another type than real. Other members may follow. */
-#define SCENE_AS(label, row, field, words, unit)              \
-  .name = label, .long_name = words, .units = unit,           \
+   struct of value and error; and of a field of another type than real. Words and quantities may be
+   NULL. Other members may follow. */
+#define SCENE_AS(label, row, field, words, of_quantity)             \
+  .name = label, .long_name = words, .quantity = of_quantity,       \
   .value = offsetof(row, field), .error = offsetof(row, field##_error)
-#define SCENE_ESTIMATE(label, row, field, words, unit)        \
-  .name = label, .long_name = words, .units = unit,           \
+#define SCENE_ESTIMATE(label, row, field, words, of_quantity)       \
+  .name = label, .long_name = words, .quantity = of_quantity,       \
   .value = offsetof(row, field.value), .error = offsetof(row, field.error)
 #define SCENE_TYPED(kind, label, row, field, words)           \
   .name = label, .long_name = words, .type = kind, .value = offsetof(row, field)
 
 /* Whole columns with the names of their fields; a code has the names of its values. */
-#define SCENE_COLUMN(row, field, words, unit) {SCENE_AS(#field, row, field, words, unit)}
+#define SCENE_COLUMN(row, field, words) {SCENE_AS(#field, row, field, words, NULL)}
 #define SCENE_COLUMN_OF(kind, row, field, words) {SCENE_TYPED(kind, #field, row, field, words)}
 #define SCENE_CODE(row, field, words, names_of) \
   {SCENE_TYPED(SCENE_FLAG, #field, row, field, words), .names = names_of}
 
 /* The column that stands beside the means of an ensemble. */
 #define SCENE_UNCERTAIN(row, field)                           \
-  {SCENE_TYPED(SCENE_COUNT, "uncertain_members", row, field,  \
-               "members that may belong to another state")}
+  {SCENE_TYPED(SCENE_COUNT, "uncertain_members", row, field, NULL)}
 
 /* And the one where the force may drive them to infinity. */
 #define SCENE_ESCAPED(row, field)                                                    \

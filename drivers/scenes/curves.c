@@ -16,12 +16,12 @@ typedef struct row {
 } row;
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(row, amplitude, "amplitude of the orbit there", "rad"),
-  SCENE_COLUMN(row, multiplier, "Floquet multiplier of the larger modulus", "1"),
+  SCENE_COLUMN(row, amplitude, "amplitude of the orbit there"),
+  SCENE_COLUMN(row, multiplier, "Floquet multiplier of the larger modulus"),
   {.name = "other_multiplier", .long_name = "Floquet multiplier of the smaller modulus",
-   .units = "1", .value = offsetof(row, other_multiplier),
+   .value = offsetof(row, other_multiplier),
    .error = offsetof(row, multiplier_error)},
-  {SCENE_TYPED(SCENE_NUMBER, "period", row, period, "drive periods until the orbit closes")},
+  {SCENE_TYPED(SCENE_NUMBER, "period", row, period, NULL)},
 };
 
 static const scene_column of_folds[] = {
@@ -36,7 +36,7 @@ static const scene_column of_flips[] = {
 
 static const scene_column of_bifurcations[] = {
   SCENE_COLUMN(row, curvature, "of a fold: second derivative of the frequency by arclength in "
-               "(x, v); below 0: orbits exist below", "1"),
+               "(x, v); below 0: orbits exist below"),
   SCENE_CODE(row, kind, "what happens there", scene_special_names),
   SCENE_CODE(row, branch, "which branch ends there", endings),
 };
@@ -117,11 +117,11 @@ static void write_bifurcations(const scene_lines *l)
 
 /* ---- the cusp ------------------------------------------------------------------------------ */
 
-static void put_scalar(const scene_lines *l, const char *name, const char *long_name,
-                       const char *units, const double value[2])
+static void put_scalar(const scene_lines *l, const char *quantity, const char *name,
+                       const char *long_name, const double value[2])
 {
-  const pendres_store_spec spec = {.name = name, .long_name = long_name, .units = units};
-  scene_put(l->run, &spec, &value[0], &value[1], 1);
+  const pendres_store_spec spec = {.name = name, .long_name = long_name};
+  scene_put_as(l->run, quantity, &spec, &value[0], &value[1], 1);
 }
 
 static void write_cusp(const scene_lines *l)
@@ -137,11 +137,11 @@ static void write_cusp(const scene_lines *l)
     (void)snprintf(name, sizeof name, "cusp_%s", scene_column_name(of));
     (void)snprintf(words, sizeof words, "%s %s", scene_spaced(of, spaced),
                    of == PENDRES_DAMPING ? "at which SA and LA become one" : "there");
-    put_scalar(l, name, words, "1", value);
+    put_scalar(l, pendres_parameter_of(of)->name, name, words, value);
   }
   const double amplitude[2] = {c != NULL ? c->orbit.amplitude : NAN,
                                c != NULL ? c->orbit.amplitude_error : NAN};
-  put_scalar(l, "cusp_amplitude", "amplitude of the orbit there", "rad", amplitude);
+  put_scalar(l, "amplitude", "cusp_amplitude", "amplitude of the orbit there", amplitude);
 }
 
 static void write_failed(const scene_lines *l)

@@ -15,10 +15,10 @@
 int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out)
 {
   if (p == PENDRES_PARAMETER_COUNT)
-    return fit_is_decay(w->d) && deck_si_of(w->d, "drive_period", out);
+    return fit_is_decay(w->d) && deck_si_of_kind(w->d, PENDRES_KIND_TIME, out);
   if (p == PENDRES_DRIVE_AMPLITUDE && deck_fit_has(w->d, "drive_scale")) return 0;
   if (p == PENDRES_TORQUE && deck_fit_has(w->d, "torque_scale")) return 0;
-  return deck_si_of(w->d, pendres_parameter_of(p)->name, out);
+  return deck_si_of_kind(w->d, pendres_parameter_of(p)->kind, out);
 }
 
 static int units_of_observable(const fit_work *w, pendres_fit_observable o, deck_si *out)

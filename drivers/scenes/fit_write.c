@@ -20,11 +20,11 @@ static void write_values(const fit_work *w)
 {
   static const scene_column columns[] = {
     {SCENE_TYPED(SCENE_TEXT, "parameter_name", value_row, name, "name of the fitted quantity")},
-    SCENE_COLUMN(value_row, value, "fitted value; its error is the standard error", "1")};
+    SCENE_COLUMN(value_row, value, "fitted value; its error is the standard error")};
   static const scene_column in_si[] = {
-    SCENE_COLUMN(value_row, value_si, "the same in SI, of what has a unit", "1"),
+    SCENE_COLUMN(value_row, value_si, "the same in SI, of what has a unit"),
     {SCENE_TYPED(SCENE_TEXT, "value_units", value_row, units, "its unit")}};
-  const pendres_store_spec spec = {.name = "covariance", .units = "1",
+  const pendres_store_spec spec = {.name = "covariance",
                                    .dimensions = {"parameter", "with_parameter"},
                                    .long_name = "covariance of the fitted quantities"};
   value_row rows[FIT_MOST];
@@ -67,10 +67,10 @@ static void write_data(const fit_work *w)
     {SCENE_TYPED(SCENE_PLAIN, "datum_axis", datum_row, of.axis,
                  "value of the swept parameter, in the data's unit")},
     {.name = "observed", .long_name = "what was measured; its error is the standard error used",
-     .units = "1", .value = offsetof(datum_row, of.observed),
+     .value = offsetof(datum_row, of.observed),
      .error = offsetof(datum_row, at.error)},
-    {SCENE_AS("modelled", datum_row, at.modelled, "the model's value there", "1")},
-    {.name = "residual", .long_name = "observed less modelled", .units = "1",
+    {SCENE_AS("modelled", datum_row, at.modelled, "the model's value there", NULL)},
+    {.name = "residual", .long_name = "observed less modelled",
      .value = offsetof(datum_row, at.residual), .error = offsetof(datum_row, at.error)},
     {SCENE_TYPED(SCENE_FLAG, "datum_observable", datum_row, of.observable, "what was measured"),
      .names = observable_names},
@@ -99,7 +99,7 @@ static void write_jumps(const fit_work *w)
   static const scene_column columns[] = {
     {SCENE_AS("parameter", pendres_fit_jump, value,
               "value of the axis at which the model's state ends, in the data's unit; its error "
-              "is the standard error", "1")},
+              "is the standard error", NULL)},
     {SCENE_TYPED(SCENE_PLAIN, "measured_from", pendres_fit_jump, measured[0],
                  "last datum before the jump of the data")},
     {SCENE_TYPED(SCENE_PLAIN, "measured_to", pendres_fit_jump, measured[1],
@@ -120,7 +120,7 @@ static void write_jumps(const fit_work *w)
 
 static void put_scalar(const fit_work *w, const char *name, const char *words, double value)
 {
-  const pendres_store_spec spec = {.name = name, .long_name = words, .units = "1"};
+  const pendres_store_spec spec = {.name = name, .long_name = words};
   scene_put(w->run, &spec, &value, NULL, 1);
 }
 
@@ -225,7 +225,7 @@ static size_t take_points(const fit_work *w, const pendres_branches *set, double
 static void write_points(const fit_work *w, const curve_row *rows, size_t n)
 {
   static const scene_column columns[] = {
-    {SCENE_AS("axis", curve_row, axis, "value of the swept parameter, in the data's unit", "1")},
+    {SCENE_AS("axis", curve_row, axis, "value of the swept parameter, in the data's unit", NULL)},
     {SCENE_TYPED(SCENE_PLAIN, "other", curve_row, other,
                  "value of the parameter that differs between sweeps, in the data's unit")},
     {.name = "multiplier_re", .long_name = "real part of the Floquet multiplier", .pairs = 1,
@@ -238,8 +238,7 @@ static void write_points(const fit_work *w, const curve_row *rows, size_t n)
      .names = stabilities},
     SCENE_CODE(curve_row, kind, "what happens at the point", scene_special_names),
     {SCENE_TYPED(SCENE_NUMBER, "number", curve_row, number, "number of the branch")},
-    {SCENE_TYPED(SCENE_NUMBER, "period", curve_row, period,
-                 "drive periods until the orbit closes")},
+    {SCENE_TYPED(SCENE_NUMBER, "period", curve_row, period, NULL)},
   };
   static const scene_column of_parameters[] = {
     {SCENE_TYPED(SCENE_PLAIN, "damping", curve_row, of.pendulum.damping, "friction coefficient")},

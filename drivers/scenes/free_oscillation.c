@@ -99,9 +99,10 @@ static int is_other(const deck *d)
   return !deck_is_plain(d);
 }
 
-#define PLAIN(field, words) {SCENE_AS(#field, row, field, words, NULL), .when = deck_is_plain}
+#define PLAIN(field, words) \
+  {SCENE_AS(#field, row, field, words, "frequency"), .when = deck_is_plain}
 #define TURNING(field, words) \
-  {SCENE_TYPED(SCENE_REAL, #field, row, field, words), .units = "rad", .when = is_other, \
+  {SCENE_TYPED(SCENE_REAL, #field, row, field, words), .quantity = "x", .when = is_other, \
    .error = offsetof(row, turning_point_error)}
 
 static const scene_column columns[] = {
@@ -109,7 +110,7 @@ static const scene_column columns[] = {
   PLAIN(frequency_kittel, "frequency by Kittel's approximation"),
   PLAIN(frequency_belendez, "frequency by the approximation of Belendez et al."),
   PLAIN(frequency_integrated, "frequency by integration of the equation of motion"),
-  {SCENE_AS("frequency", row, frequency, "frequency of the free oscillation, by quadrature", "1"),
+  {SCENE_AS("frequency", row, frequency, "frequency of the free oscillation, by quadrature", NULL),
    .when = is_other},
   TURNING(turning_point_low, "lowest x of the free oscillation"),
   TURNING(turning_point_high, "highest x of the free oscillation"),

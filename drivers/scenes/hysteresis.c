@@ -25,11 +25,10 @@ static void compute(scene_run *run, deck_axis_id axis, scene_along_path *path)
 /* ---- results ------------------------------------------------------------------------------- */
 
 static const scene_column of_points[] = {
-  {SCENE_AS("mean_velocity", scene_along_row, of.mean_velocity, "mean velocity of x", "1")},
-  SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
-  SCENE_COLUMN(scene_along_row, winding, "whole turns until the orbit closes", "1"),
-  {SCENE_AS("lyapunov", scene_along_row, of.attractor.lyapunov,
-            "largest Lyapunov exponent per unit time", "1")},
+  {SCENE_AS("mean_velocity", scene_along_row, of.mean_velocity, NULL, NULL)},
+  SCENE_COLUMN(scene_along_row, period, NULL),
+  SCENE_COLUMN(scene_along_row, winding, NULL),
+  {SCENE_AS("lyapunov", scene_along_row, of.attractor.lyapunov, NULL, NULL)},
 };
 
 static const char *const directions[SCENE_DIRECTIONS] = {"up", "down"};
@@ -43,13 +42,13 @@ SCENE_NAMES(gradual_names, "jump", "gradual")
 SCENE_NAMES(certain_names, "uncertain", "certain")
 
 static const scene_column of_jumps[] = {
-  SCENE_COLUMN(scene_along_jump, parameter, "value at which the state ends", "1"),
-  SCENE_COLUMN(scene_along_jump, period, "drive periods of the orbit jumped to", "1"),
-  {SCENE_AS("winding", scene_along_jump, winding, "whole turns of the orbit jumped to", "1"),
+  SCENE_COLUMN(scene_along_jump, parameter, "value at which the state ends"),
+  SCENE_COLUMN(scene_along_jump, period, "drive periods of the orbit jumped to"),
+  {SCENE_AS("winding", scene_along_jump, winding, "whole turns of the orbit jumped to", NULL),
    .when = scene_along_turns},
   {SCENE_AS("mean_velocity", scene_along_jump, mean_velocity,
-            "mean velocity of x on the orbit jumped to", "1"), .when = scene_along_turns},
-  SCENE_COLUMN(scene_along_jump, share, "share of the trials that went to that state", "1"),
+            "mean velocity of x on the orbit jumped to", NULL), .when = scene_along_turns},
+  SCENE_COLUMN(scene_along_jump, share, "share of the trials that went to that state"),
   SCENE_CODE(scene_along_jump, direction, "way in which the parameter goes", direction_names),
   SCENE_CODE(scene_along_jump, kind, "bifurcation that ends the state", scene_jump_names),
   SCENE_CODE(scene_along_jump, from, "state that ends", scene_motion_names),
@@ -76,10 +75,10 @@ static const scene_column of_steps[] = {
                "whole turns in step_period drive periods")},
   {SCENE_TYPED(SCENE_NUMBER, "period", step_row, of.period,
                "drive periods of step_winding turns, without a common factor")},
-  {SCENE_AS("mean_velocity", step_row, mean_velocity, "mean velocity of x on the step", "1")},
-  {SCENE_AS("lower", step_row, of.lower, "least value at which the step was met", "1")},
-  {SCENE_AS("upper", step_row, of.upper, "largest value at which the step was met", "1")},
-  {SCENE_AS("width", step_row, of.width, "width of the step", "1"),
+  {SCENE_AS("mean_velocity", step_row, mean_velocity, "mean velocity of x on the step", NULL)},
+  {SCENE_AS("lower", step_row, of.lower, "least value at which the step was met", "parameter")},
+  {SCENE_AS("upper", step_row, of.upper, "largest value at which the step was met", "parameter")},
+  {SCENE_AS("width", step_row, of.width, "width of the step", "parameter"),
    .comment = "NaN: one of the ends is none of the step (see step_lower_end, step_upper_end)"},
   {SCENE_TYPED(SCENE_FLAG, "lower_end", step_row, of.lower_end,
                "what is known of the step's lower end"), .names = step_end_names},

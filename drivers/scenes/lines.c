@@ -322,7 +322,8 @@ static void write_place(const scene_lines *l, const scene_table *table,
 {
   const size_t at = (size_t)parameter * sizeof(double);
   const scene_column column = {.name = scene_column_name(parameter),
-                               .long_name = pendres_parameter_of(parameter)->brief, .units = "1",
+                               .long_name = pendres_parameter_of(parameter)->brief,
+                               .quantity = pendres_parameter_of(parameter)->name,
                                .value = offsetof(scene_place, value) + at,
                                .error = offsetof(scene_place, error) + at};
   scene_columns_write(l->run, table, 1, &column);

@@ -97,10 +97,10 @@ static const char *words_for(scene_failure reason)
 }
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(row, lyapunov, "largest Lyapunov exponent per unit time", "1"),
-  SCENE_COLUMN(row, rotation, "mean whole turns a drive period", "1"),
-  SCENE_COLUMN(row, period, "drive periods until the orbit closes", "1"),
-  SCENE_COLUMN(row, winding, "whole turns until the orbit closes", "1"),
+  SCENE_COLUMN(row, lyapunov, NULL),
+  SCENE_COLUMN(row, rotation, NULL),
+  SCENE_COLUMN(row, period, NULL),
+  SCENE_COLUMN(row, winding, NULL),
   SCENE_CODE(row, label, "kind of motion", scene_motion_names),
   {SCENE_TYPED(SCENE_FLAG, "uncertain", row, uncertain,
                "whether errors that the start amplifies may have chosen the motion"),

@@ -90,8 +90,8 @@ typedef struct dimensions {
 } dimensions;
 
 static const scene_column of_dimensions[] = {
-  SCENE_COLUMN(dimensions, lyapunov_dimension, "dimension of the section by Kaplan and Yorke", "1"),
-  SCENE_COLUMN(dimensions, correlation_dimension, "correlation dimension of the section", "1"),
+  SCENE_COLUMN(dimensions, lyapunov_dimension, NULL),
+  SCENE_COLUMN(dimensions, correlation_dimension, NULL),
 };
 
 /* What stands at each distance, or at each frequency. */
@@ -101,10 +101,10 @@ typedef struct row {
 
 static const scene_column of_distances[] = {
   {.name = "correlation_sum", .long_name = "share of pairs of strobe points that are closer",
-   .units = "1", .value = offsetof(row, value), .error = offsetof(row, error)},
+   .value = offsetof(row, value), .error = offsetof(row, error)},
 };
 static const scene_column of_frequencies[] = {
-  {.name = "power_spectrum", .long_name = "power spectral density of the velocity", .units = "1",
+  {.name = "power_spectrum",
    .value = offsetof(row, value), .error = offsetof(row, error)},
 };
 

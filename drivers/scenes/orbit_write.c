@@ -35,8 +35,7 @@ static void put_scalar(scene_run *run, const scene_column *column, double value,
 }
 
 /* A column of such a pair: the error stands behind the value. */
-#define SCALAR(what, words, unit) \
-  {.name = what, .long_name = words, .units = unit, .error = sizeof(double)}
+#define SCALAR(what, words) {.name = what, .long_name = words, .error = sizeof(double)}
 
 /* Whether a measure is written: those of forces that the pendulum does not have are all 0. */
 static int is_shown(const orbit_work *w, const pendres_orbit_quantity *q)
@@ -50,7 +49,7 @@ static void put_quantities(scene_run *run, const orbit_work *w)
   const int there = f->closed || scene_orbit_open(f);
   const pendres_orbit_quantity *q;
   for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
-    const scene_column column = SCALAR(q->name, q->long_name, q->units);
+    const scene_column column = SCALAR(q->name, NULL);
     const double value = there ? number_at(&f->of.orbit, q->value) : NAN;
     if (is_shown(w, q)) put_scalar(run, &column, value, error_of(&f->of.orbit, q));
   }
@@ -66,23 +65,22 @@ static void put_scalars(scene_run *run, const orbit_work *w)
     double value, error;
     enum { CLOSED, OPEN, ALWAYS } of; /* closed orbits alone, what does not close too, whatever */
   } scalars[] = {
-    { SCALAR("period", "drive periods until the orbit closes", "1"), o->period, 0.0, CLOSED },
-    { SCALAR("winding", "whole turns until the orbit closes", "1"), o->winding, 0.0, CLOSED },
-    { SCALAR("well", "number of the well of the orbit", "1"),
+    { SCALAR("period", NULL), o->period, 0.0, CLOSED },
+    { SCALAR("winding", NULL), o->winding, 0.0, CLOSED },
+    { SCALAR("well", "number of the well of the orbit"),
       o->winding == 0 ? (double)f->well : NAN, 0.0, CLOSED },
-    { SCALAR("settling_periods", "drive periods from the start to the trapping region", "1"),
+    { SCALAR("settling_periods", "drive periods from the start to the trapping region"),
       waited, 0.0, ALWAYS },
-    { SCALAR("lyapunov_exponent", "largest Lyapunov exponent per unit time", "1"), f->of.lyapunov,
-      f->of.lyapunov_error, ALWAYS },
+    { SCALAR("lyapunov_exponent", NULL), f->of.lyapunov, f->of.lyapunov_error, ALWAYS },
     { SCALAR("drift", pendres_pendulum_rotates(&w->pendulum)
                          ? "mean whole turns a drive period, of what does not close"
-                         : "mean whole turns a drive period, of chaos", "1"), f->of.drift,
+                         : "mean whole turns a drive period, of chaos"), f->of.drift,
       f->of.drift_error, OPEN },
     { SCALAR("watched_periods",
-             "drive periods that chaos was watched for without ending, all walkers", "1"),
+             "drive periods that chaos was watched for without ending, all walkers"),
       f->of.watched_periods, 0.0, OPEN },
     { SCALAR("escape_rate_bound",
-             "largest rate of ending, a drive period, that is not excluded at 95 %", "1"),
+             "largest rate of ending, a drive period, that is not excluded at 95 %"),
       f->of.escape_rate_bound, 0.0, OPEN },
   };
   put_quantities(run, w);
@@ -136,9 +134,9 @@ typedef struct multiplier {
 } multiplier;
 
 static const scene_column of_multipliers[] = {
-  {.name = "multiplier_re", .long_name = "Floquet multiplier, real part", .units = "1",
+  {.name = "multiplier_re", .long_name = "Floquet multiplier, real part",
    .value = offsetof(multiplier, re), .error = offsetof(multiplier, error)},
-  {.name = "multiplier_im", .long_name = "Floquet multiplier, imaginary part", .units = "1",
+  {.name = "multiplier_im", .long_name = "Floquet multiplier, imaginary part",
    .value = offsetof(multiplier, im), .error = offsetof(multiplier, error)},
 };
 
@@ -163,10 +161,10 @@ typedef struct sample {
 } sample;
 
 static const scene_column of_samples[ORBIT_VARIABLES] = {
-  SCENE_COLUMN(sample, drive_phase, "phase of the drive, omega t", "rad"),
-  SCENE_COLUMN(sample, x, "position", "rad"),
-  SCENE_COLUMN(sample, v, "velocity", "1"),
-  SCENE_COLUMN(sample, drive, "drive, F0 cos(omega t)", "1"),
+  SCENE_COLUMN(sample, drive_phase, NULL),
+  SCENE_COLUMN(sample, x, NULL),
+  SCENE_COLUMN(sample, v, NULL),
+  SCENE_COLUMN(sample, drive, NULL),
 };
 
 static sample sample_of(const orbit_work *w, uint64_t number, const double *s)

@@ -53,11 +53,9 @@ static const scene_column columns[] = {
    .names = scene_regime_names},
   OTHER(stays, others_that_stay),
   OTHER(deck_leaves, others),
-  SCENE_COLUMN(pendres_phase_point, sa_fraction,
-               "share of the members on the small-amplitude state", NULL),
-  SCENE_COLUMN(pendres_phase_point, la_fraction,
-               "share of the members on the large-amplitude state", NULL),
-  SCENE_COLUMN(pendres_phase_point, mean_loop_area, "mean loop area of the ensemble", NULL),
+  SCENE_COLUMN(pendres_phase_point, sa_fraction, NULL),
+  SCENE_COLUMN(pendres_phase_point, la_fraction, NULL),
+  SCENE_COLUMN(pendres_phase_point, mean_loop_area, NULL),
 };
 
 static void write_results(const scene_lines *l)

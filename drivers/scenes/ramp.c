@@ -185,9 +185,9 @@ static void put_way(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
     SCENE_COLUMN_OF(SCENE_PLAIN, row, time, "drive periods since the ramp's start"),
-    {SCENE_TYPED(SCENE_PLAIN, "parameter", row, value, "value of the parameter that moves")},
-    SCENE_COLUMN(row, x, "position at the strobe, without noise", "rad"),
-    SCENE_COLUMN(row, v, "velocity at the strobe, without noise", "1"),
+    {SCENE_TYPED(SCENE_PLAIN, "parameter", row, value, NULL)},
+    SCENE_COLUMN(row, x, "position at the strobe, without noise"),
+    SCENE_COLUMN(row, v, "velocity at the strobe, without noise"),
     SCENE_CODE(row, state, "whether the ramp's pendulum is still there, without noise",
                state_names),
   };
@@ -205,10 +205,11 @@ static void put_delays(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
     {SCENE_AS("jump_delay", pendres_ramp_jump, delay,
-              "how far beyond the state's end the ramp's pendulum leaves it, without noise", "1")},
+              "how far beyond the state's end the ramp's pendulum leaves it, without noise",
+              "parameter")},
     {SCENE_AS("jump_ramp_parameter", pendres_ramp_jump, value,
-              "value at which the ramp's pendulum leaves the state, without noise", "1")},
-    {.name = "jump_ramp_time", .units = "1", .type = SCENE_PLAIN,
+              "value at which the ramp's pendulum leaves the state, without noise", "parameter")},
+    {.name = "jump_ramp_time", .type = SCENE_PLAIN,
      .value = offsetof(pendres_ramp_jump, time),
      .long_name = "drive periods since the ramp's start until then"},
   };
@@ -220,18 +221,19 @@ static void put_scatter(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
     {SCENE_AS("jump_mean", pendres_ramp_summary, mean,
-              "mean over noisy trajectories of the value at which they leave the state", "1")},
+              "mean over noisy trajectories of the value at which they leave the state",
+              "parameter")},
     {SCENE_AS("jump_deviation", pendres_ramp_summary, deviation,
-              "standard deviation of that value", "1")},
+              "standard deviation of that value", "parameter")},
     {SCENE_TYPED(SCENE_COUNT, "jump_count", pendres_ramp_summary, count,
                  "trajectories that leave the state")},
   };
   const scene_table table = {.dimensions = {"jump"}, SCENE_ROWS(w->summary, w->ramp.jumps)};
   const pendres_store_spec spec = {
-    .name = "jump_noisy_parameter", .dimensions = {"jump", "trajectory"}, .units = "1",
+    .name = "jump_noisy_parameter", .dimensions = {"jump", "trajectory"},
     .long_name = "value at which each noisy trajectory leaves the state; NaN: it does not"};
   scene_numbering(run, "trajectory", w->trajectories, "number of the noisy trajectory");
-  scene_put(run, &spec, w->noisy, NULL, w->ramp.jumps * w->trajectories);
+  scene_put_as(run, "parameter", &spec, w->noisy, NULL, w->ramp.jumps * w->trajectories);
   SCENE_WRITE(run, &table, columns);
 }
 

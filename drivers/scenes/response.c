@@ -174,17 +174,16 @@ static pendres_status add_noise(const scene_some *some)
 }
 
 /* A mean, and what finite steps add to it. */
-#define NOISY(label, bias_label, field, words, unit)                                           \
-  {SCENE_ESTIMATE(label, pendres_response_noise, field, words, unit)},                         \
-  {SCENE_AS(bias_label, pendres_response_noise, field.bias, "bias by finite steps: " words, unit)}
+#define NOISY(label, bias_label, field, words)                                                \
+  {SCENE_ESTIMATE(label, pendres_response_noise, field, words, NULL)},                         \
+  {SCENE_AS(bias_label, pendres_response_noise, field.bias, "bias by finite steps: " words, label)}
 
 static const scene_column of_noise[] = {
-  NOISY("mean_loop_area", "bias_loop_area", loop_area, "mean loop area of the ensemble", "1"),
+  NOISY("mean_loop_area", "bias_loop_area", loop_area, "mean loop area of the ensemble"),
   NOISY("first_harmonic_amplitude", "bias_first_harmonic_amplitude", amplitude,
-        "amplitude of the mean loop's first harmonic", "rad"),
-  NOISY("phase_lag", "bias_phase_lag", phase_lag, "phase lag of the ensemble-averaged loop",
-        "rad"),
-  NOISY("mean_power", "bias_mean_power", mean_power, "mean power taken up from the drive", "1"),
+        "amplitude of the mean loop's first harmonic"),
+  NOISY("phase_lag", "bias_phase_lag", phase_lag, "phase lag of the ensemble-averaged loop"),
+  NOISY("mean_power", "bias_mean_power", mean_power, "mean power taken up from the drive"),
 };
 
 static const scene_column steps[] = {
@@ -193,13 +192,11 @@ static const scene_column steps[] = {
 };
 
 /* The columns of results that exist only without noise. */
-#define STILL(field, words, unit) \
-  {SCENE_AS(#field, pendres_response, field, words, unit), .comment = "at temperature 0 alone"}
 static const scene_column of_still[] = {
-  STILL(mean_loop_amplitude, "amplitude of the ensemble-averaged loop", "rad"),
-  STILL(mean_amplitude, "mean of the members' amplitudes", "rad"),
-  STILL(sa_fraction, "share of the members on the small-amplitude state", "1"),
-  STILL(la_fraction, "share of the members on the large-amplitude state", "1"),
+  SCENE_COLUMN(pendres_response, mean_loop_amplitude, NULL),
+  SCENE_COLUMN(pendres_response, mean_amplitude, NULL),
+  SCENE_COLUMN(pendres_response, sa_fraction, NULL),
+  SCENE_COLUMN(pendres_response, la_fraction, NULL),
 };
 
 static void write_still(scene_run *run, const noisy *w, const scene_table *table)
@@ -264,16 +261,13 @@ static void write_noise(const grid *g)
 /* ---- results ------------------------------------------------------------------------------- */
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(pendres_response, mean_loop_area, "mean loop area of the ensemble", "1"),
-  SCENE_COLUMN(pendres_response, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
-               "rad"),
-  SCENE_COLUMN(pendres_response, mean_amplitude, "mean of the members' amplitudes", "rad"),
-  SCENE_COLUMN(pendres_response, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
-  SCENE_COLUMN(pendres_response, mean_power, "mean power taken up from the drive", "1"),
-  SCENE_COLUMN(pendres_response, sa_fraction, "share of the members on the small-amplitude state",
-               "1"),
-  SCENE_COLUMN(pendres_response, la_fraction, "share of the members on the large-amplitude state",
-               "1"),
+  SCENE_COLUMN(pendres_response, mean_loop_area, NULL),
+  SCENE_COLUMN(pendres_response, mean_loop_amplitude, NULL),
+  SCENE_COLUMN(pendres_response, mean_amplitude, NULL),
+  SCENE_COLUMN(pendres_response, phase_lag, "phase lag of the ensemble-averaged loop"),
+  SCENE_COLUMN(pendres_response, mean_power, "mean power taken up from the drive"),
+  SCENE_COLUMN(pendres_response, sa_fraction, NULL),
+  SCENE_COLUMN(pendres_response, la_fraction, NULL),
 };
 
 static const scene_column doubts[] = {SCENE_UNCERTAIN(pendres_response, uncertain),
@@ -293,14 +287,15 @@ static int by_frequency(const deck *d)
 }
 
 static const scene_column of_peaks[] = {
-  SCENE_COLUMN(scene_peak, resonance_period, "drive period of the largest mean loop area", "1"),
-  {SCENE_AS("resonance_frequency", scene_peak, resonance_frequency,
-            "drive frequency of the largest mean loop area", "1"), .when = by_frequency},
-  {SCENE_AS("resonance_loop_area", scene_peak, mean_loop_area, "mean loop area at resonance", "1")},
+  SCENE_COLUMN(scene_peak, resonance_period, NULL),
+  {SCENE_AS("resonance_frequency", scene_peak, resonance_frequency, NULL, NULL),
+   .when = by_frequency},
+  {SCENE_AS("resonance_loop_area", scene_peak, mean_loop_area, "mean loop area at resonance",
+            "mean_loop_area")},
   {SCENE_AS("resonance_amplitude", scene_peak, mean_loop_amplitude,
-            "amplitude of the ensemble-averaged loop at resonance", "rad")},
+            "amplitude of the ensemble-averaged loop at resonance", "mean_loop_amplitude")},
   {SCENE_AS("resonance_phase_lag", scene_peak, phase_lag,
-            "phase lag of the ensemble-averaged loop at resonance", "rad")},
+            "phase lag of the ensemble-averaged loop at resonance", "phase_lag")},
 };
 
 static void write_results(const grid *g)

@@ -121,29 +121,43 @@ static void put_on_tape(scene_run *run, const pendres_store_spec *spec, const vo
   if (errors != NULL) results_write(run, error_id, 0, 0, errors, n);
 }
 
-void scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
-               const double *errors, size_t n)
+void scene_put_as(scene_run *run, const char *quantity, const pendres_store_spec *spec,
+                  const void *values, const double *errors, size_t n)
 {
   char words[SCENE_WORDS];
   pendres_store_spec defined = *spec;
+  const pendres_kind kind = scene_define(run, scene_quantity(run, quantity, spec->name),
+                                         &defined, words);
   if (!scene_going(run)) return;
-  scene_define(run, &defined, words);
   if (run->tape != NULL) put_on_tape(run, &defined, values, errors, n);
   else scene_stored(run, pendres_store_put(run->store, &defined, values, errors, n));
-  scene_mark_units(run, &defined, errors != NULL);
+  scene_mark_units(run, &defined, kind, errors != NULL);
+}
+
+void scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
+               const double *errors, size_t n)
+{
+  scene_put_as(run, NULL, spec, values, errors, n);
+}
+
+void scene_put_dimension_as(scene_run *run, const char *quantity, const pendres_store_spec *spec,
+                            const void *values, size_t n)
+{
+  char words[SCENE_WORDS];
+  pendres_store_spec defined = *spec;
+  const pendres_kind kind = scene_define(run, scene_quantity(run, quantity, spec->name),
+                                         &defined, words);
+  if (!scene_going(run)) return;
+  results_dimension(run, &defined, n, values);
+  if (defined.comment != NULL)
+    results_attribute(run, spec->group, spec->name, "comment", defined.comment);
+  scene_mark_units(run, &defined, kind, 0);
 }
 
 void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const void *values,
                          size_t n)
 {
-  char words[SCENE_WORDS];
-  pendres_store_spec defined = *spec;
-  if (!scene_going(run)) return;
-  scene_define(run, &defined, words);
-  results_dimension(run, &defined, n, values);
-  if (defined.comment != NULL)
-    results_attribute(run, spec->group, spec->name, "comment", defined.comment);
-  scene_mark_units(run, &defined, 0);
+  scene_put_dimension_as(run, NULL, spec, values, n);
 }
 
 /* ---- arrays -------------------------------------------------------------------------------- */
@@ -264,12 +278,6 @@ scene_heading scene_heading_of(deck_axis_id axis)
   return h;
 }
 
-/* The unit of an axis in files: but for positions and amplitudes of angles all are numbers. */
-static const char *units_of(deck_axis_id axis)
-{
-  return axis == DECK_AXIS_X || axis == DECK_AXIS_AMPLITUDE ? "rad" : "1";
-}
-
 static const char *words_of(deck_axis_id axis)
 {
   const pendres_parameter_info *info = pendres_parameter_of(deck_axis_parameter(axis));
@@ -282,8 +290,8 @@ static void write_dimension(scene_run *run, const char *group, deck_axis_id axis
 {
   const deck_axis *a = &run->deck->axis[axis];
   scene_put_dimension(
-    run, &(pendres_store_spec){.group = group, .name = deck_axis_name(axis), .long_name = words,
-                               .units = units_of(axis)}, a->value, a->count);
+    run, &(pendres_store_spec){.group = group, .name = deck_axis_name(axis), .long_name = words},
+    a->value, a->count);
 }
 
 void scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
@@ -337,18 +345,15 @@ static void write_fixed(scene_run *run, deck_axis_id axis, char *coordinates)
   const deck *d = run->deck;
   const double value = scene_fixed(d, axis);
   const int coefficient = pendres_parameter_of(deck_axis_parameter(axis))->coefficient;
-  pendres_store_spec spec = { .name = deck_axis_name(axis), .long_name = words_of(axis),
-                              .units = units_of(axis) };
+  pendres_store_spec spec = { .name = deck_axis_name(axis), .long_name = words_of(axis) };
   if (isnan(value) || is_outer(d, axis)) return;
   if (deck_fit_has(d, spec.name)) return; /* a guess, or not the value that is used */
   /* In other scenes the temperature is a dimension, even with one value. */
   if (axis == DECK_AXIS_TEMPERATURE && !scene_find(d->kind)->one_temperature) return;
-  if (coefficient > 0) {
-    spec.units = NULL; /* a power of the pendulum's own */
+  if (coefficient > 0)
     spec.long_name = d->pendulum.force == PENDRES_FORCE_POLYNOMIAL
                        ? "coefficient of the polynomial force"
                        : "coefficient of the force";
-  }
   if (coordinates[0] != '\0') strcat(coordinates, " ");
   strcat(coordinates, spec.name);
   scene_put(run, &spec, &value, NULL, 1);

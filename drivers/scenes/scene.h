@@ -163,11 +163,16 @@ void results_number(scene_run *run, const char *group, const char *object, const
 int results_has(scene_run *run, const char *group, const char *name);
 
 /* Write a variable, with its errors unless they are NULL, or a dimension of n values (NULL: numbers
-   from 0 on); see pendres/store.h. */
+   from 0 on); see pendres/store.h. Units, and words where the spec has none, are those of the
+   quantity of its name, or of the one that is named. */
 void scene_put(scene_run *run, const pendres_store_spec *spec, const void *values,
                const double *errors, size_t n);
+void scene_put_as(scene_run *run, const char *quantity, const pendres_store_spec *spec,
+                  const void *values, const double *errors, size_t n);
 void scene_put_dimension(scene_run *run, const pendres_store_spec *spec, const void *values,
                          size_t n);
+void scene_put_dimension_as(scene_run *run, const char *quantity, const pendres_store_spec *spec,
+                            const void *values, size_t n);
 
 /* An axis of the deck as a dimension of a group, with its usual name, words and units. */
 void scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
@@ -182,17 +187,24 @@ void scene_numbering(scene_run *run, const char *name, size_t n, const char *wor
 void scene_write_identity(scene_run *run);
 
 /* Where a deck has &units: mark a variable that was just defined, and its errors if it has any,
-   with the attributes si_factor and si_units; one whose unit does not follow from its name; and
-   print short results in SI behind the table. */
+   with the attributes si_factor and si_units, by its kind; one whose unit is another; and print
+   short results in SI behind the table. */
 void scene_mark_si(scene_run *run, const char *group, const char *name, const deck_si *si);
-void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors);
+void scene_mark_units(scene_run *run, const pendres_store_spec *spec, pendres_kind kind,
+                      int errors);
 void scene_tell_units(scene_run *run);
 
-/* Describe a variable as files do: its `comment` defines it, where it has a definition, and nothing
-   is called an angle where x is none. words: room for its long_name. For what writes variables, as
-   the functions above and columns do. */
+/* The quantity of that name, which is on record as a failure if there is none; if no name is given
+   (NULL), that of the variable's own, or NULL. */
+const pendres_quantity *scene_quantity(scene_run *run, const char *name, const char *own);
+
+/* Describe a variable as files do, by its quantity (NULL: a number), whose kind is returned: its
+   units, its words where it gives none, its definition as its `comment` where it has the quantity's
+   own name; and nothing is called an angle where x is none. words: room for its long_name. For what
+   writes variables, as the functions above and columns do. */
 enum { SCENE_WORDS = 300 };
-void scene_define(const scene_run *run, pendres_store_spec *spec, char words[SCENE_WORDS]);
+pendres_kind scene_define(const scene_run *run, const pendres_quantity *q, pendres_store_spec *spec,
+                          char words[SCENE_WORDS]);
 
 /* A parameter's name in words, "drive amplitude", in `text`, which is returned; and in columns of
    tables, where the frequency is the drive's. */

@@ -272,13 +272,13 @@ static void compute(scene_run *run, work *w)
 
 /* Of a rate, against temperature, and of a fit; * is the way, whose words follow. */
 static const scene_column of_rates[] = {
-  {.name = "rate_*", .long_name = "transitions per unit time",
+  {.name = "rate_*", .quantity = "rate",
    .value = offsetof(pendres_switching_rate, value),
    .error = offsetof(pendres_switching_rate, error)},
   {SCENE_TYPED(SCENE_PLAIN, "rate_*_lower", pendres_switching_rate, lower,
-               "lower end of the rate's confidence interval,")},
+               "lower end of the rate's confidence interval,"), .quantity = "rate"},
   {SCENE_TYPED(SCENE_PLAIN, "rate_*_upper", pendres_switching_rate, upper,
-               "upper end of the rate's confidence interval,")},
+               "upper end of the rate's confidence interval,"), .quantity = "rate"},
   {SCENE_TYPED(SCENE_PLAIN, "events_*", pendres_switching_rate, events, "transitions counted")},
   {SCENE_TYPED(SCENE_PLAIN, "dispersion_*", pendres_switching_rate, dispersion,
                "variance of the trajectories' counts by that of independent events,")},
@@ -291,14 +291,15 @@ static const scene_column of_rates[] = {
 
 static const scene_column of_fits[] = {
   {SCENE_AS("activation_energy_*", pendres_switching_activation, energy,
-            "activation energy: rate = prefactor exp(-energy / temperature),", NULL)},
+            "activation energy: rate = prefactor exp(-energy / temperature),",
+            "activation_energy")},
   {SCENE_AS("log_prefactor_*", pendres_switching_activation, log_prefactor,
             "ln of the rate's prefactor at the temperature of the fit,", NULL)},
   {SCENE_AS("prefactor_exponent_*", pendres_switching_activation, exponent,
             "power of the temperature in the prefactor (0 +- 1/2 where the rates do not tell),",
             NULL)},
   {SCENE_TYPED(SCENE_PLAIN, "fit_temperature_*", pendres_switching_activation, temperature,
-               "geometric mean of the fit's temperatures,")},
+               "geometric mean of the fit's temperatures,"), .quantity = "temperature"},
   {SCENE_TYPED(SCENE_PLAIN, "fit_chi2_*", pendres_switching_activation, chi2,
                "chi squared of the fit,")},
   {SCENE_TYPED(SCENE_FLAG, "fit_*", pendres_switching_activation, verdict,
@@ -340,10 +341,10 @@ static void write_occupation(scene_run *run, const work *w, int state)
 /* Exposures, steps, and the interval's level. */
 static void write_circumstances(scene_run *run, const work *w)
 {
-  static const scene_column exposure = {
-    .name = "exposure_*", .long_name = "time spent on", .type = SCENE_PLAIN};
+  static const scene_column exposure = {.name = "exposure_*", .long_name = "time spent on",
+                                        .quantity = "exposure", .type = SCENE_PLAIN};
   static const scene_column depth = {
-    .name = "linear_depth_*", .type = SCENE_PLAIN,
+    .name = "linear_depth_*", .quantity = "activation_energy", .type = SCENE_PLAIN,
     .long_name = "depth of the basin, the widest ellipse in it by linear theory; an activation "
                  "energy is a third of it or more; where nothing was counted at some temperature, "
                  "of"};

@@ -21,12 +21,13 @@ void scene_mark_si(scene_run *run, const char *group, const char *name, const de
   results_attribute(run, group, name, "si_units", si->units);
 }
 
-void scene_mark_units(scene_run *run, const pendres_store_spec *spec, int errors)
+void scene_mark_units(scene_run *run, const pendres_store_spec *spec, pendres_kind kind,
+                      int errors)
 {
   char error_name[DECK_NAME + 8];
   deck_si si;
   const int is_number = spec->type == PENDRES_STORE_DOUBLE;
-  if (!is_number || !scene_going(run) || !deck_si_of(run->deck, spec->name, &si)) return;
+  if (!is_number || !scene_going(run) || !deck_si_of_kind(run->deck, kind, &si)) return;
   scene_mark_si(run, spec->group, spec->name, &si);
   (void)snprintf(error_name, sizeof error_name, "%.64s_error", spec->name);
   if (errors) scene_mark_si(run, spec->group, error_name, &si);
@@ -61,6 +62,20 @@ static size_t place(size_t all, size_t i)
   return i + 1 == printed(all) ? all - 1 : i * step_of(all);
 }
 
+/* What the file says makes SI of a result. */
+static int si_of(scene_run *run, const char *name, deck_si *out)
+{
+  char *units = NULL;
+  if (!scene_going(run) ||
+      pendres_store_read_attribute_double(run->store, "", name, "si_factor", &out->factor) !=
+        PENDRES_OK ||
+      pendres_store_read_attribute_text(run->store, "", name, "si_units", &units) != PENDRES_OK)
+    return 0;
+  (void)snprintf(out->units, sizeof out->units, "%s", units);
+  free(units);
+  return 1;
+}
+
 /* A line of `all` numbers of a result, which has `lines` of them. */
 typedef struct line_of {
   size_t all, line, lines;
@@ -93,7 +108,7 @@ static void read_shown(scene_run *run, const char *name, const line_of *of, show
   read_printed(run, name, of, out->value);
   out->has_error = scene_going(run) && pendres_store_has(run->store, "", error_name);
   if (out->has_error) read_printed(run, error_name, of, out->error);
-  if (!deck_si_of(run->deck, name, &si)) return;
+  if (!si_of(run, name, &si)) return;
   for (size_t i = 0; i < n; i++)
     if (isfinite(out->value[i])) most = fmax(most, fabs(si.factor * out->value[i]));
   for (size_t i = 0; i < n && out->has_error; i++)
@@ -193,7 +208,7 @@ static size_t lines_over(scene_run *run, const char *name, const shown *along)
   uint64_t sizes[PENDRES_STORE_RANK];
   deck_si si;
   const int rank = shape_of(run, name, sizes);
-  if (rank < 1 || rank > 2 || !deck_si_of(run->deck, name, &si) ||
+  if (rank < 1 || rank > 2 || !si_of(run, name, &si) ||
       strcmp(name, along->name) == 0 || sizes[rank - 1] != along->all ||
       !lies_over(run, name, rank - 1, along->name))
     return 0;
@@ -224,7 +239,7 @@ static void tell_scalars(scene_run *run)
   deck_si si;
   shown s;
   for (uint64_t at = 0; (name = next_number(run, &at)) != NULL; free(name)) {
-    if (shape_of(run, name, sizes) != 0 || !deck_si_of(run->deck, name, &si)) continue;
+    if (shape_of(run, name, sizes) != 0 || !si_of(run, name, &si)) continue;
     read_shown(run, name, &(line_of){1, 0, 1}, &s);
     if (isnan(s.value[0]) || (s.value[0] == 0.0 && !s.has_error)) continue; /* it is not there */
     fprintf(run->table, "%-26s ", name);

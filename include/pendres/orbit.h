@@ -85,13 +85,10 @@ typedef struct pendres_orbit {
   double parametric_work_error; /**< its error */
 } pendres_orbit;
 
-/** A measure of orbits: its meaning, and its position in a pendres_orbit. */
+/** A measure of orbits: its position in a pendres_orbit. */
 typedef struct pendres_orbit_quantity {
-  const char *name;       /**< of the field, and of variables in files */
-  const char *long_name;  /**< short description */
-  const char *units;      /**< "rad", or "1": those of the equation */
-  const char *definition; /**< as a formula in words */
-  const char *coordinate; /**< the same where x is no angle; NULL: the same words */
+  const char *name;       /**< of the field, of variables in files, and for pendres_quantity_of():
+                               words, definition and dimension */
   size_t value;           /**< offset in bytes of the value, a double */
   size_t error;           /**< offset of its error; PENDRES_ORBIT_EXACT: it is
                                exact except for rounding */

@@ -11,6 +11,7 @@
 #define PENDRES_PARAMETER_H
 
 #include <pendres/pendulum.h>
+#include <pendres/quantity.h>
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
@@ -20,53 +21,52 @@ extern "C" {
 /*
  * One row makes a parameter:
  *
- *   ITEM(code, number, name, field, over, positive, length, time, unit, words, brief)
+ *   ITEM(code, number, name, field, over, positive, kind, words, brief)
  *
  *   code, number   PENDRES_code = number; the first PENDRES_PARAMETER_FOLLOWED have derivatives in
  *                  the sensitivity equations, in this order
  *   field          where it stands, in a pendulum or in the state that it starts from
  *   over           0 or, of a parameter that is no field itself: field = over / parameter
  *   positive       1: it stays above 0
- *   length, time   the powers of a pendulum's units (pendres_units_of) that make its own
- *   unit           that of the plain pendulum, in words
+ *   kind           PENDRES_KIND_kind: its dimension and unit
  *   words, brief   what it is, for axes, and for columns of tables
  *
  * Where several of them are dimensions of results they are so in the order of these rows.
  */
 
 /** Those that a plain pendulum has. */
-#define PENDRES_PARAMETERS_PLAIN(ITEM)                                                            \
-  ITEM(DRIVE_AMPLITUDE, 2, "drive_amplitude", pendulum.drive_amplitude, 0, 0, 1, -2, "m g l",     \
-       "drive amplitude F0", "drive amplitude")                                                   \
-  ITEM(DAMPING, 1, "damping", pendulum.damping, 0, 1, 0, -1, "omega0",                            \
-       "friction coefficient gamma", "friction coefficient")                                      \
-  ITEM(DRIVE_FREQUENCY, 0, "drive_frequency", pendulum.drive_frequency, 0, 1, 0, -1, "omega0",    \
-       "angular frequency of the drive", "drive frequency")                                       \
-  ITEM(DRIVE_PERIOD, 10, "drive_period", pendulum.drive_frequency, 2.0 * PENDRES_PI, 1, 0, 1,     \
-       "1/omega0", "period of the drive", "drive period")
+#define PENDRES_PARAMETERS_PLAIN(ITEM)                                                           \
+  ITEM(DRIVE_AMPLITUDE, 2, "drive_amplitude", pendulum.drive_amplitude, 0, 0, FORCE,             \
+       "drive amplitude F0", "drive amplitude")                                                  \
+  ITEM(DAMPING, 1, "damping", pendulum.damping, 0, 1, RATE, "friction coefficient gamma",        \
+       "friction coefficient")                                                                   \
+  ITEM(DRIVE_FREQUENCY, 0, "drive_frequency", pendulum.drive_frequency, 0, 1, FREQUENCY,         \
+       "angular frequency of the drive", "drive frequency")                                      \
+  ITEM(DRIVE_PERIOD, 10, "drive_period", pendulum.drive_frequency, 2.0 * PENDRES_PI, 1, TIME,    \
+       "period of the drive", "drive period")
 
 /** Those of other models, which are zero in a plain pendulum. */
-#define PENDRES_PARAMETERS_OTHER(ITEM)                                                            \
-  ITEM(TORQUE, 3, "torque", pendulum.torque, 0, 0, 1, -2, "m g l", "constant torque I", "torque") \
-  ITEM(PARAMETRIC_AMPLITUDE, 4, "parametric_amplitude", pendulum.parametric_amplitude, 0, 0, 0,   \
-       0, "1", "amplitude b of the parametric drive", "amplitude of the parametric drive")        \
-  ITEM(A1, 5, "a1", pendulum.force_coefficients[0], 0, 0, 0, -2, "1",                             \
-       "coefficient a1 of the force", "coefficient a1 of the force")                              \
-  ITEM(A2, 6, "a2", pendulum.force_coefficients[1], 0, 0, -1, -2, "1",                            \
-       "coefficient a2 of the force", "coefficient a2 of the force")                              \
-  ITEM(A3, 7, "a3", pendulum.force_coefficients[2], 0, 0, -2, -2, "1",                            \
-       "coefficient a3 of the force", "coefficient a3 of the force")                              \
-  ITEM(A4, 8, "a4", pendulum.force_coefficients[3], 0, 0, -3, -2, "1",                            \
-       "coefficient a4 of the force", "coefficient a4 of the force")                              \
-  ITEM(A5, 9, "a5", pendulum.force_coefficients[4], 0, 0, -4, -2, "1",                            \
+#define PENDRES_PARAMETERS_OTHER(ITEM)                                                           \
+  ITEM(TORQUE, 3, "torque", pendulum.torque, 0, 0, FORCE, "constant torque I", "torque")         \
+  ITEM(PARAMETRIC_AMPLITUDE, 4, "parametric_amplitude", pendulum.parametric_amplitude, 0, 0,     \
+       NUMBER, "amplitude b of the parametric drive", "amplitude of the parametric drive")       \
+  ITEM(A1, 5, "a1", pendulum.force_coefficients[0], 0, 0, A1,                                    \
+       "coefficient a1 of the force", "coefficient a1 of the force")                             \
+  ITEM(A2, 6, "a2", pendulum.force_coefficients[1], 0, 0, A2,                                    \
+       "coefficient a2 of the force", "coefficient a2 of the force")                             \
+  ITEM(A3, 7, "a3", pendulum.force_coefficients[2], 0, 0, A3,                                    \
+       "coefficient a3 of the force", "coefficient a3 of the force")                             \
+  ITEM(A4, 8, "a4", pendulum.force_coefficients[3], 0, 0, A4,                                    \
+       "coefficient a4 of the force", "coefficient a4 of the force")                             \
+  ITEM(A5, 9, "a5", pendulum.force_coefficients[4], 0, 0, A5,                                    \
        "coefficient a5 of the force", "coefficient a5 of the force")
 
 /** Noise, and the state at drive phase 0 that a pendulum starts from. */
-#define PENDRES_PARAMETERS_REST(ITEM)                                                             \
-  ITEM(TEMPERATURE, 11, "temperature", pendulum.temperature, 0, 0, 2, -2, "m g l / k",            \
-       "temperature k T / (m g l)", "temperature")                                                \
-  ITEM(X, 12, "x", state.x, 0, 0, 1, 0, "rad", "initial position", "initial position")            \
-  ITEM(V, 13, "v", state.v, 0, 0, 1, -1, "omega0", "initial velocity", "initial velocity")
+#define PENDRES_PARAMETERS_REST(ITEM)                                                            \
+  ITEM(TEMPERATURE, 11, "temperature", pendulum.temperature, 0, 0, TEMPERATURE,                  \
+       "temperature k T / (m g l)", "temperature")                                               \
+  ITEM(X, 12, "x", state.x, 0, 0, POSITION, "initial position", "initial position")              \
+  ITEM(V, 13, "v", state.v, 0, 0, VELOCITY, "initial velocity", "initial velocity")
 
 /** All of them. */
 #define PENDRES_PARAMETER_LIST(ITEM) \
@@ -81,14 +81,11 @@ extern "C" {
  * PENDRES_V: velocity. PENDRES_PARAMETER_COUNT: how many there are.
  */
 typedef enum pendres_parameter {
-#define PENDRES_PARAMETER_CODE(code, number, name, field, over, positive, length, time, unit, \
-                               words, brief)                                                  \
+#define PENDRES_PARAMETER_CODE(code, number, name, field, over, positive, kind, words, brief) \
   PENDRES_##code = number,
   PENDRES_PARAMETER_LIST(PENDRES_PARAMETER_CODE)
 #undef PENDRES_PARAMETER_CODE
-#define PENDRES_PARAMETER_ONE(code, number, name, field, over, positive, length, time, unit, \
-                              words, brief)                                                  \
-  +1
+#define PENDRES_PARAMETER_ONE(code, number, name, field, over, positive, kind, words, brief) +1
   PENDRES_PARAMETER_COUNT = PENDRES_PARAMETER_LIST(PENDRES_PARAMETER_ONE) /**< how many there are;
                                                                                not a parameter */
 #undef PENDRES_PARAMETER_ONE
@@ -104,9 +101,7 @@ typedef struct pendres_parameter_info {
   const char *name;  /**< in decks and files, and of fields: "drive_frequency", "a1" */
   const char *words; /**< what it is: "angular frequency of the drive" */
   const char *brief; /**< the same in short: "drive frequency" */
-  const char *unit;  /**< that of the plain pendulum's: "omega0", "m g l"; "1": a number */
-  int length;        /**< the power of the unit of length (pendres_units_of) in its own unit */
-  int time;          /**< that of the unit of time */
+  pendres_kind kind; /**< its dimension and unit */
   int positive;      /**< 1: it stays above 0; 0: it may have any sign, but for temperatures */
   int plain;         /**< 1: a plain pendulum has it; 0: it is zero there, or not of a pendulum */
   int coefficient;   /**< k of a coefficient a_k of the force; 0: it is none */

@@ -16,9 +16,9 @@ typedef struct row {
   ((place) >= FIRST && (place) < FIRST + PENDRES_FORCE_COEFFICIENTS * sizeof(double)   \
      ? (int)(((place) - FIRST) / sizeof(double)) + 1                                   \
      : 0)
-#define ROW(is_plain, code, number, name, field, over, positive, length, time, unit, words, brief) \
-  [PENDRES_##code] = {{name, words, brief, unit, length, time, positive, is_plain,                 \
-                       COEFFICIENT(offsetof(pendres_parameter_record, field))},                    \
+#define ROW(is_plain, code, number, name, field, over, positive, kind, words, brief)          \
+  [PENDRES_##code] = {{name, words, brief, PENDRES_KIND_##kind, positive, is_plain,           \
+                       COEFFICIENT(offsetof(pendres_parameter_record, field))},               \
                       offsetof(pendres_parameter_record, field), over},
 #define PLAIN(...) ROW(1, __VA_ARGS__)
 #define OTHER(...) ROW(0, __VA_ARGS__)

@@ -140,7 +140,9 @@ double pendres_units_of_parameter(const pendres_units *unit, pendres_parameter p
 {
   const pendres_parameter_info *info = pendres_parameter_of(parameter);
   const pendres_scales s = {.unit = *unit, .first = 1.0, .second = 1.0};
-  return info != NULL ? pendres_units_factor(&s, info->length, info->time) : 1.0;
+  if (info == NULL) return 1.0;
+  const pendres_kind_info *kind = pendres_kind_of(info->kind);
+  return pendres_units_factor(&s, kind->length, kind->time);
 }
 
 static void convert(const pendres_scales *s, const pendres_dimensions *d, size_t n, void *records,

@@ -85,50 +85,17 @@ static pendres_orbit_value parametric_work(const pendres_pendulum *p,
 #define WITH_ERROR(field) .name = #field, .value = offsetof(pendres_orbit, field), \
                           .error = offsetof(pendres_orbit, field##_error)
 
+/* What they are stands in model/quantity_list.h. */
 static const pendres_orbit_row table[] = {
-  {.measure = amplitude, .image = 1,
-   .shown = {WITH_ERROR(amplitude), .principal = 1, .units = "rad",
-             .long_name = "half peak to peak of the angle",
-             .definition = "half peak to peak of the angle, in rad",
-             .coordinate = "half peak to peak of x"}},
-  {.measure = first_harmonic, .image = 1,
-   .shown = {WITH_ERROR(first_harmonic_amplitude), .units = "rad",
-             .long_name = "amplitude of the angle's first harmonic",
-             .definition = "a in the part a cos(omega t - phase_lag) of the angle, in rad",
-             .coordinate = "a in the part a cos(omega t - phase_lag) of x"}},
+  {.measure = amplitude, .image = 1, .shown = {WITH_ERROR(amplitude), .principal = 1}},
+  {.measure = first_harmonic, .image = 1, .shown = {WITH_ERROR(first_harmonic_amplitude)}},
   {.measure = phase_lag, .image = 1, .angle = 1,
-   .shown = {WITH_ERROR(phase_lag), .principal = 1, .units = "rad",
-             .long_name = "lag of the first harmonic behind the drive",
-             .definition = "phi in 0 to pi, in rad: the angle's first harmonic is "
-                           "a cos(omega t - phi)",
-             .coordinate = "phi in 0 to pi, in rad: the first harmonic of x is "
-                           "a cos(omega t - phi)"}},
-  {.measure = loop_area, .image = 1,
-   .shown = {WITH_ERROR(loop_area), .principal = 1, .units = "1",
-             .long_name = "area of the hysteresis loop, a drive cycle",
-             .definition = "work of the drive a drive cycle, the closed integral of F dx, in m g l",
-             .coordinate = "work of the drive a drive cycle, the closed integral of F dx"}},
-  {.measure = dissipation, .image = 1,
-   .shown = {WITH_ERROR(dissipation), .units = "1",
-             .long_name = "energy dissipated a drive cycle",
-             .definition = "gamma times the closed integral of v^2 dt a drive cycle, in m g l; on "
-                           "a periodic orbit the same as loop_area",
-             .coordinate = "gamma times the closed integral of v^2 dt a drive cycle"}},
-  {.image = 1, /* loop area times a frequency */
-   .shown = {WITH_ERROR(mean_power), .units = "1",
-             .long_name = "mean power taken from the drive",
-             .definition = "loop area times omega / (2 pi), in m g l omega0",
-             .coordinate = "loop area times omega / (2 pi)"}},
-  {.measure = torque_work,
-   .shown = {EXACT(torque_work), .of_forces = 1, .units = "1",
-             .long_name = "energy that the torque gives a drive cycle",
-             .definition = "2 pi I p / q of the torque I and an orbit of p turns in q drive "
-                           "periods, exactly"}},
-  {.measure = parametric_work,
-   .shown = {WITH_ERROR(parametric_work), .of_forces = 1, .units = "1",
-             .long_name = "energy that the parametric drive gives a drive cycle",
-             .definition = "-b times the closed integral of f(x) cos(omega t) dx, of the restoring "
-                           "force f"}},
+   .shown = {WITH_ERROR(phase_lag), .principal = 1}},
+  {.measure = loop_area, .image = 1, .shown = {WITH_ERROR(loop_area), .principal = 1}},
+  {.measure = dissipation, .image = 1, .shown = {WITH_ERROR(dissipation)}},
+  {.image = 1, .shown = {WITH_ERROR(mean_power)}}, /* loop area times a frequency */
+  {.measure = torque_work, .shown = {EXACT(torque_work), .of_forces = 1}},
+  {.measure = parametric_work, .shown = {WITH_ERROR(parametric_work), .of_forces = 1}},
 };
 enum { ROWS = sizeof table / sizeof *table };
 _Static_assert((int)ROWS <= (int)PENDRES_ORBIT_MEASURES,
