@@ -185,6 +185,41 @@ static void offset_beside_guesses(void **state)
   pendres_fit_free(found);
 }
 
+/* Whether a call has asked this often: a search that does not end does. */
+static int has_gone_on(void *asked)
+{
+  return ++*(long *)asked > 1000000;
+}
+
+/* A barrier at the origin, between two wells, never softens to half of its stiffness: a curve's
+   size is not halved without end, and the search ends, with an answer or without. */
+static void barrier_at_the_origin(void **state)
+{
+  (void)state;
+  enum { N = 30 };
+  long asked = 0;
+  pendres_context *ctx = NULL;
+  pendres_fit *found = NULL;
+  pendres_fit_datum data[N];
+  const pendres_fit_unknown open = {.quantity = PENDRES_DAMPING, .guess = 0.1};
+  const pendres_fit_model model = {
+    .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-0.05, 0.0, 1.0},
+                 .drive_amplitude = 0.02}, .unknowns = 1, .unknown = &open};
+  for (int i = 0; i < N; i++) {
+    const double w = 0.2 + 0.01 * i, stiff = 0.1; /* of the wells */
+    data[i] = (pendres_fit_datum){.observable = PENDRES_FIT_AMPLITUDE, .direction = 1, .axis = w,
+                                  .observed = 0.02 / hypot(stiff - w * w, 0.1 * w), .error = 0.01};
+  }
+  const pendres_fit_data all = {.n = N, .datum = data, .axis = PENDRES_DRIVE_FREQUENCY,
+                                .other = PENDRES_PARAMETER_COUNT};
+  check_ok(pendres_context_create(NULL, &ctx));
+  pendres_context_set_interrupt(ctx, has_gone_on, &asked);
+  const pendres_status status = pendres_fit_find(ctx, &all, &model, NULL, &found);
+  assert_true(status == PENDRES_OK || status == PENDRES_NOT_CONVERGED);
+  pendres_fit_free(found);
+  pendres_context_free(ctx);
+}
+
 /* ---- places ---- */
 
 /* Where weak drives find the resonance: at the frequency of the well, whatever the damping. */
@@ -219,6 +254,7 @@ int main(void)
                                      cmocka_unit_test(linear_springs),
                                      cmocka_unit_test(no_guesses),
                                      cmocka_unit_test(offset_beside_guesses),
+                                     cmocka_unit_test(barrier_at_the_origin),
                                      cmocka_unit_test(weak_resonances)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -390,7 +390,7 @@ const deck_key deck_table[] = {
   { REAL("fit", "jump_error", fit.jump_error), IN(FIT), NOT_NEGATIVE, .number = 0,
     SAYS("unit of the data", "standard error of the axis at which jumps were seen, beside the "
          "spacing of the data: noise makes states jump early") },
-  { INTEGER("fit", "starts", fit.starts), IN(FIT), RANGE(1, 100), .number = 6,
+  { INTEGER("fit", "starts", fit.starts), IN(FIT), RANGE(1, 100), .number = 20,
     SAYS(NULL, "most guesses that are tried, until one fits well") },
   { INTEGER("fit", "iterations", fit.iterations), IN(FIT), RANGE(1, 10000), .number = 60,
     SAYS(NULL, "most steps from each guess") },

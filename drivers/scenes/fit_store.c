@@ -150,8 +150,15 @@ static void write_table(table *t, FILE *out)
 typedef struct task {
   scene_run *run;
   const char *path;
+  struct stat is; /* the file that the caller has opened: the child has its name alone */
   FILE *out;
 } task;
+
+static int is_the_same(const task *w)
+{
+  struct stat now;
+  return stat(w->path, &now) == 0 && now.st_dev == w->is.st_dev && now.st_ino == w->is.st_ino;
+}
 
 /* The text into the file, or the reason why there is none, which the status tells. */
 static int read_apart(const void *arg)
@@ -161,7 +168,9 @@ static int read_apart(const void *arg)
   table t = {.run = run};
   const pendres_status status = pendres_store_open(w->path, &run->store);
   t.store = run->store; /* whose words scene_stored() tells: the results' are not this process's */
-  if (status == PENDRES_OK) find_variables(&t);
+  if (status == PENDRES_OK && !is_the_same(w))
+    (void)scene_fail(run, PENDRES_IO, "it was replaced while it was being read");
+  else if (status == PENDRES_OK) find_variables(&t);
   else
     (void)scene_fail(run, status == PENDRES_IO ? PENDRES_INVALID_ARGUMENT : status,
                      "the file of results cannot be read (%s): it is broken, or no file of this "
@@ -181,26 +190,30 @@ static int read_apart(const void *arg)
   return bad || fflush(w->out) != 0 ? PENDRES_STATUS_COUNT : (int)run->status;
 }
 
+/* As of one for whose words there was no room. */
+static const char no_reason[] = "the process that reads it ended without a reason";
+
 pendres_status fit_store_text(scene_run *run, const char *path, int fd, char **text,
                               size_t *length)
 {
-  struct stat s;
   int code = APART_FAILED;
   pendres_status status = PENDRES_IO;
   const int file = scene_unnamed(run, 0);
   FILE *out = file >= 0 ? fdopen(file, "w") : NULL;
-  const task w = {run, path, out};
-  if (out != NULL && fstat(fd, &s) == 0) code = apart(read_apart, &w, s.st_size, file);
+  task w = {.run = run, .path = path, .out = out};
+  if (out != NULL && fstat(fd, &w.is) == 0) code = apart(read_apart, &w, w.is.st_size, file);
   if (code >= 0 && code < PENDRES_STATUS_COUNT && lseek(file, 0, SEEK_SET) == 0)
     status = bytes_text(file, FIT_MOST_BYTES, text, length);
   else if (code != APART_FAILED)
     (void)scene_fail(run, PENDRES_INVALID_ARGUMENT, "%s: the file of results cannot be read: %s",
-                     path, code == APART_ENDLESS ? "reading it does not end"
-                                                 : "HDF5 crashes when it reads it");
+                     path, code == APART_ENDLESS   ? "reading it does not end"
+                           : code == APART_CRASHED ? "HDF5 crashes when it reads it"
+                                                   : no_reason);
   if (out != NULL) (void)fclose(out);
   else if (file >= 0) (void)close(file);
   if (status != PENDRES_OK || code == PENDRES_OK) return status;
-  (void)scene_fail(run, (pendres_status)code, "%s: %s", path, *text);
+  (void)scene_fail(run, (pendres_status)code, "%s: %s", path,
+                   (*text)[0] != '\0' ? *text : no_reason);
   free(*text);
   *text = NULL;
   return status;

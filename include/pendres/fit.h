@@ -150,7 +150,7 @@ typedef struct pendres_fit_options {
                           errors then follow from how the data pull, outliers included */
   double jump_error; /**< standard error of the axis at a jump beside the spacing of the data, as
                           noise makes states jump early; in the data's unit */
-  int starts;        /**< most starts that are tried; 6 */
+  int starts;        /**< most starts that are tried; 20, which is all that there are */
   int iterations;    /**< most steps from each of them; 60 */
 } pendres_fit_options;
 

@@ -97,7 +97,7 @@ static int ascending(const void *a, const void *b)
 
 /* The scatter of an observable: the median of second differences of neighbours, which a smooth
    response hardly has, and jumps do not change. */
-static double scatter_of(const fit_model *m, pendres_fit_observable o, double *work)
+static double scatter_of(const fit_model *m, pendres_fit_observable o, double *work, int *known)
 {
   size_t n = 0;
   double largest = 0.0;
@@ -116,17 +116,25 @@ static double scatter_of(const fit_model *m, pendres_fit_observable o, double *w
   }
   for (size_t i = 0; i < m->marks; i++)
     largest = fmax(largest, fabs(m->datum[m->mark[i].datum].observed));
+  const double least = 1e-6 * largest + 1e-300; /* exact data, or digits that stand still */
+  *known = 0;
   if (m->decays || m->stations == 0) return fit_decay_scatter * largest + 1e-300;
   qsort(work, n, sizeof *work, ascending);
   const double median = n > 0 ? work[n / 2] / (0.6745 * sqrt(6.0)) : 0.0;
-  return fmax(median, 1e-6 * largest + 1e-300);
+  *known = median > least;
+  return fmax(median, least);
 }
 
-static void set_errors(const pendres_fit_call *c, const fit_model *m, double *error, double *work)
+static void set_errors(const pendres_fit_call *c, fit_problem *p, double *error, double *work)
 {
+  const fit_model *m = p->m;
   double scatter[FIT_BASES] = {0.0};
-  for (int o = 0; o < FIT_BASES && !c->errors_known; o++)
-    if (m->measured[o]) scatter[o] = scatter_of(m, (pendres_fit_observable)o, work);
+  p->excess = !c->errors_known;
+  for (int o = 0; o < FIT_BASES && !c->errors_known; o++) {
+    int known = 1;
+    if (m->measured[o]) scatter[o] = scatter_of(m, (pendres_fit_observable)o, work, &known);
+    p->excess *= known;
+  }
   for (size_t i = 0; i < m->data; i++)
     error[i] = c->errors_known ? m->datum[i].error : scatter[m->datum[i].observable];
 }
@@ -148,10 +156,8 @@ static pendres_status take_room(fit_problem *p, fit_result *best, fit_result *no
   fit_result *both[] = {best, now};
   for (int k = 0; k < 2; k++) {
     both[k]->covariance = pendres_room_take(room, n * n, sizeof *both[k]->covariance);
-    both[k]->open = pendres_room_take(room, n, sizeof *both[k]->open);
+    both[k]->combination = pendres_room_take(room, n + 1, sizeof *both[k]->combination);
     both[k]->at_bound = pendres_room_take(room, n, sizeof *both[k]->at_bound);
-    both[k]->far = pendres_room_take(room, n, sizeof *both[k]->far);
-    both[k]->weak = pendres_room_take(room, n, sizeof *both[k]->weak);
     both[k]->spread = pendres_room_take(room, n, sizeof *both[k]->spread);
   }
   return room->status;
@@ -296,8 +302,30 @@ static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, dou
   for (int round = 0; round < 2 && status == PENDRES_OK && best->computed; round++) {
     const double factor = sqrt(fmax(best->chi_square, 1e-300) / fmax(best->freedom, 1.0));
     for (size_t i = 0; i < p->m->data; i++) error[i] *= factor;
+    p->excess *= factor;
     p->known = 0;
     status = pendres_fit_solve(p, c->options.iterations, best);
+  }
+  return status;
+}
+
+/* The errors of the values. Where following finds better ones, those of data are found anew. */
+static pendres_status conclude(const pendres_fit_call *c, fit_problem *p, double *error,
+                               fit_result *best, fit_result *now)
+{
+  pendres_status status = PENDRES_OK;
+  double before = INFINITY;
+  for (int again = 0; again < FIT_AGAIN && status == PENDRES_OK && best->computed &&
+                      best->chi_square < before - fit_twin; again++) {
+    if (!c->errors_known) status = find_errors(c, p, error, best);
+    forget_curves(p);
+    const int converged = best->converged; /* also where derivatives do not tell */
+    before = best->chi_square;
+    if (status == PENDRES_OK && best->computed) status = pendres_fit_conclude(p, best);
+    best->converged |= converged;
+    if (status == PENDRES_OK && best->computed)
+      status = pendres_fit_profile(p, c->options.iterations, best, now);
+    if (c->errors_known) break;
   }
   return status;
 }
@@ -367,25 +395,19 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
   pendres_status status = take_room(&p, &best, &now, open, room);
   if (status != PENDRES_OK) return status;
   p.terms.error = error;
-  set_errors(c, m, error, work);
+  set_errors(c, &p, error, work);
   set_free(c, &p);
-  const int most = c->options.starts > 0 ? c->options.starts : FIT_STARTS;
+  const int most = c->options.starts > 0 ? c->options.starts : FIT_TRIED;
   if (starts > 1) status = order_starts(c, &p, starts, start);
   if (status == PENDRES_OK)
     status = try_starts(c, &p, starts < most ? starts : most, start, &best, &now);
-  if (status == PENDRES_OK && !c->errors_known) status = find_errors(c, &p, error, &best);
+  if (status == PENDRES_OK) status = conclude(c, &p, error, &best, &now);
   if (status != PENDRES_OK) return status;
   if (!best.computed)
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
                                 "the model could not be computed from any start%s%s: give guesses "
                                 "of the unknowns", m->lost != NULL ? "; the last: " : "",
                                 m->lost != NULL ? m->lost : "");
-  forget_curves(&p);
-  const int converged = best.converged; /* also where derivatives do not tell */
-  status = pendres_fit_conclude(&p, &best);
-  best.converged |= converged;
-  if (status == PENDRES_OK)
-    status = pendres_fit_profile(&p, c->options.iterations, &best, &now);
   if (best.impossible) best.converged *= 2;
   if (!p.known) forget_curves(&p);
   if (status == PENDRES_OK && !pendres_fit_evaluate(&p, best.v))

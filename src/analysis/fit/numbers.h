@@ -22,7 +22,6 @@ enum {
   FIT_MOST_STEPS = 1000,
   FIT_MORE_STEPS = 4,
   FIT_PASSES = 8,      /* of Newton's method at the data, from points of the curve between nodes */
-  FIT_STARTS = 6,
   FIT_AGAIN = 3, /* times that the solver begins anew where it has stalled */
   FIT_ITERATIONS = 60,
   FIT_GUESS_DATA = 120, /* data that the guess looks at, evenly chosen */
@@ -100,13 +99,15 @@ static const double fit_at_bound = 1e-5, fit_inside = 1e-3;
 static const double fit_undetermined = 1e-5;
 
 /* An error as large as this share of a positive number, or of the angle that a bounded one is seen
-   as, is no small change: chi-square is no parabola along it, and is followed. What goes with the
-   square of such a number is off from its tangent by a third three errors away. */
-static const double fit_far = 0.1;
+   as, may be no small change, if chi-square then differs by more than the second share from a
+   parabola two errors away: what is three errors away by the one is up to 3.3 by the other. Of
+   what goes with the square of such a number it does. */
+static const double fit_far = 0.02, fit_bent = 0.1;
 
-/* Steps along it, in the logarithm: the first, the longest, and the shortest, at which it ends;
-   chi-square is followed up to this rise, three standard deviations, and grows by no more than this
-   from step to step; and so far, a factor of 160,000. What still moves there has no end. */
+/* Steps along it, in what the solver sees, as a logarithm: the first, the longest, and the
+   shortest, at which it ends; chi-square is followed up to this rise, three standard deviations,
+   and grows by no more than this from step to step; and so far, a factor of 160,000. What still
+   moves there has no end. */
 static const double fit_profile_first = 0.1, fit_profile_long = 2.0, fit_profile_short = 0.01,
                     fit_profile_rise = 9.0, fit_profile_grows = 4.0, fit_profile_end = 12.0;
 
@@ -124,6 +125,10 @@ static const double fit_outliers = 0.5;
 /* Residuals of neighbours are correlated beyond chance where the sum of their products is further
    from 0 than this many standard deviations. */
 static const double fit_correlated = 5.0;
+
+/* Where errors are not known, data scatter about a right fit more than neighbours do about each
+   other by chance alone: by less than this over the root of their number. */
+static const double fit_excess = 5.0;
 
 /* Amplitudes below 0 by more than so many errors, or, where none are known, by more than this share
    of the largest one, which is noise that fits are not tested with, are none. */

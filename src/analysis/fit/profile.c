@@ -3,9 +3,10 @@
  *
  * A product of unknowns, as of a start and a scale, may be all that data tell. Where these change
  * by factors the others change with them, along a curve: derivatives at one of its points tell the
- * others' errors there, and not how far they move. So one of the unknowns is given value after
- * value, the others are fitted, and an error is no less than what a value moves by until chi-square
- * has grown by 1. Source: Venzon and Moolgavkar, Applied Statistics 37 (1988) 87.
+ * others' errors there, and not how far they move. So wherever chi-square is no parabola within two
+ * errors one of the unknowns is given value after value, the others are fitted, and an error is no
+ * less than what a value moves by until chi-square has grown by 1. Source: Venzon and Moolgavkar,
+ * Applied Statistics 37 (1988) 87.
  */
 #include "analysis/fit/solve.h"
 
@@ -13,7 +14,7 @@
 #include <string.h>
 
 typedef struct place {
-  double along; /* the logarithm of the unknown that is given, from the best values on */
+  double along; /* the unknown that is given as the solver sees it, from the best values on */
   double rise;  /* of chi-square, in units of what one error makes */
   fit_values v;
 } place;
@@ -22,7 +23,8 @@ typedef struct profile {
   fit_problem *whole, rest; /* rest: without the unknown that is given */
   fit_free free[FIT_QUANTITIES], *given;
   fit_result *best, *work;
-  double first;  /* step */
+  double far[FIT_QUANTITIES];  /* of those to be given: an error as the solver sees it */
+  size_t by[FIT_QUANTITIES];   /* the combination for which an unknown is given */
   place lowest;  /* where chi-square is lower than at the best values, if it is anywhere */
   size_t count;
   place at[FIT_PROFILE_PLACES];
@@ -41,17 +43,24 @@ static void predict(const profile *f, double step, place *next)
   }
 }
 
-/* Fit the rest; 0 where that is not possible, or the status ends all. */
+/* Fit the rest, if there is any; 0 where that is not possible, or the status ends all. */
 static int fit_rest(profile *f, place *to, pendres_status *status)
 {
   const fit_free *k = f->given;
   const double value = to->v[k->quantity], mean = k->prior, error = k->prior_error;
-  memcpy(f->work->v, to->v, sizeof to->v);
-  *status = pendres_fit_solve(&f->rest, FIT_PROFILE_ITERATIONS, f->work);
-  if (*status != PENDRES_OK || !f->work->computed || !f->work->converged) return 0;
-  memcpy(to->v, f->work->v, sizeof to->v);
+  if (f->rest.unknowns > 0) {
+    memcpy(f->work->v, to->v, sizeof to->v);
+    *status = pendres_fit_solve(&f->rest, FIT_PROFILE_ITERATIONS, f->work);
+    if (*status != PENDRES_OK || !f->work->computed || !f->work->converged) return 0;
+    memcpy(to->v, f->work->v, sizeof to->v);
+  } else if (!pendres_fit_evaluate(&f->rest, to->v)) {
+    *status = f->rest.status;
+    return 0;
+  }
+  const double sum = f->rest.unknowns > 0 ? f->work->chi_square
+                                          : pendres_fit_sum_of_squares(&f->rest);
   const double prior = error > 0.0 ? pow((value - mean) / error, 2.0) : 0.0;
-  to->rise = (f->work->chi_square + prior - f->best->chi_square) / f->best->scatter;
+  to->rise = (sum + prior - f->best->chi_square) / f->best->scatter;
   if (to->rise < f->lowest.rise - fit_converged) f->lowest = *to;
   return 1;
 }
@@ -60,9 +69,9 @@ static int fit_rest(profile *f, place *to, pendres_status *status)
 typedef enum { LOST, OPEN, CLOSED } ending;
 
 /* Follow one way, until chi-square has grown or a bound is come to, or no further. */
-static ending follow(profile *f, int way, pendres_status *status)
+static ending follow(profile *f, size_t k, int way, pendres_status *status)
 {
-  double step = f->first, longest = fit_profile_long;
+  double step = fmin(0.5 * f->far[k], fit_profile_first), longest = fit_profile_long;
   f->count = 1;
   f->at[0] = (place){.along = 0.0};
   memcpy(f->at[0].v, f->best->v, sizeof f->at[0].v);
@@ -72,13 +81,13 @@ static ending follow(profile *f, int way, pendres_status *status)
     place next;
     predict(f, step, &next);
     next.along = last->along + way * step;
-    next.v[q] = pendres_fit_moved(f->given, last->v[q], way * step);
+    next.v[q] = pendres_fit_moved(f->given, f->best->v[q], next.along);
     if (next.v[q] == last->v[q]) return CLOSED;
     const int found = fit_rest(f, &next, status);
     if (*status != PENDRES_OK) return LOST;
     if (!found || next.rise > last->rise + fit_profile_grows) {
       longest = step *= 0.5;
-      if (step > fit_profile_short) continue;
+      if (step > fit_profile_short * fmin(1.0, f->far[k])) continue;
       return last->rise >= 1.0 ? CLOSED : LOST;
     }
     f->at[f->count++] = next;
@@ -88,45 +97,47 @@ static ending follow(profile *f, int way, pendres_status *status)
   return OPEN;
 }
 
-/* Widen errors by how far values have moved; of what still moves, where the way has no end, nothing
-   is known. */
-static void widen(profile *f, ending how)
+/* Widen errors by how far values have moved, beyond what the covariance says of that; of what still
+   moves, where the way has no end, nothing is known. */
+static void widen(profile *f, size_t k, ending how)
 {
   const place *last = &f->at[f->count - 1], *half = last;
   const size_t n = f->whole->unknowns;
+  const double *covariance = f->best->covariance;
+  const int open = f->best->combination[f->by[k]].open;
   while (half > f->at && fabs(half->along) > 0.5 * fabs(last->along)) half--;
   for (size_t a = 0; a < n; a++) {
     const int q = f->whole->free[a].quantity;
-    const double from = f->best->v[q], variance = f->best->covariance[a * n + a];
+    const double from = f->best->v[q], variance = covariance[a * n + a];
     double most = 0.0;
     for (size_t i = 0; i < f->count; i++)
       most = fmax(most, fabs(f->at[i].v[q] - from) / sqrt(fmax(1.0, f->at[i].rise)));
     const double moved = fabs(last->v[q] - from);
     const int goes_on = moved > fit_profile_ends * fabs(half->v[q] - from);
     if (how != CLOSED && goes_on && moved * moved > variance) most = INFINITY;
-    most = most * most - f->best->weak[a];
+    most *= most;
+    if (!open) most -= pow(covariance[a * n + k], 2.0) / covariance[k * n + k];
     f->best->spread[a] = fmax(f->best->spread[a], sqrt(fmax(0.0, most)));
   }
 }
 
-/* Follow all that is far, both ways; *whole: none was lost. */
+/* Follow all that is to be followed, both ways; *whole: none was lost. */
 static pendres_status follow_all(fit_problem *p, profile *f, int *whole)
 {
   pendres_status status = PENDRES_OK;
   f->lowest = (place){.along = 0.0};
   *whole = 1;
   for (size_t k = 0; k < p->unknowns && status == PENDRES_OK; k++) {
-    if (!(f->best->far[k] > 0.0)) continue;
+    if (!(f->far[k] > 0.0)) continue;
     f->rest = *p;
     f->rest.free = f->free;
     f->rest.unknowns = 0;
     for (size_t i = 0; i < p->unknowns; i++)
       if (i != k) f->free[f->rest.unknowns++] = p->free[i];
     f->given = &p->free[k];
-    f->first = fmin(0.5 * f->best->far[k], fit_profile_first);
     for (int way = -1; way <= 1 && status == PENDRES_OK; way += 2) {
-      const ending how = follow(f, way, &status);
-      if (status == PENDRES_OK) widen(f, how);
+      const ending how = follow(f, k, way, &status);
+      if (status == PENDRES_OK) widen(f, k, how);
       *whole &= how != LOST;
     }
     p->evaluations = f->rest.evaluations;
@@ -136,15 +147,64 @@ static pendres_status follow_all(fit_problem *p, profile *f, int *whole)
   return status;
 }
 
+/* ---- what is followed ---- */
+
+/* Whether chi-square is no parabola along a combination, two errors away either way. */
+static int is_bent(fit_problem *p, const fit_result *best, const fit_combination *c)
+{
+  const double errors = 2.0 * sqrt(best->scatter);
+  for (int way = -1; way <= 1; way += 2) {
+    fit_values v;
+    memcpy(v, best->v, sizeof v);
+    for (size_t k = 0; k < p->unknowns; k++) {
+      const fit_free *f = &p->free[k];
+      v[f->quantity] += way * errors * c->change[k];
+      if (f->form == FIT_LOGARITHM && !(v[f->quantity] > 0.0)) return 1;
+      if (f->form == FIT_SINE && !(v[f->quantity] > f->low && v[f->quantity] < f->high)) return 1;
+    }
+    if (!pendres_fit_evaluate(p, v)) return 1;
+    const double rise = pendres_fit_sum_of_squares(p) - best->chi_square;
+    if (fabs(rise / (errors * errors) - 1.0) > fit_bent) return 1;
+  }
+  return 0;
+}
+
+/* The unknowns that are to be given: of each combination the one that changes most, as the solver
+   sees it. Returns whether there are any. */
+static int choose(fit_problem *p, profile *f)
+{
+  int any = 0;
+  memset(f->far, 0, sizeof f->far);
+  for (size_t c = 0; c < f->best->combinations; c++) {
+    const fit_combination *of = &f->best->combination[c];
+    size_t most = p->unknowns;
+    double largest = 0.0;
+    for (size_t k = 0; k < p->unknowns; k++) {
+      const double seen = pendres_fit_seen(&p->free[k], f->best->v[p->free[k].quantity],
+                                           of->change[k], of->open);
+      if (p->free[k].at_bound || !(seen > largest)) continue;
+      most = k;
+      largest = seen;
+    }
+    const int followed = of->open || (largest > fit_far && is_bent(p, f->best, of));
+    if (most == p->unknowns || !followed) continue;
+    f->far[most] = fmax(f->far[most], of->open ? INFINITY : largest);
+    f->by[most] = c;
+    any = 1;
+  }
+  return any;
+}
+
 pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_result *best,
                                    fit_result *work)
 {
   pendres_status status = PENDRES_OK;
   profile f = {.whole = p, .best = best, .work = work};
   int whole = 0, followed = 0;
-  if (p->unknowns == 1 && !best->determined) best->spread[0] = INFINITY;
-  for (size_t k = 0; k < p->unknowns; k++) followed |= p->unknowns > 1 && best->far[k] > 0.0;
-  for (int again = 0; followed && again < FIT_AGAIN && status == PENDRES_OK; again++) {
+  for (int again = 0; again < FIT_AGAIN && status == PENDRES_OK; again++) {
+    followed = choose(p, &f);
+    status = p->status;
+    if (!followed || status != PENDRES_OK) break;
     status = follow_all(p, &f, &whole);
     if (status != PENDRES_OK || f.lowest.along == 0.0) break;
     memcpy(best->v, f.lowest.v, sizeof best->v);
@@ -153,6 +213,9 @@ pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_result *b
   /* Where a solver stalls in a long valley this tells that it is at the lowest place. */
   best->converged |= followed && whole && f.lowest.along == 0.0;
   best->determined = 1;
-  for (size_t k = 0; k < p->unknowns; k++) best->determined &= isfinite(best->spread[k]) != 0;
+  for (size_t k = 0; k < p->unknowns; k++) {
+    best->determined &= isfinite(best->spread[k]) != 0;
+    if (f.far[k] > 0.0) best->combination[f.by[k]].open = !isfinite(best->spread[k]);
+  }
   return status;
 }

@@ -33,21 +33,22 @@ static void note(pendres_fit *fit, const char *format, ...)
   va_end(args);
 }
 
-static void note_open(const fit_problem *p, const fit_result *best, pendres_fit *fit)
+static void note_open(const fit_problem *p, const fit_result *best, const fit_combination *c,
+                      pendres_fit *fit)
 {
   char words[FIT_NOTE / 2] = "";
-  double largest = 0.0;
+  double part[FIT_QUANTITIES], largest = 0.0;
   for (size_t k = 0; k < p->unknowns; k++) {
     const double v = fabs(best->v[p->free[k].quantity]);
-    largest = fmax(largest, fabs(best->open[k]) / (v > 0.0 ? v : 1.0));
+    part[k] = c->change[k] / (v > 0.0 ? v : 1.0);
+    largest = fmax(largest, fabs(part[k]));
   }
   for (size_t k = 0; k < p->unknowns; k++) {
-    const double v = fabs(best->v[p->free[k].quantity]);
-    const double part = best->open[k] / (v > 0.0 ? v : 1.0) / largest;
     const size_t at = strlen(words);
-    if (fabs(part) > 1e-3)
+    if (fabs(part[k]) > 1e-3 * largest)
       snprintf(words + at, sizeof words - at, "%s%s by %+.3g", at > 0 ? ", " : "",
-               pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, p->free[k].quantity), part);
+               pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, p->free[k].quantity),
+               part[k] / largest);
   }
   note(fit, "the data do not determine all unknowns: they stay as well fitted where these change "
        "together, as shares of their values: %s; fix one of them, or give it a prior", words);
@@ -89,7 +90,8 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
                        pendres_fit *fit)
 {
   const pendres_fit_summary *s = &fit->summary;
-  if (!best->determined) note_open(p, best, fit);
+  for (size_t c = 0; c < best->combinations && !best->determined; c++)
+    if (best->combination[c].open) note_open(p, best, &best->combination[c], fit);
   for (size_t k = 0; k < p->unknowns; k++)
     if (best->at_bound[k])
       note(fit, "%s is at its bound: its error is that of a value held there",
@@ -106,6 +108,9 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
            ? "; errors are those by which it would be what is expected" : "");
   if (s->converged == 2 && c->options.huber > 0.0)
     note(fit, "more than half of the data are outliers: it is the fit that is off");
+  if (p->excess > 1.0 + fit_excess / sqrt((double)p->m->stations))
+    note(fit, "data scatter about the fit %.3g times as much as neighbours about each other: the "
+         "model does not follow the data, or the fit is in a wrong minimum", p->excess);
   const double correlated = correlation_of(p);
   if (correlated > fit_correlated)
     note(fit, "residuals of neighbours are correlated (%.1f standard deviations): the model does "

@@ -49,9 +49,15 @@ static double decode(const fit_free *f, double x, double *slope)
 double pendres_fit_moved(fit_free *f, double value, double by)
 {
   double slope;
-  const double x = encode(f, value);
-  if (f->form != FIT_SINE) return value != 0.0 ? value * exp(by) : by;
-  return decode(f, fmin(fmax(x + by, -0.5 * pi), 0.5 * pi), &slope);
+  const double x = encode(f, value) + by;
+  return decode(f, f->form == FIT_SINE ? fmin(fmax(x, -0.5 * pi), 0.5 * pi) : x, &slope);
+}
+
+double pendres_fit_seen(fit_free *f, double value, double change, int open)
+{
+  double slope;
+  (void)decode(f, encode(f, value), &slope);
+  return fabs(change / slope) * (f->form == FIT_PLAIN ? 0.5 * open : 1.0);
 }
 
 static void values_of(const fit_problem *p, const double *x, fit_values v, double *slope)
@@ -267,8 +273,7 @@ static void scale_errors(const fit_problem *p, double scatter, fit_result *out)
   const size_t n = p->unknowns;
   double was[FIT_QUANTITIES * FIT_QUANTITIES], held;
   memcpy(was, out->covariance, n * n * sizeof *was);
-  for (size_t a = 0; a < n; a++) {
-    out->weak[a] *= scatter;
+  for (size_t a = 0; a < n; a++)
     for (size_t b = 0; b < n; b++) {
       out->covariance[a * n + b] *= scatter;
       for (size_t k = 0; k < n; k++) {
@@ -276,7 +281,6 @@ static void scale_errors(const fit_problem *p, double scatter, fit_result *out)
         out->covariance[a * n + b] += (1.0 - scatter) * was[a * n + k] * held * was[k * n + b];
       }
     }
-  }
   out->scatter *= scatter;
 }
 
@@ -300,40 +304,16 @@ static void judge_scatter(const fit_problem *p, fit_result *out)
   else if (out->impossible) scale_errors(p, out->chi_square / freedom, out);
 }
 
-/* Note a combination of unknowns of which one error changes them by so much, if that is no small
-   change, or if it is not determined: what is seen plainly is only followed then. */
-static void note_far(const fit_problem *p, const double *change, int open, fit_result *out)
-{
-  size_t most = p->unknowns;
-  double largest = 0.0;
-  for (size_t a = 0; a < p->unknowns; a++) {
-    fit_free *f = &p->free[a];
-    double slope;
-    (void)decode(f, encode(f, out->v[f->quantity]), &slope);
-    const double seen = fabs(change[a] / slope) * (f->form == FIT_PLAIN ? 0.5 * open : 1.0);
-    if (f->at_bound || !(seen > largest)) continue;
-    most = a;
-    largest = seen;
-  }
-  if (most == p->unknowns || !(open || largest > fit_far)) return;
-  out->far[most] = open ? INFINITY : largest;
-  memcpy(out->open, change, p->unknowns * sizeof *change);
-  for (size_t a = 0; a < p->unknowns && !open; a++) out->weak[a] += change[a] * change[a];
-}
-
 /* What the decomposition says: the covariance, and what may still be gained. */
 static void read_decomposition(const fit_problem *p, const gsl_matrix *u, const gsl_matrix *v,
                                const gsl_vector *s, const double *length, fit_result *out)
 {
   const size_t n = p->unknowns;
-  double change[FIT_QUANTITIES];
   const double least = fit_undetermined * gsl_vector_get(s, 0);
   memset(out->covariance, 0, n * n * sizeof *out->covariance);
-  memset(out->open, 0, n * sizeof *out->open);
-  memset(out->far, 0, n * sizeof *out->far);
-  memset(out->weak, 0, n * sizeof *out->weak);
   memset(out->spread, 0, n * sizeof *out->spread);
   out->remaining = 0.0;
+  out->combinations = 0;
   out->determined = 1;
   for (size_t c = 0; c < n; c++) {
     const double size = gsl_vector_get(s, c);
@@ -341,19 +321,20 @@ static void read_decomposition(const fit_problem *p, const gsl_matrix *u, const 
     for (size_t k = 0; k < n; k++)
       if (p->free[k].at_bound) held = fmax(held, fabs(gsl_matrix_get(v, k, c)));
     if (size <= least && held > 0.5) continue; /* the column of a quantity at its bound */
+    fit_combination *to = &out->combination[out->combinations++];
+    *to = (fit_combination){.open = size <= least};
     for (size_t i = 0; i < u->size1; i++)
       part += gsl_matrix_get(u, i, c) * pull_of(p, i) / weight_of(p, i);
     if (size > least) out->remaining += part * part;
     for (size_t a = 0; a < n; a++) {
       const double at = gsl_matrix_get(v, a, c);
-      change[a] = length[a] > 0.0 ? at / length[a] : at;
-      if (size > least) change[a] /= size;
+      to->change[a] = length[a] > 0.0 ? at / length[a] : at;
+      if (size > least) to->change[a] /= size;
       for (size_t b = 0; b < n && size > least; b++)
         out->covariance[a * n + b] +=
           at * gsl_matrix_get(v, b, c) / (size * size * length[a] * length[b]);
     }
     out->determined &= size > least;
-    note_far(p, change, size <= least, out);
   }
 }
 
@@ -380,10 +361,10 @@ static void doubt_without_jumps(const fit_problem *p, fit_result *out)
   if (damping < 0 || gain < 0 || !out->determined) return;
   if (!pendres_rotation_onset_slope(out->v[PENDRES_DAMPING], &torque, &by_damping)) return;
   if (torque < 1.0) return;
-  double both[FIT_QUANTITIES] = {0.0};
-  both[damping] = out->v[PENDRES_DAMPING];
-  both[gain] = out->v[PENDRES_FIT_AMPLITUDE_SCALE];
-  note_far(p, both, 1, out);
+  fit_combination *both = &out->combination[out->combinations++];
+  *both = (fit_combination){.open = 1};
+  both->change[damping] = out->v[PENDRES_DAMPING];
+  both->change[gain] = out->v[PENDRES_FIT_AMPLITUDE_SCALE];
   out->spread[damping] = out->spread[gain] = INFINITY;
   out->determined = 0;
 }

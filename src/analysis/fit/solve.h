@@ -17,6 +17,7 @@ typedef struct fit_problem {
   fit_model *m;
   fit_terms terms;
   int errors_known; /* of the data */
+  double excess;    /* where not: scatter about the fit over that about neighbours; 0: not known */
   fit_rows rows; /* of the latest values */
   size_t unknowns;
   fit_free *free;
@@ -33,6 +34,13 @@ typedef struct fit_problem {
   double twin_above; /* by so much more chi-square, in units of what is expected a datum */
 } fit_problem;
 
+/* A combination of unknowns that is independent of the others: by how much one error along it
+   changes them; open: the data do not determine it, and only how they change together is known. */
+typedef struct fit_combination {
+  int open;
+  double change[FIT_QUANTITIES];
+} fit_combination;
+
 /* What comes of a start. */
 typedef struct fit_result {
   fit_values v;
@@ -41,11 +49,9 @@ typedef struct fit_result {
   int computed, converged, determined;
   int impossible; /* chance gives no such chi-square */
   double *covariance; /* [unknowns][unknowns], of the quantities in canonical units */
-  double *open;       /* [unknowns] a combination that is not determined, in units of v */
+  size_t combinations;
+  fit_combination *combination; /* [unknowns + 1] */
   int *at_bound;      /* [unknowns] */
-  double *far;        /* [unknowns] not 0: along a combination of which this unknown is the
-                         largest part an error is no small change, but this one in its logarithm */
-  double *weak;       /* [unknowns] the share of such combinations in the variances */
   double *spread;     /* [unknowns] what following says beyond the covariance; INFINITY: no end */
 } fit_result;
 
@@ -70,14 +76,16 @@ pendres_status pendres_fit_conclude(fit_problem *p, fit_result *out);
 /* The probability of a larger chi-square. */
 double pendres_fit_probability(const fit_result *r);
 
-/* A value moved by a factor of exp(by); one with bounds by that in what the solver sees, and not
-   beyond them. */
+/* A value moved by this in what the solver sees, but not beyond its bounds; and how much a change
+   of it is there: of numbers that are seen as they are half of their share where they are open, so
+   that scales come before what they scale, and otherwise nothing. */
 double pendres_fit_moved(fit_free *f, double value, double by);
+double pendres_fit_seen(fit_free *f, double value, double change, int open);
 
 /* ---- profile.c ---- */
 
-/* Follow chi-square from a fit's values along what is far, and widen errors by what moves; `work`
-   is overwritten. */
+/* Follow chi-square from a fit's values along what derivatives do not determine, and widen errors
+   by what moves; `work` is overwritten. */
 pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_result *best,
                                    fit_result *work);
 
