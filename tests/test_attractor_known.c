@@ -44,6 +44,7 @@ static void check_quantities(const pendres_orbit *o, int closed)
       assert_true(isnan(value) && (isnan(error) || q->error == PENDRES_ORBIT_EXACT));
   }
   assert_int_equal(means, sizeof of_chaos / sizeof *of_chaos);
+  for (size_t k = 0; k < sizeof o->spare / sizeof *o->spare; k++) assert_true(o->spare[k] == 0.0);
   assert_null(pendres_orbit_quantity_get(n + 1));
 }
 

@@ -72,6 +72,27 @@ static inline void note_pendulum(notes *to, const pendres_pendulum *p)
   NOTE(p->force_coefficients[2], -2, -2);
 }
 
+/* Measures of the library's list, by their kinds; those that are known here by hand. */
+static inline void note_measures(notes *to, const pendres_orbit *o)
+{
+  static const struct {
+    const char *name;
+    int l, t;
+  } by_hand[] = {{"loop_area", 2, -2}, {"dissipation", 2, -2}, {"mean_power", 2, -3},
+                 {"amplitude", 1, 0}, {"first_harmonic_amplitude", 1, 0}, {"phase_lag", 0, 0},
+                 {"torque_work", 2, -2}, {"parametric_work", 2, -2}};
+  const pendres_orbit_quantity *q;
+  for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
+    const pendres_kind_info *kind = pendres_kind_of(pendres_quantity_of(q->name)->kind);
+    int l = kind->length, t = kind->time;
+    for (size_t i = 0; i < sizeof by_hand / sizeof *by_hand; i++)
+      if (strcmp(by_hand[i].name, q->name) == 0) l = by_hand[i].l, t = by_hand[i].t;
+    note(to, q->name, *(const double *)(const void *)((const char *)o + q->value), l, t);
+    if (q->error != PENDRES_ORBIT_EXACT)
+      note(to, q->name, *(const double *)(const void *)((const char *)o + q->error), l, t);
+  }
+}
+
 static inline void note_orbit(notes *to, const pendres_orbit *o)
 {
   note_pendulum(to, &o->pendulum);
@@ -91,18 +112,7 @@ static inline void note_orbit(notes *to, const pendres_orbit *o)
   NOTE(o->monodromy[0][1], 0, 1);
   NOTE(o->monodromy[1][0], 0, -1);
   NOTE(o->multiplier_error, 0, 0);
-  NOTE(o->loop_area, 2, -2);
-  NOTE(o->loop_area_error, 2, -2);
-  NOTE(o->dissipation, 2, -2);
-  NOTE(o->dissipation_error, 2, -2);
-  NOTE(o->mean_power, 2, -3);
-  NOTE(o->mean_power_error, 2, -3);
-  NOTE(o->amplitude, 1, 0);
-  NOTE(o->amplitude_error, 1, 0);
-  NOTE(o->first_harmonic_amplitude, 1, 0);
-  NOTE(o->first_harmonic_amplitude_error, 1, 0);
-  NOTE(o->phase_lag, 0, 0);
-  NOTE(o->phase_lag_error, 0, 0);
+  note_measures(to, o);
   NOTE(o->mean_angle, 1, 0);
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
     NOTE(o->cosine[m], 1, 0);
@@ -113,9 +123,6 @@ static inline void note_orbit(notes *to, const pendres_orbit *o)
   NOTE(o->loop_area_slope, 2, -1);
   NOTE(o->loop_area_slope_error, 2, -1);
   NOTE(o->harmonics_rest, 1, 0);
-  NOTE(o->torque_work, 2, -2);
-  NOTE(o->parametric_work, 2, -2);
-  NOTE(o->parametric_work_error, 2, -2);
 }
 
 static inline void note_attractor(notes *to, const pendres_attractor *a)

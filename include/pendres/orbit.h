@@ -83,6 +83,8 @@ typedef struct pendres_orbit {
   double torque_work;        /**< work of the torque per drive cycle, exactly 2 pi I p / q */
   double parametric_work;    /**< work of the parametric drive per drive cycle, in m g l */
   double parametric_work_error; /**< its error */
+  double spare[16];          /**< 0: measures of later versions take the first places, so that size
+                                  and fields of this and of all that holds an orbit stay */
 } pendres_orbit;
 
 /** A measure of orbits: its position in a pendres_orbit. */
