@@ -8,6 +8,7 @@
 #                   ACCURACY="--seed=3 --orbits=2000 --section=orbits" for less
 #   make fuzz       bytes that a fuzzer makes up (clang's libFuzzer), for the readers of decks, journals,
 #                   data and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz
+#   make mutants    which of the chosen numbers of MUTANTS=src/noise/numbers.h no test pins, outside of CI
 #   make faults     memory that is refused to every kind of scene, at each place six times
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
