@@ -155,3 +155,21 @@ int deck_is_plain(const deck *d)
   }
   return 1;
 }
+
+int deck_has_noise(const deck *d)
+{
+  const deck_axis *t = &d->axis[DECK_AXIS_TEMPERATURE];
+  return t->count > 0 && t->value[t->count - 1] > 0.0;
+}
+
+int deck_has_ramp(const deck *d)
+{
+  return d->ramp.rate > 0.0 || d->ramp.protocol.count > 0;
+}
+
+void deck_derive_clock(deck *d)
+{
+  const double turn = 2.0 * PENDRES_PI;
+  if (d->by_period) d->pendulum.drive_frequency = turn / d->drive_period;
+  else d->drive_period = turn / d->pendulum.drive_frequency;
+}

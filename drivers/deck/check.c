@@ -5,58 +5,8 @@
 #include "deck/table.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Where a key was given, or another one in its place, whose name is underlined. */
-static namelist_place place_of(const deck_given *given, const char *name)
-{
-  return (namelist_place){ given->at.line, given->at.column, (int)strlen(name) };
-}
-
-/* Of the whole deck: where its kind is given. */
-static namelist_place place_of_kind(const deck_builder *b)
-{
-  return (namelist_place){ b->kind_at.line, b->kind_at.column, 1 };
-}
-
-void deck_complain(deck_builder *b, const deck_given *at, const char *name, const char *format, ...)
-{
-  char message[500];
-  va_list args;
-  va_start(args, format);
-  (void)vsnprintf(message, sizeof message, format, args);
-  va_end(args);
-  namelist_error_at(at->nl != NULL ? at->nl : b->nl, place_of(at, name), b->errors, "%s", message);
-}
-
-void deck_complain_of_group(deck_builder *b, const namelist_group *g, const char *message)
-{
-  if (g != NULL)
-    namelist_error_at(b->nl, g->at, b->errors, "%s", message);
-  else
-    namelist_error_at(b->kind_nl, place_of_kind(b), b->errors, "%s", message);
-}
-
-const deck_given *deck_given_of(const deck_builder *b, const char *group, const char *name)
-{
-  static const deck_given absent = { 0 };
-  int range = 0;
-  const size_t row = deck_table_find(group, name, b->scene, &range);
-  return row < deck_table_size ? &b->given[row] : &absent;
-}
-
-int deck_is_there(const deck_given *g)
-{
-  return g->at.line > 0 && (g->given || g->broken);
-}
-
-int deck_in_scene(const deck_builder *b, const char *group, const char *name)
-{
-  int range = 0;
-  return deck_table_find(group, name, b->scene, &range) < deck_table_size;
-}
 
 /* ---- missing keys -------------------------------------------------------------------------- */
 
@@ -155,13 +105,6 @@ static void check_drive(deck_builder *b, const char *group)
   }
 }
 
-void deck_derive_clock(deck *d)
-{
-  const double turn = 2.0 * PENDRES_PI;
-  if (d->by_period) d->pendulum.drive_frequency = turn / d->drive_period;
-  else d->drive_period = turn / d->pendulum.drive_frequency;
-}
-
 static void resolve_drive(deck_builder *b)
 {
   deck *d = b->d;
@@ -183,7 +126,7 @@ static void check_axis_sources(deck_builder *b)
     if (strcmp(key->group, "pendulum") != 0 || (key->scenes & b->scene) == 0) continue;
     const deck_given *sweep = deck_given_of(b, "sweep", key->name);
     if (!deck_is_there(&b->given[i]) || !deck_is_there(sweep)) continue;
-    namelist_error_at(b->given[i].nl, place_of(&b->given[i], key->name),
+    namelist_error_at(b->given[i].nl, deck_place_of(&b->given[i], key->name),
                       b->errors, "'%s' is given in &sweep too (line %d): leave out one of the two",
                       key->name, sweep->at.line);
   }
@@ -211,7 +154,7 @@ static void check_idle_keys(deck_builder *b)
     if (key->when == DECK_WITH_NOISE && deck_given_of(b, "sweep", "temperature")->broken) continue;
     if (key->when == DECK_WITHOUT_START && start->broken) continue;
     if (deck_key_applies(key, b->d)) continue;
-    namelist_error_at(b->given[i].nl, place_of(&b->given[i], key->name),
+    namelist_error_at(b->given[i].nl, deck_place_of(&b->given[i], key->name),
                       b->errors, "'%s' is not used: %s", key->name, why);
   }
   if (deck_in_scene(b, group, "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
@@ -234,7 +177,7 @@ static void check_size(deck_builder *b)
   for (int i = 0; i < DECK_AXIS_COUNT; i++)
     if (d->axis[i].count > 0) points *= (double)d->axis[i].count;
   if (points > 0x1p32 && !d->basins.refine)
-    namelist_error_at(b->kind_nl, place_of_kind(b), b->errors,
+    namelist_error_at(b->kind_nl, deck_place_of_kind(b), b->errors,
                       "the axes%s multiply to %.4g pendulums; at most 2^32 are possible%s",
                       with_members ? " and members" : "", points,
                       deck_in_scene(b, "basins", "refine") ? " without refine = .true." : "");
@@ -302,7 +245,7 @@ static void check_output(deck_builder *b)
     deck_complain(b, at, "output", "'output' would overwrite the deck");
 }
 
-void deck_check_values(deck_builder *b)
+static void check_values(deck_builder *b)
 {
   check_size(b);
   deck_check_axes(b);
@@ -331,5 +274,35 @@ void deck_check(deck_builder *b)
   deck_outer_check(b);
   check_output(b);
   deck_bring_defaults(b);
-  deck_check_values(b);
+  check_values(b);
+}
+
+/* The first of a list's messages, as it is told behind the place of one value. */
+static const char *first_of(const namelist_errors *errors, char text[300])
+{
+  const char *words = errors->count > 0 ? errors->item[0].text : "out of memory";
+  const char *from = strstr(words, "error: ");
+  snprintf(text, 300, "%s", from != NULL ? from + strlen("error: ") : words);
+  text[strcspn(text, "\n")] = '\0';
+  return text;
+}
+
+void deck_check_slices(deck_builder *b)
+{
+  const deck *d = b->d;
+  for (size_t i = 0; i < deck_slices(d) && b->errors->count == 0 && !b->out_of_memory; i++) {
+    deck one = deck_slice(d, i);
+    char text[300], number[DECK_DECIMAL];
+    namelist_errors errors = { 0 };
+    deck_builder of_one = *b;
+    of_one.d = &one;
+    of_one.errors = &errors;
+    check_values(&of_one);
+    if (errors.out_of_memory || of_one.out_of_memory) b->out_of_memory = 1;
+    else if (errors.count > 0)
+      deck_complain(b, deck_given_of(b, "outer", "values"), "values", "with %s = %s: %s",
+                    d->outer.key, deck_decimal(d->axis[DECK_AXIS_OUTER].value[i], number),
+                    first_of(&errors, text));
+    namelist_errors_free(&errors);
+  }
 }

@@ -394,17 +394,6 @@ void deck_key_defaults(deck_builder *b)
   }
 }
 
-int deck_has_noise(const deck *d)
-{
-  const deck_axis *t = &d->axis[DECK_AXIS_TEMPERATURE];
-  return t->count > 0 && t->value[t->count - 1] > 0.0;
-}
-
-int deck_has_ramp(const deck *d)
-{
-  return d->ramp.rate > 0.0 || d->ramp.protocol.count > 0;
-}
-
 const deck_when_words *deck_when_of(deck_when when)
 {
   static const deck_when_words words[] = {

@@ -228,33 +228,3 @@ deck deck_slice(const deck *d, size_t slice)
     deck_derive_clock(&one);
   return one;
 }
-
-/* The first of a list's messages, as it is told behind the place of one value. */
-static const char *first_of(const namelist_errors *errors, char text[300])
-{
-  const char *words = errors->count > 0 ? errors->item[0].text : "out of memory";
-  const char *from = strstr(words, "error: ");
-  snprintf(text, 300, "%s", from != NULL ? from + strlen("error: ") : words);
-  text[strcspn(text, "\n")] = '\0';
-  return text;
-}
-
-void deck_outer_try(deck_builder *b)
-{
-  const deck *d = b->d;
-  for (size_t i = 0; i < deck_slices(d) && b->errors->count == 0 && !b->out_of_memory; i++) {
-    deck one = deck_slice(d, i);
-    char text[300], number[DECK_DECIMAL];
-    namelist_errors errors = { 0 };
-    deck_builder of_one = *b;
-    of_one.d = &one;
-    of_one.errors = &errors;
-    deck_check_values(&of_one);
-    if (errors.out_of_memory || of_one.out_of_memory) b->out_of_memory = 1;
-    else if (errors.count > 0)
-      deck_complain(b, deck_given_of(b, "outer", "values"), "values", "with %s = %s: %s",
-                    d->outer.key, deck_decimal(d->axis[DECK_AXIS_OUTER].value[i], number),
-                    first_of(&errors, text));
-    namelist_errors_free(&errors);
-  }
-}

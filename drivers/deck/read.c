@@ -185,7 +185,7 @@ static pendres_status build(const namelist *nl, const namelist *settings, size_t
   namelist_errors_sort(errors);
   if (b.out_of_memory || errors->out_of_memory) goto no_memory;
   if (errors->count == 0 && keep_text(&d, nl, settings, count) != PENDRES_OK) goto no_memory;
-  if (errors->count == 0) deck_outer_try(&b);
+  if (errors->count == 0) deck_check_slices(&b);
   if (b.out_of_memory || errors->out_of_memory) goto no_memory;
   if (errors->count > 0) {
     deck_free(&d);

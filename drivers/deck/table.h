@@ -176,12 +176,7 @@ void deck_check_fit(deck_builder *b);
 enum { DECK_DECIMAL = 40 };
 const char *deck_decimal(double x, char text[DECK_DECIMAL]);
 
-/* check.c: everything that concerns several keys; and that part of it which depends on values, for
-   any of an outer axis. */
-void deck_check(deck_builder *b);
-void deck_check_values(deck_builder *b);
-/* Of the drive's frequency and period, set the one that was not given. */
-void deck_derive_clock(deck *d);
+/* given.c: */
 /* Complain of a key or, of a group as a whole, at its head; without one, at the kind. */
 void deck_complain(deck_builder *b, const deck_given *at, const char *name, const char *format,
                    ...) __attribute__((format(printf, 4, 5)));
@@ -192,6 +187,15 @@ const deck_given *deck_given_of(const deck_builder *b, const char *group, const 
 int deck_in_scene(const deck_builder *b, const char *group, const char *name);
 /* Whether a key is in the deck under its own name, with a good value or a bad one. */
 int deck_is_there(const deck_given *at);
+/* Where a key was given, or another one in its place, whose name is underlined; and of the whole
+   deck: where its kind is. */
+namelist_place deck_place_of(const deck_given *given, const char *name);
+namelist_place deck_place_of_kind(const deck_builder *b);
+
+/* check.c: everything that concerns several keys; and, when all is good, of the decks of an outer
+   axis' values what depends on these. */
+void deck_check(deck_builder *b);
+void deck_check_slices(deck_builder *b);
 
 /* check_axes.c: takes the values of all axes together, and checks what they vary. */
 void deck_expand_axes(deck_builder *b);
@@ -200,6 +204,8 @@ void deck_check_axes(deck_builder *b);
 
 /* axes.c: the value of the largest size; 0 of an axis without values. */
 double deck_axis_largest(const deck_axis *a);
+/* Of the drive's frequency and period, set the one that was not given. */
+void deck_derive_clock(deck *d);
 
 /* outer.c: */
 /* Find the number that &outer names, once the kind of scene is known. */
@@ -209,10 +215,9 @@ deck_key deck_outer_values(const deck *d, const deck_key *values);
 /* Is a key that number, whose place in the deck is &outer? */
 int deck_outer_is(const deck *d, const deck_key *key);
 /* Give the number one of the values, before all else is checked; then whether it can be an outer
-   axis; and, when all is checked, whether the decks of all values are good. */
+   axis. */
 void deck_outer_apply(deck_builder *b);
 void deck_outer_check(deck_builder *b);
-void deck_outer_try(deck_builder *b);
 
 /* units.c: brings defaults into the pendulum's units; checks the tolerance in these. */
 void deck_bring_defaults(deck_builder *b);

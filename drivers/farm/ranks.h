@@ -4,10 +4,10 @@
  * Owns: everything of MPI. ranks_mpi.c and ranks_serial.c have the same functions, the latter for
  * one process; which of them is built in, `make MPI=1` decides. Any thread may send and receive.
  *
- * Ranks are more than shards that are merged at the end: tasks are dealt as ranks become free, since
- * the slowest takes ten times as long as the mean, and records that later stages read go to all
- * ranks. Shards divide the first stage alone: of `response` with temperatures, whose work is in the
- * last one, "rank r does shard r" would gain nothing.
+ * Ranks are more than shards that are merged at the end: tasks are dealt as ranks become free,
+ * since the slowest takes ten times as long as the mean, and records that later stages read go to
+ * all ranks. Shards divide the first stage alone: of `response` with temperatures, whose work is in
+ * the last one, "rank r does shard r" would gain nothing.
  */
 #ifndef RANKS_H
 #define RANKS_H
