@@ -104,17 +104,5 @@ echo nonsense >broken.h5
 plot missing.h5 broken.h5 free.h5 -o some && { echo "a missing file passed"; exit 1; }
 [ "$(wc -l <err)" -eq 2 ] && [ -f some/free.png ] || { cat err; exit 1; }
 
-# A phase diagram answers to clicks, where the library's Python package works.
-if "$python" -c 'import cffi' 2>/dev/null; then
-  export PENDRES_LIBRARY="$top/$BUILD/libpendres.so" PYTHONPATH="$top/python:$top/plots"
-  export PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=Agg
-  deck diagram phase_diagram "$p / &sweep damping = 0.12, 0.16,
-    drive_frequency_range = 0.7, 0.9, 3 / $e"
-  "$python" "$top/tests/plots_view.py" diagram.h5 || exit 1
-  "$python" "$top/plots/view.py" diagram.h5 --at 0.8,0.13 -o look.png && [ -s look.png ] || exit 1
-  "$python" "$top/plots/view.py" curve.h5 -o look.png 2>err && { echo "no diagram passed"; exit 1; }
-  [ "$(wc -l <err)" -eq 1 ] || { cat err; exit 1; }
-fi
-
 "$python" "$top/tests/plots_axes.py" || exit 1
 "$python" "$top/tests/plots_colours.py"

@@ -135,10 +135,11 @@ def as_pendulums(p):
     """What a caller gives as pendulums, as an array of the library's type."""
     if isinstance(p, dict):
         return pendulum(**p)
-    given = np.asarray(p)
-    if given.dtype != PENDULUM:
-        raise TypeError("pendulums are wanted, as pendres.pendulum(damping=..., ...) makes them")
-    return given
+    try:
+        return structures("pendres_pendulum", p)
+    except TypeError:
+        raise TypeError("pendulums are wanted, as pendres.pendulum(damping=..., ...) makes them"
+                        ) from None
 
 
 def one_pendulum(p):

@@ -217,8 +217,11 @@ def called(kind):
 def structures(name, values):
     """An array of one of the library's structures, as a caller gives it: also one of them, or a
     list."""
-    given = np.asarray(values)
-    if given.dtype != dtype(name):
+    given, wanted = np.asarray(values), dtype(name)
+    if given.dtype != wanted and given.dtype.names == wanted.names and np.can_cast(
+            given.dtype, wanted, "equiv"):
+        given = given.astype(wanted)  # numpy's concatenate leaves out what C pads structures with
+    if given.dtype != wanted:
         raise TypeError(f"{name} is wanted, not {called(given.dtype)} as of {values!r:.40}")
     return given
 

@@ -211,6 +211,11 @@ def _sorted_into_groups(kind, given):
     return groups
 
 
+def deck_of(kind, keywords):
+    """The text of the deck that a scene's function makes of its keywords."""
+    return _deck(_sorted_into_groups(kind, keywords))[0]
+
+
 def _instead(kind, key):
     """Which key may have been meant, or which scenes have it."""
     try:

@@ -1,0 +1,73 @@
+"""A file of results: which of its variables can be drawn, their pictures, and the parameters at a
+point of it."""
+import numpy as np
+
+from .. import _files
+from .settings import KNOBS
+from .views import Picture
+
+
+class Results:
+    """A file, read once."""
+
+    def __init__(self, path):
+        self.data = _files.open(path)
+        self.names = [name for name, variable in self.data.data_vars.items()
+                      if 0 < variable.ndim <= 2 and variable.dtype.kind in "fiu"
+                      and not name.endswith("_error") and variable.size > 1]
+        if not self.names:
+            raise ValueError(f"{path}: no variable of one or two dimensions")
+
+    def words(self, name):
+        """A title, and what its axes are called."""
+        variable = self.data[name]
+        its = _axis(variable)
+        across = [_axis(self.data[d]) if d in self.data.coords else d for d in variable.dims]
+        return (name, across[0], its) if variable.ndim == 1 else (name, across[1], across[0])
+
+    def _along(self, name):
+        return np.asarray(self.data[name].values, dtype=float) if name in self.data.coords else (
+            np.arange(self.data.sizes[name], dtype=float))
+
+    def picture(self, name):
+        """A variable over its axes; with the largest of its errors."""
+        variable = self.data[name]
+        values = np.asarray(variable.values, dtype=float)
+        error = self.data.get(name + "_error")
+        note = variable.attrs.get("long_name", name) + "; " + f"{int(np.count_nonzero(~np.isfinite(values)))} of {values.size} values are missing"
+        rows = [(f"{what}", float(f(values)), float("nan") if error is None else float(
+            np.asarray(error.values).ravel()[getattr(np, "nanarg" + what)(values)]))
+            for what, f in (("min", np.nanmin), ("max", np.nanmax)) if np.isfinite(values).any()]
+        if variable.ndim == 1:
+            return Picture({"result": (self._along(variable.dims[0]), values)}, rows=rows, note=note)
+        names = None
+        if "flag_values" in variable.attrs:
+            known = np.ravel(variable.attrs["flag_values"]).astype(float)
+            names = variable.attrs["flag_meanings"].split()
+            values = np.select([values == k for k in known], range(known.size), np.nan)
+            rows = [(word, float(np.mean(values == k)), float("nan"))
+                    for k, word in enumerate(names) if np.any(values == k)]
+        y, x = (self._along(d) for d in variable.dims)
+        return Picture({}, (values, names, _ends(x), _ends(y)), rows, note)
+
+    def at(self, name, x, y):
+        """The knobs at a place of a picture, as far as the file tells them."""
+        found = {knob: float(self.data[knob]) for knob in KNOBS
+                 if knob in self.data and self.data[knob].ndim == 0}
+        dims = self.data[name].dims
+        for dim, value in zip(dims, (x,) if len(dims) == 1 else (y, x)):
+            if dim in KNOBS or dim in ("x", "v"):
+                found[dim] = float(value)
+        return {knob: value for knob, value in found.items() if np.isfinite(value)}
+
+
+def _axis(variable):
+    unit = variable.attrs.get("units", "1")
+    return variable.attrs.get("long_name", variable.name) + ("" if unit in ("", "1") else f" ({unit})")
+
+
+def _ends(along):
+    """From where to where cells around these places reach."""
+    if along.size < 2:
+        return float(along[0]) - 0.5, float(along[0]) + 0.5
+    return (float(1.5 * along[0] - 0.5 * along[1]), float(1.5 * along[-1] - 0.5 * along[-2]))
