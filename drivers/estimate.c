@@ -84,7 +84,9 @@ static double slowness(const deck *d)
   const double unit = deck_pendulum_units(d).time;
   double sum = 0.0;
   for (size_t i = 0; i < n; i++) {
-    const double damping = unit * (a->count > 0 ? a->value[i] : d->pendulum.damping);
+    pendres_pendulum p = d->pendulum;
+    if (a->count > 0) p.damping = a->value[i];
+    const double damping = unit * pendres_pendulum_decay_rate(&p);
     sum += damping > 0.0 ? fmin(fmax(usual_damping / damping, 1.0), most) : 1.0;
   }
   return sum / (double)n;

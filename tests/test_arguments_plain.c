@@ -132,6 +132,7 @@ static void models(void **state)
   assert_true(pendres_units_of(NULL).length == 1.0 && pendres_units_of(NULL).time == 1.0);
   assert_false(pendres_pendulum_leaves(NULL));
   assert_false(pendres_pendulum_rotates(NULL));
+  assert_true(isnan(pendres_pendulum_decay_rate(NULL)));
   INVALID(reference_advance(NULL, &y, &w, NULL, 1));
   INVALID(reference_advance(&good, NULL, &w, NULL, 1));
   INVALID(reference_advance(&good, &y, NULL, NULL, 1));

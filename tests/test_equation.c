@@ -72,7 +72,7 @@ static void test_contraction(void **state)
   for (int i = 0; i < SOME; i++) {
     const pendres_pendulum *p = &some[i];
     const double period = two_pi / p->drive_frequency, fading = pendres_equation_fading(p);
-    check_near(2.0 * fading, pendres_equation_rate(p) * period, 4.0 * ulp * fading);
+    check_near(2.0 * fading, pendres_pendulum_decay_rate(p) * period, 4.0 * ulp * fading);
     check_near(pendres_model_settling(p) * fading, 1.0, 2.0 * ulp);
     assert_null(pendres_equation_undamped(p));
   }

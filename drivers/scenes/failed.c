@@ -39,7 +39,8 @@ static int too_long(const pendres_pendulum *p, double runs, int charted, char *w
   /* In the pendulum's units: how fast it oscillates is of order one in them. */
   const pendres_units units = pendres_units_of(p);
   const double time = units.time;
-  const double damping = time * p->damping, frequency = time * p->drive_frequency;
+  const double damping = time * pendres_pendulum_decay_rate(p);
+  const double frequency = time * p->drive_frequency;
   /* The steps of about a minute. At weak damping chaos lasts long, and labels take several runs: a
      quarter of the steps is left for each. Slow drives settle within a period or two, of many
      steps. */
@@ -77,7 +78,7 @@ int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double run
   char why[200];
   const int charted =
     strcmp(d->precision.method, "block_fixed") == 0 && d->precision.steps_per_period == 0;
-  if (d->precision.period_budget > 0 || p->damping == 0.0) return 0;
+  if (d->precision.period_budget > 0 || !(pendres_pendulum_decay_rate(p) > 0.0)) return 0;
   if (!too_long(p, runs, charted, why, sizeof why)) return 0;
   snprintf(words, size, "%s; precision.period_budget bounds them", why);
   return 1;

@@ -139,8 +139,9 @@ static void tabulate(FILE *out, const work *w)
 static size_t chunk_of(const deck *d, size_t n)
 {
   const deck_axis *a = &d->axis[DECK_AXIS_DAMPING];
-  const double damping = (a->count > 0 ? a->value[0] : d->pendulum.damping) *
-                         deck_pendulum_units(d).time;
+  pendres_pendulum p = d->pendulum;
+  if (a->count > 0) p.damping = a->value[0];
+  const double damping = pendres_pendulum_decay_rate(&p) * deck_pendulum_units(d).time;
   size_t chunk = n / TASKS_OF_EXPONENTS, least = TASK_EXPONENTS;
   if (damping < usual_damping) least = (size_t)((double)least * damping / usual_damping);
   if (least < FEWEST_EXPONENTS) least = FEWEST_EXPONENTS;

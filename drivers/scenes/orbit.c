@@ -70,7 +70,8 @@ static pendres_status find_from_start(const scene_some *some, orbit_found *out)
   const orbit_work *w = some->of->arg;
   pendres_attractors *set = NULL;
   pendres_outcome outcome = { .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1 };
-  if (w->pendulum.damping == 0.0) return PENDRES_OK; /* nothing attracts without friction */
+  /* Nothing attracts without friction. */
+  if (!(pendres_pendulum_decay_rate(&w->pendulum) > 0.0)) return PENDRES_OK;
   const pendres_status status = pendres_settle(some->ctx, 1, &w->pendulum, &w->d->orbit.x,
                                                &w->d->orbit.v, &outcome, &set);
   if (status == PENDRES_OK && outcome.attractor >= 0) {

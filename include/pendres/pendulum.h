@@ -155,6 +155,11 @@ int pendres_pendulum_leaves(const pendres_pendulum *p);
     locked to it. 0 otherwise, and if p is NULL. */
 int pendres_pendulum_rotates(const pendres_pendulum *p);
 
+/** About the rate at which free motions of p lose their energy, which is the width of a resonance:
+    the damping. Where it is 0 nothing settles; where it is small work takes long. A guess, by which
+    to plan. NaN if p is NULL. */
+double pendres_pendulum_decay_rate(const pendres_pendulum *p);
+
 /**
  * Check parameters. On failure *why (if not NULL) becomes a static sentence that says what is wrong
  * with them. Returns PENDRES_OK or PENDRES_INVALID_ARGUMENT.

@@ -166,7 +166,7 @@ double pendres_arc_large(const pendres_map *map, const pendres_u u)
 double pendres_arc_damped(pendres_force force, const pendres_u u)
 {
   const pendres_pendulum p = pendres_map_pendulum(force, u);
-  return scale_weak * fabs(pendres_equation_rate(&p));
+  return scale_weak * fabs(pendres_pendulum_decay_rate(&p));
 }
 
 /* Of y and w. At weak damping branches turn where orbits are small: there these count by their

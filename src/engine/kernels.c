@@ -129,9 +129,9 @@ PENDRES_VECTOR_INLINE void slope_vectors(pendres_model_terms model, int count,
   accelerate(model, count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
 }
 
-/* The forces on a lane, and the factors by which an error of y enters them. */
+/* The forces on a lane, and the factors by which an error of y and one of w enter them. */
 typedef struct felt {
-  double slope, spring;
+  double slope, spring, drag;
   double force; /* f (1 + b cos theta) */
   double bare;  /* f */
   double modulation; /* 1 + b cos theta */
@@ -141,7 +141,7 @@ PENDRES_VECTOR_INLINE felt feel(pendres_model_terms model, const pendres_coeffic
                                 double cos_theta, double y, double w)
 {
   const double drag = k->friction[i] * w;
-  felt a = {.modulation = 1.0};
+  felt a = {.drag = -k->friction[i], .modulation = 1.0};
   double by_y;
   pendres_kernels_force(model, k->power, i, y, &a.bare, &by_y);
   a.force = a.bare;
@@ -159,15 +159,14 @@ PENDRES_VECTOR_INLINE felt feel(pendres_model_terms model, const pendres_coeffic
 
 /* Slopes of lane i's state and of its derivatives by the initial state. stride: lanes, the distance
    between two rows. */
-PENDRES_VECTOR_INLINE void vary(const felt *a, double drag, size_t stride, size_t i,
-                                const double *s, double *d)
+PENDRES_VECTOR_INLINE void vary(const felt *a, size_t stride, size_t i, const double *s, double *d)
 {
   d[i] = s[stride + i];
   d[stride + i] = a->slope;
   d[2 * stride + i] = s[3 * stride + i];
-  d[3 * stride + i] = FMA(a->spring, s[2 * stride + i], drag * s[3 * stride + i]);
+  d[3 * stride + i] = FMA(a->spring, s[2 * stride + i], a->drag * s[3 * stride + i]);
   d[4 * stride + i] = s[5 * stride + i];
-  d[5 * stride + i] = FMA(a->spring, s[4 * stride + i], drag * s[5 * stride + i]);
+  d[5 * stride + i] = FMA(a->spring, s[4 * stride + i], a->drag * s[5 * stride + i]);
 }
 
 PENDRES_VECTOR_INLINE void rhs_variational(pendres_model_terms model, size_t stride,
@@ -179,17 +178,17 @@ PENDRES_VECTOR_INLINE void rhs_variational(pendres_model_terms model, size_t str
 #pragma omp simd
   for (size_t i = 0; i < stride; i++) {
     const felt a = feel(model, &k, i, cos_theta, s[i], s[stride + i]);
-    vary(&a, -k.friction[i], stride, i, s, d);
+    vary(&a, stride, i, s, d);
   }
 }
 
 /* The pair of rows from `row` on: derivatives by a parameter by which w's slope changes by `by`. */
-PENDRES_VECTOR_INLINE void derive(const felt *a, double drag, double by, int row, size_t stride,
-                                  size_t i, const double *s, double *d)
+PENDRES_VECTOR_INLINE void derive(const felt *a, double by, int row, size_t stride, size_t i,
+                                  const double *s, double *d)
 {
   const size_t of_y = (size_t)row * stride + i, of_w = of_y + stride;
   d[of_y] = s[of_w];
-  d[of_w] = FMA(a->spring, s[of_y], FMA(drag, s[of_w], by));
+  d[of_w] = FMA(a->spring, s[of_y], FMA(a->drag, s[of_w], by));
 }
 
 PENDRES_VECTOR_INLINE void rhs_sensitivity(pendres_model_terms model, size_t stride,
@@ -202,8 +201,7 @@ PENDRES_VECTOR_INLINE void rhs_sensitivity(pendres_model_terms model, size_t str
   for (size_t i = 0; i < stride; i++) {
     const double w = s[stride + i];
     const felt a = feel(model, &k, i, cos_theta, s[i], w);
-    const double drag = -k.friction[i];
-    vary(&a, drag, stride, i, s, d);
+    vary(&a, stride, i, s, d);
     /* d/domega of the slope at fixed state:
        (2 (stiffness f - drive cos - torque) + friction w)/omega */
     const double push = k.drive[i] * cos_theta;
@@ -212,9 +210,9 @@ PENDRES_VECTOR_INLINE void rhs_sensitivity(pendres_model_terms model, size_t str
       k.inverse[i] * FMA(2.0, FMA(k.stiffness[i], a.force, -held), k.friction[i] * w);
     const double by_damping = -k.inverse[i] * w;
     const double by_amplitude = k.stiffness[i] * cos_theta;
-    derive(&a, drag, by_frequency, PENDRES_ROW_BY_OMEGA, stride, i, s, d);
-    derive(&a, drag, by_damping, PENDRES_ROW_BY_GAMMA, stride, i, s, d);
-    derive(&a, drag, by_amplitude, PENDRES_ROW_BY_DRIVE, stride, i, s, d);
+    derive(&a, by_frequency, PENDRES_ROW_BY_OMEGA, stride, i, s, d);
+    derive(&a, by_damping, PENDRES_ROW_BY_GAMMA, stride, i, s, d);
+    derive(&a, by_amplitude, PENDRES_ROW_BY_DRIVE, stride, i, s, d);
   }
 }
 
@@ -228,9 +226,9 @@ PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, siz
   for (size_t i = 0; i < stride; i++) {
     const double y = s[i];
     const felt a = feel(model, &k, i, cos_theta, y, s[stride + i]);
-    const double drag = -k.friction[i], strength = -k.stiffness[i] * a.modulation;
-    derive(&a, drag, k.stiffness[i], PENDRES_ROW_BY_TORQUE, stride, i, s, d);
-    derive(&a, drag, -k.stiffness[i] * a.bare * cos_theta, PENDRES_ROW_BY_MODULATION, stride, i,
+    const double strength = -k.stiffness[i] * a.modulation;
+    derive(&a, k.stiffness[i], PENDRES_ROW_BY_TORQUE, stride, i, s, d);
+    derive(&a, -k.stiffness[i] * a.bare * cos_theta, PENDRES_ROW_BY_MODULATION, stride, i,
            s, d);
     if (rows < PENDRES_ROWS_ALL) continue;
     double by = strength * y, own[PENDRES_FORCE_COEFFICIENTS];
@@ -239,7 +237,7 @@ PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, siz
     for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) {
       if (model > PENDRES_MODEL_POLYNOMIAL)
         by = strength * pendres_forces_by(PENDRES_MODEL_FORCE(model), own, y, p);
-      derive(&a, drag, by, PENDRES_ROW_BY_POWERS + 2 * p, stride, i, s, d);
+      derive(&a, by, PENDRES_ROW_BY_POWERS + 2 * p, stride, i, s, d);
       by *= y;
     }
   }

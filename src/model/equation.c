@@ -5,18 +5,6 @@
 
 #include "base/angles.h"
 
-double pendres_equation_friction(const pendres_pendulum *p, double v)
-{
-  (void)v;
-  return p->damping;
-}
-
-double pendres_equation_drag(const pendres_pendulum *p, double v)
-{
-  (void)v;
-  return p->damping;
-}
-
 double pendres_equation_contraction(const pendres_pendulum *p)
 {
   return p->damping;
@@ -24,7 +12,7 @@ double pendres_equation_contraction(const pendres_pendulum *p)
 
 const char *pendres_equation_undamped(const pendres_pendulum *p)
 {
-  return p->damping > 0.0 ? NULL : "without damping nothing settles";
+  return pendres_pendulum_decay_rate(p) > 0.0 ? NULL : "without damping nothing settles";
 }
 
 double pendres_equation_speed(const pendres_pendulum *p, double push)
@@ -32,14 +20,14 @@ double pendres_equation_speed(const pendres_pendulum *p, double push)
   return fabs(push) / fabs(p->damping);
 }
 
-double pendres_equation_rate(const pendres_pendulum *p)
+double pendres_pendulum_decay_rate(const pendres_pendulum *p)
 {
-  return p->damping;
+  return p != NULL ? p->damping : NAN;
 }
 
 double pendres_equation_fading(const pendres_pendulum *p)
 {
-  return 0.5 * pendres_equation_rate(p) * two_pi / p->drive_frequency;
+  return 0.5 * pendres_pendulum_decay_rate(p) * two_pi / p->drive_frequency;
 }
 
 pendres_pendulum pendres_equation_reversed(const pendres_pendulum *p)

@@ -16,8 +16,17 @@
 
 /* h(v)/v, and dh/dv, the rate at which the flow contracts areas there: minus its divergence. Both
    are least at rest, and grow with |v| if at all. */
-double pendres_equation_friction(const pendres_pendulum *p, double v);
-double pendres_equation_drag(const pendres_pendulum *p, double v);
+static inline double pendres_equation_friction(const pendres_pendulum *p, double v)
+{
+  (void)v;
+  return p->damping;
+}
+
+static inline double pendres_equation_drag(const pendres_pendulum *p, double v)
+{
+  (void)v;
+  return p->damping;
+}
 
 /* The rate at which the flow contracts areas, where it is the same at all states; NaN if it is
    not. */
@@ -36,9 +45,8 @@ const char *pendres_equation_undamped(const pendres_pendulum *p);
 /* The speed at which friction balances a push; infinite if none does. */
 double pendres_equation_speed(const pendres_pendulum *p, double push);
 
-/* A guess of the rate at which motions lose their energy, which is the width of a resonance; and by
-   what power of e they come together in a drive period. */
-double pendres_equation_rate(const pendres_pendulum *p);
+/* By what power of e motions come together in a drive period: half of what
+   pendres_pendulum_decay_rate() says of their energy. */
 double pendres_equation_fading(const pendres_pendulum *p);
 
 /* The equation backwards in time: of (y, -w). */

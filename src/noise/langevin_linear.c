@@ -119,7 +119,7 @@ static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, 
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
       pendres_coordinates_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
-  const double fastest = fmax(1.0, pendres_equation_rate(pendulum));
+  const double fastest = fmax(1.0, pendres_pendulum_decay_rate(pendulum));
   const double unit = two_pi / pendulum->drive_frequency * fastest;
   const double fewest = fmin(PENDRES_MOST_STEPS, ceil(linear_steps * unit));
   double steps = fewest;

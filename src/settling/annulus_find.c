@@ -12,6 +12,7 @@
 #include "engine/coordinates.h"
 #include "engine/room.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "orbits/mean.h"
 #include "orbits/orbit_table.h"
@@ -55,7 +56,7 @@ static double node(int k)
 /* Periods in which what lies beside the curve fades. */
 static long fading(const pendres_attractor_set *c)
 {
-  const double contracts = c->pendulum.damping * two_pi / c->pendulum.drive_frequency;
+  const double contracts = 2.0 * pendres_equation_fading(&c->pendulum);
   return (long)fmin(ceil(annulus_faded / contracts) + 1.0, ANNULUS_LONGEST);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/door.h"
 #include "settling/settle.h"
 #include "engine/coordinates.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "settling/numbers.h"
 
@@ -24,8 +25,7 @@ static pendres_status check_states(pendres_context *ctx, size_t n, const pendres
     const char *why = NULL;
     if (pendres_pendulum_check(&p[i * stride], &why) == PENDRES_OK)
       why = pendres_coordinates_refuses(&p[i * stride], x[i], v[i]);
-    if (why == NULL && p[i * stride].damping == 0.0)
-      why = "without damping nothing settles";
+    if (why == NULL) why = pendres_equation_undamped(&p[i * stride]);
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }

@@ -12,6 +12,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/coordinates.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "settling/numbers.h"
 #include "orbits/orbit_pair.h"
@@ -40,14 +41,16 @@ static int known(const pendres_attractor_set *c, const pendres_orbit *o)
 /*
  * The Lyapunov exponent is the logarithm of the larger multiplier's modulus over the orbit's
  * period, and its error follows from the interval that the modulus lies in. The modulus is at least
- * exp(-damping time / 2), since the product of the two multipliers is the square of that, and equal
+ * exp(-contraction time / 2), since the product of the two multipliers is its square, and equal
  * to it if they are complex conjugates for certain. A modulus below DBL_MIN, which strong damping
  * leads to, has no digits.
  */
 static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
 {
   const double time = two_pi * o->period / o->pendulum.drive_frequency;
-  const double least = -0.5 * o->pendulum.damping, off = fmax(DBL_MIN, o->multiplier_error);
+  /* NaN, where it is not known, is no bound. */
+  const double least = -0.5 * pendres_equation_contraction(&o->pendulum);
+  const double off = fmax(DBL_MIN, o->multiplier_error);
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   a->lyapunov = fmax(least, log(size) / time);
   a->lyapunov_error = DBL_EPSILON * (4.0 * fabs(a->lyapunov) + 1.0 / time);

@@ -10,6 +10,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "settling/numbers.h"
 
@@ -45,7 +46,7 @@ static int guess_look(void *arg, size_t index, const pendres_strobe_lane *lane)
 /* Periods after which a transient has faded to a hundredth. */
 static double fading_periods(const pendres_pendulum *p)
 {
-  return 4.6 / (0.5 * p->damping * two_pi / p->drive_frequency);
+  return 4.6 / pendres_equation_fading(p);
 }
 
 /* At least 4 of them, and at most 60. */

@@ -15,6 +15,7 @@
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "engine/team.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 pendres_replica pendres_replica_at(double y, double w)
@@ -77,12 +78,12 @@ static void add_sample(const watched_block *b, double spacing, double cosine,
                        const double *restrict y, const double *restrict w)
 {
   const double by_drive = b->pendulum->drive_amplitude * spacing * cosine;
-  const double by_drag = b->pendulum->damping * b->pendulum->drive_frequency * spacing;
+  const double omega = b->pendulum->drive_frequency;
   double *restrict work = b->work, *restrict loss = b->loss;
   double *restrict low = b->low, *restrict high = b->high;
   for (size_t i = 0; i < b->n; i++) {
     work[i] += by_drive * w[i];
-    loss[i] += by_drag * w[i] * w[i];
+    loss[i] += pendres_equation_friction(b->pendulum, omega * w[i]) * omega * spacing * w[i] * w[i];
     low[i] = y[i] < low[i] ? y[i] : low[i];
     high[i] = y[i] > high[i] ? y[i] : high[i];
   }

@@ -7,7 +7,6 @@
 #include <pendres/attractor.h>
 
 #include "continuation/parameter.h"
-#include "model/equation.h"
 #include "model/model.h"
 #include "orbits/orbit_pair.h"
 
@@ -86,7 +85,7 @@ static void linear_guess(const pendres_pendulum *p, pendres_orbit_guess *g, doub
     if (!(slope > 0.0)) break;
     rest += here / slope;
   }
-  const double w = p->drive_frequency, d = slope - w * w, e = pendres_equation_rate(p) * w;
+  const double w = p->drive_frequency, d = slope - w * w, e = pendres_pendulum_decay_rate(p) * w;
   /* The parametric drive shakes the force that holds the torque. */
   const double drive = p->drive_amplitude - p->parametric_amplitude * p->torque;
   const double size = drive / (d * d + e * e);
@@ -145,7 +144,8 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
   pendres_orbit_guess unused;
   linear_guess(&middle, &unused, &highest);
   const double scale = pendres_parameter_scale_at(m->axis, r->high);
-  const double wide = m->axis == PENDRES_DRIVE_FREQUENCY ? pendres_equation_rate(&middle) : 0.0;
+  const double wide =
+    m->axis == PENDRES_DRIVE_FREQUENCY ? pendres_pendulum_decay_rate(&middle) : 0.0;
   const double across = fmax(wide, (r->high - r->low) / fit_steps_across) / scale;
   const double spacing = fmin(0.1, fmax(across, 1e-5));
   /* What softens bends away before it is as large; a barrier at the origin never stiffens. */

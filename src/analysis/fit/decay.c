@@ -13,7 +13,6 @@
 #include "base/angles.h"
 #include "engine/block.h"
 #include "engine/steps.h"
-#include "model/equation.h"
 
 enum { STARTS = 2, COLUMNS = STARTS + PENDRES_PARAMETER_FOLLOWED };
 
@@ -224,7 +223,7 @@ static pendres_status begin(decay *d, const fit_values v, pendres_room *room)
   d->w[0] = w;
   for (int c = 0; c < STARTS; c++) d->by[c][c] = 1.0;
   /* Errors of the phase add up until the motion has decayed. */
-  const double lost = two_pi * pendres_equation_rate(&d->pendulum);
+  const double lost = two_pi * pendres_pendulum_decay_rate(&d->pendulum);
   const double count = fmin(periods, 1.0 + 2.0 / (lost + 1e-12));
   const double x = y + pendres_model_of(m->base.force)->origin;
   const pendres_status status =

@@ -10,7 +10,6 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "model/equation.h"
 #include "model/model.h"
 #include "settling/settle.h"
 
@@ -195,7 +194,7 @@ pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point
  */
 double pendres_search_width(const pendres_pendulum *p, double omega)
 {
-  const double rate = pendres_equation_rate(p);
+  const double rate = pendres_pendulum_decay_rate(p);
   const double resonance = rate * fmin(omega / pendres_model_units_of(p).rate, 1.0);
   const double drive = fabs(p->drive_amplitude);
   if (pendres_model_of(p->force)->period == 0.0 || !(drive > 4.0 / pi * rate))

@@ -11,6 +11,7 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "engine/coordinates.h"
+#include "model/equation.h"
 #include "orbits/orbit_table.h"
 #include "settling/settle_lanes.h"
 #include "settling/exponents/lyapunov_move.h"
@@ -227,8 +228,8 @@ static const char *refuses(const pendres_pendulum *p, double x, double v)
 {
   const char *why = NULL;
   if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
-  if (p->damping == 0.0) return "without damping nothing settles";
-  return pendres_coordinates_refuses(p, x, v);
+  why = pendres_equation_undamped(p);
+  return why != NULL ? why : pendres_coordinates_refuses(p, x, v);
 }
 
 pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapunov_motion *m,

@@ -11,6 +11,7 @@
 #include "engine/coordinates.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "settling/trapping/escape.h"
 #include "orbits/linear.h"
@@ -33,13 +34,13 @@ static double longest_transient(const pendres_strobe_lane *lane)
   return fmin(settle_first_most, exponent_most_steps / lane->steps);
 }
 
-/* Distances shrink as exp(-gamma t / 2) at best; exp(-40) of them is below double precision. */
+/* exp(-40) of a distance is below double precision. */
 static long transient_of(const job *j, const pendres_strobe_lane *lane)
 {
   const pendres_pendulum *p = lane->pendulum;
   if (j->transient > 0) return j->transient;
-  /* Across the curve of a rotation they shrink by all of the damping; to exp(-25), 1e-11, here. */
-  const double forgets = p->drive_frequency / (two_pi * p->damping);
+  /* Across the curve of a rotation distances shrink as areas do; to exp(-25), 1e-11, here. */
+  const double forgets = 0.5 / pendres_equation_fading(p);
   if (j->care == PENDRES_CARE_CLOSE) return EXPONENT_TURNING + (long)(exponent_forgets * forgets);
   return (long)fmax(WARM_UP, fmin(longest_transient(lane), exponent_forgets_all * forgets));
 }
@@ -50,7 +51,7 @@ static int forgets_start(const job *j, const pendres_strobe_lane *lane)
 {
   const pendres_pendulum *p = lane->pendulum;
   return j->transient > 0 ||
-         exponent_forgets_all * p->drive_frequency / (two_pi * p->damping) <=
+         0.5 * exponent_forgets_all / pendres_equation_fading(p) <=
            longest_transient(lane);
 }
 

@@ -26,7 +26,9 @@
 #include "engine/room.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
+#include "model/equation.h"
 #include "model/model.h"
+#include "orbits/orbit_measure.h"
 #include "settling/trapping/numbers.h"
 #include "settling/trapping/trapping_ring.h"
 
@@ -318,7 +320,9 @@ static pendres_status follow(pendres_context *ctx, size_t *n, disk **disks,
    counts. */
 static void begin(disk *d, size_t orbit, const pendres_orbit *o, const pendres_trapping_ellipse *t)
 {
-  const double kept = exp(-two_pi * o->period * o->pendulum.damping / o->pendulum.drive_frequency);
+  const double kept = pendres_equation_left(
+    two_pi * o->period * pendres_equation_contraction(&o->pendulum) / o->pendulum.drive_frequency,
+    fabs(pendres_orbit_determinant(o)));
   *d = (disk){.orbit = orbit, .kept = kept, .ellipse = *t};
   d->radius = fmin(trapping_widest, 0.5 * t->radius / (1.0 - kept));
 }
