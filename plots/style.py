@@ -54,6 +54,11 @@ class Run:
         units = units.decode() if isinstance(units, bytes) else str(units)
         return (float(attributes["si_factor"]), units) if units else (1.0, "")
 
+    def is_angle(self, name):
+        """Whether a variable is one, as its units say."""
+        units = self.file[name].attrs.get("units", "")
+        return (units.decode() if isinstance(units, bytes) else str(units)) == "rad"
+
     def natural_frequency(self):
         """The unit of frequencies in Hz: of the command line, or of the file; None: there is
         none."""
@@ -63,9 +68,9 @@ class Run:
             return float(self["natural_frequency_hz"])
         for name in self.file:
             factor, units = self.si(name)
-            if units == "Hz" and name.endswith("frequency"):
+            if units == "Hz":
                 return factor
-            if units == "s" and name == "drive_period":
+            if units == "s":
                 return 1 / (2 * np.pi * factor)
         return None
 
@@ -202,10 +207,9 @@ def parameter_text(run, value, name):
 
 
 def amplitude_axis(run, name, label):
-    """What amplitudes are multiplied by to be drawn, and the label of their axis: only a
-    pendulum's are angles."""
+    """What amplitudes are multiplied by to be drawn, and the label of their axis."""
     factor, unit = run.scale(name)
-    unit = unit or ("" if "a1" in run else "rad")
+    unit = unit or ("rad" if run.is_angle(name) else "")
     return factor, label + (f" ({unit})" if unit else "")
 
 
