@@ -337,6 +337,10 @@ def test_functions():
     assert list(response.state.label[:2]) == [0, 1] and response.state_members.sum() == 16
     fold = pendres.fold(orbits[0])
     branch, = pendres.branches(orbits, 0.5, 1.0)
+    # numpy packs a structure that ends in padding when it joins arrays of it.
+    joined = np.concatenate([orbits[:1], orbits[1:]])
+    again, = pendres.branches(joined, 0.5, 1.0)
+    assert np.array_equal(again.points.arclength, branch.points.arclength)
     assert min(abs(branch.bifurcations.value - fold.value)) < 1e-7
     assert len(branch.at(0.8)) == 3 and branch.ends == (0, 0)
     path = np.linspace(0.7, 0.9, 5)
