@@ -341,6 +341,12 @@ def test_functions():
     joined = np.concatenate([orbits[:1], orbits[1:]])
     again, = pendres.branches(joined, 0.5, 1.0)
     assert np.array_equal(again.points.arclength, branch.points.arclength)
+    # What is shown has errors, and words instead of numbers.
+    for what, has in ((found, ["attractors: 2", "sa", "± "]), (branch, ["fold", "ends: range"]),
+                      (pendres.resonance(q), ["pendres_resonance", "peak = ", "frequency = 0."])):
+        assert all(text in repr(what) for text in has), repr(what)
+        assert "unused" not in repr(what) and "spare" not in repr(what)
+    assert "<table>" in found._repr_html_() and "<th>loop area</th>" in found._repr_html_()
     assert min(abs(branch.bifurcations.value - fold.value)) < 1e-7
     assert len(branch.at(0.8)) == 3 and branch.ends == (0, 0)
     path = np.linspace(0.7, 0.9, 5)

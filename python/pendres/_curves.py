@@ -6,9 +6,13 @@ import numpy as np
 from ._handles import as_numbers, as_pendulums, default_context, filled, one, one_pendulum, record
 from ._library import (Handle, array, c, enumerations, errors, ffi, lib, make, member, stacked,
                        structures, viewed)
+from ._shown import Shown, told, word
+
+SPECIAL, JUMP, END = (enumerations[name] for name in (
+    "pendres_special", "pendres_jump_kind", "pendres_branch_end"))
 
 
-class Branch:
+class Branch(Shown):
     """A branch of orbits in order: points (orbit, kind, arclength, ... see pendres_branch_point),
     its bifurcations (kind, value, value_error, orbit, ...), and how it ends at both ends
     (pendres.BranchEnd)."""
@@ -20,6 +24,15 @@ class Branch:
         self.bifurcations = stacked("pendres_bifurcation", [
             c.branch_bifurcation_get(pointer, i) for i in range(c.branch_bifurcation_count(pointer))])
         self.ends = c.branch_end_get(pointer, 0), c.branch_end_get(pointer, 1)
+
+    def _sentence(self):
+        first, last = (word(END, end) for end in self.ends)
+        return f"branch of {self.points.size} points, ends: {first}, {last}"
+
+    def _rows(self):
+        return [("", "kind", "value", "amplitude")] + [
+            (i, word(SPECIAL, b.kind), told(b.value, b.value_error), f"{b.orbit.amplitude:.6g}")
+            for i, b in enumerate(self.bifurcations)] if self.bifurcations.size else []
 
     def at(self, value, *, context=None):
         """All orbits of the branch at a value of its parameter."""
@@ -156,7 +169,7 @@ class Boundary(Handle):
         self.bound, self.complete = b.bound, bool(b.complete)
 
 
-class Hysteresis(Handle):
+class Hysteresis(Shown, Handle):
     """What was met on a path of a parameter: points (value, attractor, mean_velocity, ...), jumps
     (value, value_error, direction, kind, from, to, ...) and steps (winding, period, lower, upper,
     width, ...), see hysteresis.h."""
@@ -171,6 +184,17 @@ class Hysteresis(Handle):
             c.hysteresis_jump_get(self, i) for i in range(c.hysteresis_jump_count(self))])
         self.steps = stacked("pendres_step", [
             c.hysteresis_step_get(self, i) for i in range(c.hysteresis_step_count(self))])
+
+
+    def _sentence(self):
+        return (f"a path: {self.points.size} values; jumps: {self.jumps.size}; steps: "
+                f"{self.steps.size}")
+
+    def _rows(self):
+        return [("", "direction", "kind", "value")] + [
+            (i, "up" if jump.direction > 0 else "down", word(JUMP, jump.kind),
+             told(jump.value, jump.value_error))
+            for i, jump in enumerate(self.jumps)] if self.jumps.size else []
 
 
 def hysteresis(p, values, x=np.pi / 2, v=0.0, *, parameter="drive_frequency", context=None):

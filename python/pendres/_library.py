@@ -13,7 +13,7 @@ import sys
 import cffi
 import numpy as np
 
-from . import _headers
+from . import _headers, _shown
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TREE = os.path.dirname(os.path.dirname(HERE))
@@ -167,6 +167,14 @@ class Record(np.record):
         if type(value) is np.ndarray and value.dtype.names:  # pylint: disable=unidiomatic-typecheck
             return value.view(np.recarray)
         return value
+
+    def __repr__(self):
+        name = called(self.dtype)
+        kinds = {field: enumerations.get(its.type.cname)
+                 for field, its in (types[name].fields if name in types else ())}
+        return "\n".join([name, *(f"  {n} = {t}" for n, t in _shown.fields(self, kinds))])
+
+    __str__ = __repr__
 
 
 _PRIMITIVES = {"float": "f4", "double": "f8", "long double": "g", "char": "i1", "_Bool": "?"}

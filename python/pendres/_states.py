@@ -3,10 +3,14 @@ import numpy as np
 
 from ._handles import (as_ensemble, as_numbers, as_pendulums, default_context, filled, one_pendulum,
                        record, spread)
-from ._library import Handle, array, c, dtype, ffi, make, stacked
+from ._library import Handle, array, c, dtype, enumerations, ffi, make, stacked
+from ._shown import Shown, told, word
 
 
-class Attractors(Handle):
+LABEL = enumerations["pendres_label"]
+
+
+class Attractors(Shown, Handle):
     """Attractors of a parameter set, as attractors() finds them. `table` has a row for each: label
     (pendres.Label), orbit, trap, lyapunov, ... (see pendres_attractor in attractor.h)."""
 
@@ -14,6 +18,17 @@ class Attractors(Handle):
 
     def __len__(self):
         return int(c.attractors_count(self))
+
+    def _sentence(self):
+        return f"attractors: {len(self)}"
+
+    def _rows(self):
+        orbits = self.table.orbit
+        return [("", "label", "period", "amplitude", "loop area", "phase lag")] + [
+            (i, word(LABEL, label), orbit.period or "–",
+             *(told(orbit[name], orbit[name + "_error"])
+               for name in ("amplitude", "loop_area", "phase_lag")))
+            for i, (label, orbit) in enumerate(zip(self.table.label, orbits))] if len(self) else []
 
     @property
     def table(self):
@@ -115,7 +130,7 @@ class PhaseDiagram(Handle):
     ctype = "pendres_phase_diagram"
 
 
-class Basins:
+class Basins(Shown):
     """Basins of attraction over a grid. state[i, j] began at x[i], v[j], with label
     (pendres.Label), attractor (row of `attractors.table`), well, settling_periods and how;
     fraction and fraction_error are shares of the area; statistics is pendres_basin_statistics."""
@@ -129,6 +144,16 @@ class Basins:
         kept = ffi.gc(sums[0], c.basin_sums_free)
         c.basin_sums_add(kept, x.size, state)
         c.basin_sums_result(kept, self.statistics, self.fraction, self.fraction_error)
+
+
+    def _sentence(self):
+        return (f"basins, attractors: {len(self.attractors)}, on {self.x.size} x {self.v.size} "
+                "starts")
+
+    def _rows(self):
+        return [("", "label", "share")] + [
+            (i, word(LABEL, label), told(share, error)) for i, (label, share, error) in enumerate(
+                zip(self.attractors.table.label, self.fraction, self.fraction_error))]
 
 
 def _grid(x, v):

@@ -4,6 +4,7 @@ import html
 import panel as pn
 from bokeh.io import curdoc
 
+from .._shown import told
 from . import pictures, views
 from .figures import Plot
 from .newest import Newest
@@ -260,6 +261,6 @@ def _table(rows, note):
         if value == "":
             lines.append(f"<tr><td colspan=2><b>{html.escape(what)}</b></td></tr>")
         else:
-            lines.append(f"<tr><td>{html.escape(what)}</td><td>{views.told(value, error)}</td></tr>")
+            lines.append(f"<tr><td>{html.escape(what)}</td><td>{told(value, error)}</td></tr>")
     return (f"<table class='numbers'>{''.join(lines)}</table>"
             f"<p class='note'>{html.escape(note)}</p>")

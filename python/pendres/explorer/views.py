@@ -9,10 +9,12 @@ import dataclasses
 import numpy as np
 
 from .. import _curves, _handles, _motion, _noise, _states
-from .._library import enumerations, errors, lib
+from .._library import enumerations
+from .._shown import told, word
 
 LABELS = enumerations["pendres_label"]
 SPECIAL = enumerations["pendres_special"]
+JUMPS = enumerations["pendres_jump_kind"]
 LANGEVIN = enumerations["pendres_langevin_statistic"]
 TURN = 2 * np.pi
 SAMPLES = 128     # points of an orbit a drive period: smooth at any size of a window
@@ -39,19 +41,7 @@ class Picture:
 
 def name_of(label):
     """A label in words of files."""
-    return LABELS(int(label)).name.lower()
-
-
-def told(value, error):
-    """A number with as many digits as its error leaves."""
-    if not np.isfinite(value):
-        return "–"
-    if not np.isfinite(error) or error < 0:
-        return f"{value:.3g} (error unknown)"
-    if error == 0:
-        return f"{value:.12g}"
-    digits = int(np.clip(1 - np.floor(np.log10(error)), 0, 12))
-    return f"{value:.{digits}f} ± {error:.0e}"
+    return word(LABELS, label)
 
 
 def _joined(pieces):
@@ -174,8 +164,7 @@ def response(settings, _seen, context):
     if orbits.size and high > low:
         for branch in _curves.branches(orbits, low, high, context=context):
             _branch_layers(branch, layers)
-            picture.rows += [(SPECIAL(int(b.kind)).name.lower() if int(b.kind) in SPECIAL._value2member_map_
-                              else "bifurcation", b.value, b.value_error)
+            picture.rows += [(word(SPECIAL, b.kind).replace("_", " "), b.value, b.value_error)
                              for b in branch.bifurcations]
     picture.layers = _closed(layers)
     table = _states.attractors(settings.pendulum(temperature=0.0), context=context).table
@@ -272,9 +261,8 @@ def current(settings, _seen, context):
         nearest = known[np.argmin(np.abs(points.value[known] - settings.torque))]
         picture.rows.append((f"mean velocity at {points.value[nearest]:.4g}",
                              points.mean_velocity[nearest], points.mean_velocity_error[nearest]))
-    kinds = enumerations["pendres_jump_kind"]
     picture.rows += [(f"jump {'up' if j.direction > 0 else 'down'}, "
-                      f"{kinds(int(j.kind)).name.lower()}", j.value, j.value_error)
+                      f"{word(JUMPS, j.kind)}", j.value, j.value_error)
                      for j in found.jumps]
     left = points.value.size - known.size
     picture.note = f"{left} values have no mean velocity" if left else ""
@@ -310,4 +298,3 @@ def noise(settings, _seen, context):
 
 VIEWS = {"motion": motion, "response": response, "basins": basins, "diagram": diagram,
          "current": current, "noise": noise}
-FAILURES = tuple(errors.values())
