@@ -62,11 +62,10 @@ static double lattice_or_none_upper(int index)
 }
 
 /* A cell of the lattice: indices of damping, frequency, drive, speed, tolerance, torque (-1: none),
-   and parametric drive (likewise); and the force itself. */
+   and parametric drive (likewise); and the pendulum with all that is no index, as it is. */
 typedef struct cell {
   int damping, frequency, drive, speed, tolerance, torque, parametric;
-  pendres_force force;
-  double coefficients[PENDRES_FORCE_COEFFICIENTS];
+  pendres_pendulum rest;
 } cell;
 
 static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
@@ -78,28 +77,24 @@ static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
             .tolerance = lattice(tolerance, lattice_tolerance, lattice_ratio),
             .torque = lattice_or_none(p->torque),
             .parametric = lattice_or_none(p->parametric_amplitude),
-            .force = p->force};
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) c.coefficients[i] = p->force_coefficients[i];
+            .rest = *p};
+  c.rest.damping = c.rest.drive_frequency = c.rest.drive_amplitude = c.rest.temperature = 0.0;
+  c.rest.torque = c.rest.parametric_amplitude = 0.0;
   return c;
 }
 
 /* The corner of the cell that needs the most steps: a long period, strong drive, high speed. */
 static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *tolerance)
 {
-  *p = (pendres_pendulum){
-    .damping = lattice_upper(c->damping, lattice_damping, lattice_ratio),
-    .drive_frequency =
-      c->frequency > 0
-        ? lattice_upper(c->frequency - 1, lattice_frequency, lattice_frequency_ratio)
-        : 0.0,
-    .drive_amplitude = lattice_upper(c->drive, lattice_drive, lattice_ratio),
-    .torque = lattice_or_none_upper(c->torque),
-    .parametric_amplitude = lattice_or_none_upper(c->parametric),
-    .force = c->force};
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
-    p->force_coefficients[i] = c->coefficients[i];
+  *p = c->rest;
   /* Below the least damping the corner of the cell has none. */
-  if (c->damping == 0) p->damping = 0.0;
+  if (c->damping > 0) p->damping = lattice_upper(c->damping, lattice_damping, lattice_ratio);
+  if (c->frequency > 0)
+    p->drive_frequency =
+      lattice_upper(c->frequency - 1, lattice_frequency, lattice_frequency_ratio);
+  p->drive_amplitude = lattice_upper(c->drive, lattice_drive, lattice_ratio);
+  p->torque = lattice_or_none_upper(c->torque);
+  p->parametric_amplitude = lattice_or_none_upper(c->parametric);
   *speed = lattice_upper(c->speed, lattice_speed, lattice_speed_ratio);
   *tolerance = lattice_tolerance;
   if (c->tolerance > 0)
@@ -375,12 +370,9 @@ void pendres_steps_memo_free(pendres_steps_memo *memo)
 
 static int same(const cell *a, const cell *b)
 {
-  int equal = a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
-              a->speed == b->speed && a->tolerance == b->tolerance && a->torque == b->torque &&
-              a->parametric == b->parametric && a->force == b->force;
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS && equal; i++)
-    equal = a->coefficients[i] == b->coefficients[i];
-  return equal;
+  return a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
+         a->speed == b->speed && a->tolerance == b->tolerance && a->torque == b->torque &&
+         a->parametric == b->parametric && pendres_model_same(&a->rest, &b->rest);
 }
 
 /* The steps of a cell, 0 if they are not known. */

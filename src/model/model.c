@@ -327,8 +327,12 @@ int pendres_model_is_linear(const pendres_pendulum *p)
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
 {
   int same = a->force == b->force;
-  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED && same; k++)
-    same = pendres_parameter_get((pendres_parameter)k, a) ==
-           pendres_parameter_get((pendres_parameter)k, b);
+  for (int k = 0; k < PENDRES_PARAMETER_COUNT && same; k++) {
+    const pendres_parameter parameter = (pendres_parameter)k;
+    const double value = pendres_parameter_get(parameter, a);
+    /* There is none of the state. */
+    same = parameter == PENDRES_TEMPERATURE || isnan(value) ||
+           value == pendres_parameter_get(parameter, b);
+  }
   return same;
 }

@@ -48,7 +48,7 @@ static int known(const pendres_attractor_set *c, const pendres_orbit *o)
 static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
 {
   const double time = two_pi * o->period / o->pendulum.drive_frequency;
-  /* NaN, where it is not known, is no bound. */
+  /* NaN where it is not known, which is no bound. */
   const double least = -0.5 * pendres_equation_contraction(&o->pendulum);
   const double off = fmax(DBL_MIN, o->multiplier_error);
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
@@ -59,7 +59,7 @@ static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
     a->lyapunov_error = NAN;
     return;
   }
-  if (fabs(o->multiplier_im[0]) > off) return;
+  if (fabs(o->multiplier_im[0]) > off && !isnan(least)) return;
   const double high = log(size + off) / time;
   const double low = fmax(least, log(fmax(0.0, size - off)) / time);
   a->lyapunov_error += fmax(0.0, fmax(high - a->lyapunov, a->lyapunov - low));
