@@ -18,12 +18,9 @@
 
 /* Arrays of coefficients, an entry a lane. */
 enum {
-  STIFFNESS,
-  DRIVE,
-  FRICTION,
-  INVERSE,
-  TORQUE,
-  MODULATION,
+#define PLACE(name, value) PLACE_##name,
+  PENDRES_COEFFICIENTS_PLAIN(PLACE) PENDRES_COEFFICIENTS_OTHER(PLACE)
+#undef PLACE
   POWERS,
   COEFFICIENTS = POWERS + PENDRES_FORCE_COEFFICIENTS
 };

@@ -15,9 +15,10 @@ int pendres_block_lanes_open(pendres_block *b)
     b->coefficient[i] = pendres_lanes_allocate(b->shape.capacity);
     if (b->coefficient[i] == NULL) return -1;
   }
+#define ARRAY(name, value) .name = c[PLACE_##name],
   b->shape.coefficients = (pendres_coefficients){
-    .stiffness = c[STIFFNESS], .drive = c[DRIVE], .friction = c[FRICTION],
-    .inverse = c[INVERSE], .torque = c[TORQUE], .modulation = c[MODULATION]};
+    PENDRES_COEFFICIENTS_PLAIN(ARRAY) PENDRES_COEFFICIENTS_OTHER(ARRAY)};
+#undef ARRAY
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
     b->shape.coefficients.power[i] = c[POWERS + i];
   b->rows = pendres_lanes_allocate(b->shape.rows * b->shape.capacity);
@@ -73,15 +74,12 @@ void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p
                         double w)
 {
   const size_t stride = b->shape.stride;
-  const double omega = p->drive_frequency;
   double *data = b->rows;
 
-  b->coefficient[STIFFNESS][lane] = 1.0 / (omega * omega);
-  b->coefficient[DRIVE][lane] = p->drive_amplitude / (omega * omega);
-  b->coefficient[FRICTION][lane] = p->damping / omega;
-  b->coefficient[INVERSE][lane] = 1.0 / omega;
-  b->coefficient[TORQUE][lane] = p->torque / (omega * omega);
-  b->coefficient[MODULATION][lane] = p->parametric_amplitude;
+#define LOAD(name, value) b->coefficient[PLACE_##name][lane] = value;
+  PENDRES_COEFFICIENTS_PLAIN(LOAD)
+  PENDRES_COEFFICIENTS_OTHER(LOAD)
+#undef LOAD
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
     b->coefficient[POWERS + i][lane] = p->force_coefficients[i];
   const pendres_model_terms model = pendres_model_kind(p);
@@ -140,9 +138,9 @@ void pendres_block_set_error(pendres_block *b, size_t lane, const pendres_flow_e
   b->off[ERROR_ADDED][lane] = added;
   /* The drag by the mean of both ends of a step, so that it contracts however large it is. */
   const double step = two_pi / b->drive.steps;
-  const double drag = 0.5 * step * b->coefficient[FRICTION][lane];
+  const double drag = 0.5 * step * b->coefficient[PLACE_friction][lane];
   b->off[ERROR_KEEP][lane] = (1.0 - drag) / (1.0 + drag);
-  b->off[ERROR_KICK][lane] = step * b->coefficient[STIFFNESS][lane] / (1.0 + drag);
+  b->off[ERROR_KICK][lane] = step * b->coefficient[PLACE_stiffness][lane] / (1.0 + drag);
 }
 
 pendres_flow_error pendres_block_get_error(const pendres_block *b, size_t lane)
@@ -153,7 +151,7 @@ pendres_flow_error pendres_block_get_error(const pendres_block *b, size_t lane)
 
 void pendres_block_put_tangent(pendres_block *b, size_t lane, int which, const double tangent[2])
 {
-  const double drag = 0.5 * b->coefficient[FRICTION][lane];
+  const double drag = 0.5 * b->coefficient[PLACE_friction][lane];
   b->off[TANGENT_Y + which][lane] = tangent[0];
   b->off[TANGENT_W + which][lane] = fma(drag, tangent[0], tangent[1]);
   b->off[TANGENT_KEEP][lane] = exp(-drag * two_pi / b->drive.steps);
@@ -161,7 +159,7 @@ void pendres_block_put_tangent(pendres_block *b, size_t lane, int which, const d
 
 void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, double tangent[2])
 {
-  const double drag = 0.5 * b->coefficient[FRICTION][lane];
+  const double drag = 0.5 * b->coefficient[PLACE_friction][lane];
   tangent[0] = b->off[TANGENT_Y + which][lane];
   tangent[1] = fma(-drag, tangent[0], b->off[TANGENT_W + which][lane]);
 }

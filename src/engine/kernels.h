@@ -31,15 +31,24 @@
 
 #include "model/model.h"
 
-/* Coefficients of the equation, one array entry a lane. */
+/* Coefficients of the equation, ITEM(name, what it is of pendulum p); the inverse is read by the
+   sensitivities alone. */
+#define PENDRES_COEFFICIENTS_PLAIN(ITEM)                                \
+  ITEM(stiffness, 1.0 / (p->drive_frequency * p->drive_frequency))      \
+  ITEM(drive, p->drive_amplitude / (p->drive_frequency * p->drive_frequency)) \
+  ITEM(friction, p->damping / p->drive_frequency)                       \
+  ITEM(inverse, 1.0 / p->drive_frequency)
+/* Read for the models that have them. */
+#define PENDRES_COEFFICIENTS_OTHER(ITEM)                                \
+  ITEM(torque, p->torque / (p->drive_frequency * p->drive_frequency))   \
+  ITEM(modulation, p->parametric_amplitude)
+
+/* One array entry a lane. */
 typedef struct pendres_coefficients {
-  const double *stiffness; /* 1/omega^2 */
-  const double *drive;     /* F0/omega^2 */
-  const double *friction;  /* gamma/omega */
-  const double *inverse;   /* 1/omega; read by the sensitivities alone */
-  /* Read for the models that have them: */
-  const double *torque;     /* I/omega^2 */
-  const double *modulation; /* b */
+#define PENDRES_COEFFICIENT_ARRAY(name, value) const double *name;
+  PENDRES_COEFFICIENTS_PLAIN(PENDRES_COEFFICIENT_ARRAY)
+  PENDRES_COEFFICIENTS_OTHER(PENDRES_COEFFICIENT_ARRAY)
+#undef PENDRES_COEFFICIENT_ARRAY
   const double *power[PENDRES_FORCE_COEFFICIENTS]; /* a1 .. a5 of a polynomial force */
 } pendres_coefficients;
 

@@ -19,6 +19,9 @@ void pendres_lanes_shape_cut(pendres_lanes_shape *s, size_t lanes)
   s->wider = s->stride / unit % strips * (s->strip + unit);
 }
 
+#define FROM_LANE(name, value) .name = k->name + lane,
+#define SET_FROM_LANE(name, value) strip.k.name = k->name + lane;
+
 void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operation *operations,
                              size_t n)
 {
@@ -31,12 +34,10 @@ void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operati
       .lanes = lanes,
       .model = s->model,
       .at = s->rows * lane,
-      .k = {.stiffness = k->stiffness + lane, .drive = k->drive + lane,
-            .friction = k->friction + lane, .inverse = k->inverse + lane}};
+      .k = {PENDRES_COEFFICIENTS_PLAIN(FROM_LANE)}};
     /* Kernels of the plain pendulum have no rows of derivatives by what it lacks. */
     if (s->model != PENDRES_MODEL_PLAIN || s->rows > PENDRES_ROWS_SENSITIVITY) {
-      strip.k.torque = k->torque + lane;
-      strip.k.modulation = k->modulation + lane;
+      PENDRES_COEFFICIENTS_OTHER(SET_FROM_LANE)
       for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) strip.k.power[i] = k->power[i] + lane;
     }
     if (off->yy != NULL)
