@@ -32,6 +32,13 @@ static pendres_context *context(void)
   return ctx;
 }
 
+static pendres_ensemble few(size_t members)
+{
+  pendres_ensemble e = pendres_ensemble_default();
+  e.members = members;
+  return e;
+}
+
 /* No response in the range lies above the resonance. */
 static void check_nothing_above(pendres_context *ctx, const pendres_resonance *r,
                                 const pendres_pendulum *p, const pendres_ensemble *e,
@@ -118,6 +125,56 @@ static void windows_between_basins(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * A window of a tenth of the resonance's width, with thirteen times the area of all that is met in
+ * steps of that width: where basins alternate few members are looked at more often. The area is
+ * that of the member's own response.
+ */
+static void windows_between_frequencies(void **state)
+{
+  pendres_pendulum p = {.force = PENDRES_FORCE_POLYNOMIAL, .damping = 0.071607980539166255,
+                        .drive_amplitude = 0.41389969985615338,
+                        .force_coefficients = {1.0, 0.0, -2.8334495847877061, 0.0, 1.0}};
+  pendres_ensemble e = few(1);
+  pendres_context *ctx = context();
+  pendres_resonance r;
+  pendres_response there;
+  (void)state;
+  e.x_last = 0.034896372160369449;
+  e.x_first = e.x_last - 1.0;
+  e.v = -0.32813861989659698;
+  check_ok(pendres_resonance_find_ensemble(ctx, &p, 1.2, 3.0, &e, &r));
+  p.drive_frequency = 1.216;
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &there));
+  check_relative(there.mean_loop_area, 0.956524374327, 1e-11);
+  assert_true(r.loop_area >= there.mean_loop_area);
+  assert_true(r.complete && r.peak == PENDRES_PEAK_RAGGED && r.loop_area_error < 0.1);
+  pendres_context_free(ctx);
+}
+
+/*
+ * From a well that most members leave to infinity the mean is that of the others, and they escape
+ * at other frequencies than their neighbours: the largest is that of the one member left here.
+ */
+static void members_that_escape(void **state)
+{
+  pendres_pendulum p = {.force = PENDRES_FORCE_POLYNOMIAL, .damping = 0.05,
+                        .drive_amplitude = 0.06, .force_coefficients = {1.0, -1.0}};
+  const pendres_ensemble e = {.members = 20, .x_first = -1.5, .x_last = 1.5, .v = 0.3};
+  pendres_context *ctx = context();
+  pendres_resonance r;
+  pendres_response there;
+  (void)state;
+  check_ok(pendres_resonance_find_ensemble(ctx, &p, 0.6, 1.2, &e, &r));
+  p.drive_frequency = 0.7936012718;
+  check_ok(pendres_response_find(ctx, 1, &p, &e, &there));
+  assert_int_equal(there.escaped, 19);
+  check_near(there.mean_loop_area, 0.0537292897912, 1e-12);
+  assert_true(r.complete && r.loop_area + r.loop_area_error >= there.mean_loop_area);
+  assert_true(r.loop_area_error < 0.1 * r.loop_area);
+  pendres_context_free(ctx);
+}
+
 /* Without a drive there is no loop, and no largest one. */
 static void no_drive(void **state)
 {
@@ -165,13 +222,6 @@ static void work_that_is_counted(void **state)
   assert_true(slopes > 1e6 && budget.work - of_newton >= 2e-9 * slopes);
   pendres_search_free(&s);
   pendres_context_free(ctx);
-}
-
-static pendres_ensemble few(size_t members)
-{
-  pendres_ensemble e = pendres_ensemble_default();
-  e.members = members;
-  return e;
 }
 
 /*
@@ -289,6 +339,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(single_members),
     cmocka_unit_test(windows_between_basins),
+    cmocka_unit_test(windows_between_frequencies),
+    cmocka_unit_test(members_that_escape),
     cmocka_unit_test(no_drive),
     cmocka_unit_test(work_that_is_counted),
     cmocka_unit_test(a_budget_that_ends),

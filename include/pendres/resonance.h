@@ -21,8 +21,9 @@
  * All models are served. With other forces the steps follow from the damping and from the frequency
  * of free oscillations that the drive can sustain. Only the work of drive_amplitude counts, not
  * that of a torque or a parametric drive: without drive_amplitude there is no resonance. Members
- * without a known attractor, such as rotations that do not lock to the drive and members that
- * escape to infinity, have no loop area: errors allow for them as if they could be on any state.
+ * that escape to infinity, or rest in an unstable state, are in no mean: it is that of the others.
+ * Members without a known attractor, such as rotations that do not lock to the drive, have no loop
+ * area: errors allow for them as if they could be on any state.
  */
 #ifndef PENDRES_RESONANCE_H
 #define PENDRES_RESONANCE_H

@@ -1,5 +1,6 @@
 /* gap.c -- what may happen between two frequencies of a search; see search.h. */
 #include "analysis/resonance/numbers.h"
+#include "analysis/resonance/response_parts.h"
 #include "analysis/resonance/search.h"
 
 #include <math.h>
@@ -141,18 +142,33 @@ static int find_families(const pendres_response *a, const pendres_response *b, d
   return alone;
 }
 
-/* The family that member k is on at an end; -1: not known. */
-static int family_at(const families *all, const pendres_scan_point *p, int end, size_t k)
+/* In place of a family: not known; that of a member without an area; none was asked for. */
+enum { UNKNOWN = -1, GONE = PENDRES_RESPONSE_GONE, NONE = -3 };
+
+static int state_of(const pendres_scan_point *p, size_t k)
 {
-  const int state = p->where != NULL ? p->where[k] : -1;
-  const int f = state < 0 ? -1 : all->at[end][state];
-  return f < 0 || !isfinite(all->of[f].middle) ? -1 : f;
+  return p->where != NULL ? p->where[k] : UNKNOWN;
 }
 
+/* The family that member k is on at an end. */
+static int family_at(const families *all, const pendres_scan_point *p, int end, size_t k)
+{
+  const int state = state_of(p, k), f = state < 0 ? state : all->at[end][state];
+  return f >= 0 && !isfinite(all->of[f].middle) ? UNKNOWN : f;
+}
+
+/* The one of two families with the larger area; one that is not known may be larger than any. */
 static int larger_of(const families *all, int f, int g)
 {
-  if (f < 0 || g < 0) return -1;
+  if (f == UNKNOWN || g == UNKNOWN) return UNKNOWN;
+  if (f < 0 || g < 0) return f > g ? f : g;
   return all->of[g].middle > all->of[f].middle ? g : f;
+}
+
+/* What a member adds to the mean at an end: without an area it does not move that. */
+static double worth(const families *all, int f, const pendres_scan_point *end)
+{
+  return f >= 0 ? all->of[f].middle : f == GONE ? end->response.mean_loop_area : NAN;
 }
 
 /* A mean area at both ends with its slopes. */
@@ -185,7 +201,8 @@ typedef enum reach { OWN, MOVED, BESIDE } reach;
 
 /* What the members do in a gap. */
 typedef struct census {
-  size_t on[MOST_FAMILIES]; /* each on the largest state that it may be on */
+  size_t on[MOST_FAMILIES];   /* each on the largest state that it may be on */
+  size_t free[MOST_FAMILIES]; /* those of them that may have no area, too */
   size_t unknown;
   int up, down, loose;
 } census;
@@ -202,42 +219,78 @@ static void count_members(const families *all, const pendres_scan_point *const e
   const int wide = far != OWN;
   *c = (census){.up = 0};
   for (size_t k = 0; k < members; k++) {
-    int largest = -2, stays = -2, own[2];
+    int largest = NONE, stays = NONE, own[2], gone = 0;
     for (int e = 0; e < 2; e++) {
       own[e] = family_at(all, end[e], e, k);
       if (!asked[e]) continue;
-      stays = stays == -2 ? own[e] : larger_of(all, stays, own[e]);
+      stays = larger_of(all, stays, own[e]);
       for (size_t j = wide && k > 0 ? k - 1 : k; j <= k + (size_t)wide && j < members; j++) {
         const int f = family_at(all, end[e], e, j);
         if (far == MOVED && j != k && f == family_at(all, end[1 - e], 1 - e, j)) continue;
-        largest = largest == -2 ? f : larger_of(all, largest, f);
+        largest = larger_of(all, largest, f);
+        gone |= f == GONE;
+        c->loose |= f == GONE && own[0] != GONE && own[1] != GONE;
       }
     }
     if (own[0] != own[1]) {
-      const int most = larger_of(all, own[0], own[1]);
-      if (most < 0 || most != own[0]) c->up = 1;
-      if (most < 0 || most != own[1]) c->down = 1;
+      const double first = worth(all, own[0], end[1]), last = worth(all, own[1], end[0]);
+      c->up |= !(last <= first);
+      c->down |= !(last > first);
     }
     c->loose |= largest != stays;
-    if (largest < 0)
+    if (largest == UNKNOWN)
       c->unknown++;
-    else
-      c->on[largest]++;
+    else if (largest >= 0)
+      (gone ? c->free : c->on)[largest]++;
   }
 }
 
-static double bound_of(const families *all, const census *c, size_t members, double width)
+/* The family with the largest area of those with members that are still left; their number if none
+   is. */
+static size_t largest_left(const families *all, const size_t *left)
+{
+  size_t best = all->count;
+  for (size_t i = 0; i < all->count; i++)
+    if (left[i] > 0 && (best == all->count || all->of[i].middle > all->of[best].middle)) best = i;
+  return best;
+}
+
+/*
+ * How many members on each family make the mean largest; their sum. Members whose state is not
+ * known may be on the largest one. Those that may have no area have one where it is above the mean.
+ */
+static size_t fill(const families *all, const census *c, size_t on[MOST_FAMILIES])
+{
+  size_t left[MOST_FAMILIES], counted = 0, top = 0;
+  double sum = 0.0;
+  memcpy(on, c->on, sizeof c->on);
+  memcpy(left, c->free, sizeof left);
+  for (size_t i = 1; i < all->count; i++)
+    if (all->of[i].middle > all->of[top].middle) top = i;
+  if (all->count > 0) on[top] += c->unknown;
+  for (size_t i = 0; i < all->count; i++) {
+    counted += on[i];
+    if (on[i] > 0) sum += (double)on[i] * all->of[i].middle;
+  }
+  for (size_t i; (i = largest_left(all, left)) < all->count; left[i] = 0) {
+    if (counted > 0 && !(all->of[i].middle * (double)counted > sum)) break;
+    on[i] += left[i];
+    counted += left[i];
+    sum += (double)left[i] * all->of[i].middle;
+  }
+  return counted;
+}
+
+static double bound_of(const families *all, const census *c, double width, size_t *counted)
 {
   curve mean = {.residual = 0.0};
-  int top = 0;
-  for (size_t i = 1; i < all->count; i++)
-    if (all->of[i].middle > all->of[top].middle) top = (int)i;
+  size_t on[MOST_FAMILIES];
+  *counted = fill(all, c, on);
+  if (*counted == 0) return -INFINITY;
   for (size_t i = 0; i < all->count; i++) {
     const family *f = &all->of[i];
-    /* Members whose state is not known may be on the largest one. */
-    const size_t on = c->on[i] + ((int)i == top ? c->unknown : 0);
-    const double share = (double)on / (double)members;
-    if (on == 0) continue;
+    const double share = (double)on[i] / (double)*counted;
+    if (on[i] == 0) continue;
     for (int e = 0; e < 2; e++) {
       mean.area[e] += share * f->area[e];
       mean.slope[e] += share * f->slope[e];
@@ -268,10 +321,11 @@ void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, 
   const int alone = find_families(&a->response, &b->response, width, &all);
   count_members(&all, end, width > wide || at_fold ? BESIDE : width > narrow ? MOVED : OWN,
                 asked, members, &c);
-  out->around = out->bound = bound_of(&all, &c, members, width);
+  out->around = out->bound = bound_of(&all, &c, width, &out->counted);
   out->loose = c.loose && width > narrow;
+  out->changed = c.up || c.down;
   out->mixed = c.up && c.down;
-  if (a->jump_to_next || alone || c.up || c.down)
+  if (a->jump_to_next || alone || out->changed)
     out->kind = PENDRES_GAP_JUMP;
   else
     out->kind = a->slope > 0.0 && b->slope < 0.0 ? PENDRES_GAP_PEAK : PENDRES_GAP_PLAIN;
@@ -284,6 +338,7 @@ typedef struct beside {
   const pendres_scan_point *of;
   int family[PENDRES_RESPONSE_STATES]; /* which it is of the gap's; -1: none */
   double most[PENDRES_RESPONSE_STATES];
+  double bound; /* of the gap, at the first point */
 } beside;
 
 /* Whether a state is another frequency's state, or its mirror image, whose area is the same, or
@@ -319,9 +374,9 @@ static void add_beside(const pendres_scan_point *p, int end, double reach, const
   }
 }
 
-/* The points on one side of a gap, from its end outwards, as far as so many of its widths or to a
-   fold, which ends states. */
-static size_t points_beside(const pendres_search *s, size_t i, int side, double widths,
+/* The points on one side of a gap, from its end outwards, within a reach and up to a fold, which
+   ends states. */
+static size_t points_beside(const pendres_search *s, size_t i, int side, double reach,
                             const families *all, beside out[])
 {
   const pendres_scan_point *near = &s->points[i + (size_t)side], *p = near;
@@ -329,11 +384,12 @@ static size_t points_beside(const pendres_search *s, size_t i, int side, double 
   const double width = s->points[i].gap.width;
   size_t n = 1;
   out[0].of = near;
+  out[0].bound = s->points[i].gap.bound;
   memcpy(out[0].family, all->at[side], sizeof out[0].family);
   for (; n < GAP_BESIDE && !p->at_fold && p != last; n++) {
     p += side ? 1 : -1;
     const double off = fabs(pendres_scan_frequency(p) - pendres_scan_frequency(near));
-    if (p->at_fold || off > widths * width) break;
+    if (p->at_fold || off > reach) break;
     add_beside(p, side, off + width, all, out, n);
   }
   return n;
@@ -341,9 +397,9 @@ static size_t points_beside(const pendres_search *s, size_t i, int side, double 
 
 /*
  * How much larger than `least` the states are that a member is on at n points on one side of a gap,
- * the first its end, other than own[]. Where it changes its state once there is a boundary of
- * basins, and in a large ensemble the members beside it show whether that comes back; where it
- * changes `often`, basins alternate.
+ * the first its end, other than own[]; without an area it leaves the mean. Where it changes its
+ * state once there is a boundary of basins, and in a large ensemble the members beside it show
+ * whether that comes back; where it changes `often`, basins alternate.
  */
 static double larger_beside(const beside *near, size_t n, size_t member, const int own[2],
                             int often, double least)
@@ -351,13 +407,13 @@ static double larger_beside(const beside *near, size_t n, size_t member, const i
   int changes = 0, before = 0;
   double most = 0.0;
   for (size_t j = 1; j < n; j++) {
-    const int state = near[j].of->where != NULL ? near[j].of->where[member] : -1;
-    if (state < 0) continue;
-    const int family = near[j].family[state];
-    const int other = family < 0 || (family != own[0] && family != own[1]);
+    const int state = state_of(near[j].of, member);
+    if (state == UNKNOWN) continue;
+    const int family = state == GONE ? GONE : near[j].family[state];
+    const int other = family == UNKNOWN || (family != own[0] && family != own[1]);
     changes += other != before;
     before = other;
-    if (other) most = fmax(most, near[j].most[state] - least);
+    if (other) most = fmax(most, (state == GONE ? near->bound : near[j].most[state]) - least);
   }
   return changes >= often ? most : 0.0;
 }
@@ -365,22 +421,34 @@ static double larger_beside(const beside *near, size_t n, size_t member, const i
 double pendres_gap_around(const pendres_search *s, size_t i, int far)
 {
   const pendres_scan_point *const end[2] = {&s->points[i], &s->points[i + 1]};
+  const pendres_gap *g = &end[0]->gap;
   const size_t members = s->ensemble->members;
   const int often = far || members > GAP_FEW ? 2 : 1;
-  const double widths = far ? gap_around_far : gap_around;
+  const double change = pendres_search_width(&s->pendulum, pendres_scan_frequency(end[0]));
+  /* Where the search had to end, as far as if this gap were as wide as the response changes. */
+  const double beyond = pendres_search_over(s) ? gap_around : gap_around_far;
+  const double reach = fmax(gap_around * g->width, far ? beyond * change : 0.0);
   beside near[2][GAP_BESIDE];
   size_t n[2];
   families all;
-  double more = 0.0;
-  (void)find_families(&end[0]->response, &end[1]->response, end[0]->gap.width, &all);
-  for (int e = 0; e < 2; e++) n[e] = points_beside(s, i, e, widths, &all, near[e]);
+  double more = 0.0, most[2] = {0.0};
+  (void)find_families(&end[0]->response, &end[1]->response, g->width, &all);
+  for (int e = 0; e < 2; e++) n[e] = points_beside(s, i, e, reach, &all, near[e]);
   for (size_t k = 0; k < members; k++) {
     const int own[2] = {family_at(&all, end[0], 0, k), family_at(&all, end[1], 1, k)};
     const int largest = larger_of(&all, own[0], own[1]);
-    if (largest < 0) continue; /* it may be on any state as it is */
-    const double least = fmin(all.of[largest].area[0], all.of[largest].area[1]);
-    more += fmax(larger_beside(near[0], n[0], k, own, often, least),
-                 larger_beside(near[1], n[1], k, own, often, least));
+    if (largest == UNKNOWN) continue; /* it may be on any state as it is */
+    double least =
+      largest < 0 ? g->bound : fmin(all.of[largest].area[0], all.of[largest].area[1]);
+    if (own[0] == GONE || own[1] == GONE) least = fmax(least, g->bound);
+    const double gain = fmax(larger_beside(near[0], n[0], k, own, often, least),
+                             larger_beside(near[1], n[1], k, own, often, least));
+    more += gain;
+    most[1] = fmax(most[1], fmin(most[0], gain));
+    most[0] = fmax(most[0], gain);
   }
-  return end[0]->gap.bound + more / (double)members;
+  /* The largest area known is one of many. Another hardly has more than two members more on larger
+     states, at once, than where the members are seen. */
+  if (far) more = most[0] + most[1];
+  return g->counted > 0 ? g->bound + more / (double)g->counted : g->bound;
 }

@@ -31,6 +31,9 @@ enum {
   PENDRES_RESPONSE_BATCH = 32   /* parameter sets side by side: blocks are full of their members */
 };
 
+/* The share of a resonance's width that frequencies of a scan are apart. */
+static const double scan_share = 0.7;
+
 /* ---- gaps ---- */
 
 /*
@@ -44,12 +47,12 @@ static const double gap_narrow = 2e-5, gap_narrowest = 1e-7;
  * A member may be on a state in a gap that it is on at a distance of so many widths of the gap:
  * where basins alternate with frequency they do so at all scales, and a state that a member is
  * never on within some widths is hardly in between. So many points are looked at on either side.
- * Finally what is left open is told from further away, where states alternate. Of more members than
- * a few the members beside one show where its basin comes back, as in any gap.
+ * Finally what is left open is told from as far as the response changes, where states alternate. Of
+ * more members than a few the members beside one show where its basin comes back, as in any gap.
  */
-static const double gap_around = 3.0, gap_around_far = 6.0;
+static const double gap_around = 3.0, gap_around_far = 1.0;
 enum {
-  GAP_BESIDE = 32,
+  GAP_BESIDE = 256,
   GAP_FEW = 24
 };
 

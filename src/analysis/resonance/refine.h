@@ -23,7 +23,9 @@ typedef struct pendres_gap {
                     the bound, unless that may exceed all that is known */
   int loose;    /* the bound allows for members near a basin boundary that appear to keep their
                    states */
+  int changed;  /* members change their states */
   int mixed;    /* members change to larger areas and to smaller ones */
+  size_t counted; /* members that make the bound */
 } pendres_gap;
 
 /* A frequency that was evaluated. */
@@ -36,7 +38,8 @@ typedef struct pendres_scan_point {
                                 ends there, which exists at lower (-1) or higher (1) omega; or at
                                 a kink, and belongs to what is on the other side */
   double fold, fold_error;   /* NaN, and the error of the frequency, at a kink */
-  signed char *where;        /* the state that each member is on, -1: none; NULL: not asked for */
+  signed char *where;        /* the state that each member is on (response_parts.h); NULL: not asked
+                                for */
   pendres_gap gap;           /* to the next point, ... */
   const signed char *next;   /* ... whose members these are; NULL: the gap has not been examined */
 } pendres_scan_point;

@@ -236,13 +236,14 @@ static void count_states(const pendres_attractor_set *c, size_t n, const pendres
                        .lost = r->unresolved});
 }
 
-/* The listed attractor that each member is on; -1: none. */
+/* The listed attractor that each member is on, or that it has none. */
 static void locate_members(size_t n, const pendres_outcome *outcome, const char *listed,
                            signed char *where)
 {
   for (size_t i = 0; i < n; i++) {
     const int on = outcome[i].attractor;
-    where[i] = on >= 0 && listed[on] ? 0 : -1;
+    const int gone = on == PENDRES_ATTRACTOR_ESCAPED || on == PENDRES_ATTRACTOR_UNSTABLE;
+    where[i] = on >= 0 && listed[on] ? 0 : gone ? PENDRES_RESPONSE_GONE : -1;
     for (int a = 0; a < on && where[i] >= 0; a++) where[i] = (signed char)(where[i] + listed[a]);
   }
 }

@@ -12,9 +12,14 @@
 #include "settling/attractor_set.h"
 #include "orbits/label.h"
 
+/* In place of a member's state: it has none, as an answer. It escapes, or rests in an unstable
+   state, and means are those of the others. */
+enum { PENDRES_RESPONSE_GONE = -2 };
+
 /*
  * As pendres_response_find(). where[n * members], unless it is NULL, receives the state that
- * each member is on, as a number in its response's state[]; -1: none of those.
+ * each member is on, as a number in its response's state[], or PENDRES_RESPONSE_GONE; -1: it is not
+ * known, or not listed.
  */
 pendres_status pendres_response_members(pendres_context *ctx, size_t n,
                                         const pendres_pendulum *pendulums,
@@ -26,8 +31,7 @@ const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_en
 
 /*
  * The response of n members, whose outcomes number the attractors of c: means over all members, and
- * a list of the attractors that most members are on. where[n], which may be NULL, receives the
- * listed attractor that each member is on; -1: none of these.
+ * a list of the attractors that most members are on; where[n] as above.
  */
 pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_attractor_set *c,
                                           size_t n, const pendres_outcome *outcome,

@@ -234,24 +234,39 @@ static size_t cut(const pendres_pendulum *p, double lower, double upper, double 
   return n;
 }
 
-/* Find where the gaps of the coarse scan are cut, with as many cuts as there is room for at
-   most. */
-static void find_cuts(pendres_search *s)
+/* Find where the gaps between n frequencies are cut into pieces of such a share of the width, with
+   as many cuts as there is room for at most; whether that is enough. */
+static int find_cuts(pendres_search *s, size_t n, const double *omega, double share)
 {
   enum { MOST = PENDRES_SEARCH_POINTS / 2 };
-  double widths[PARTS + 1], share = 0.7, all = 0.0;
-  for (int i = 0; i + 1 < PENDRES_SEARCH_COARSE; i++) {
-    count_widths(&s->pendulum, s->request[i], s->request[i + 1], widths);
+  double widths[PARTS + 1], all = 0.0;
+  for (size_t i = 0; i + 1 < n; i++) {
+    count_widths(&s->pendulum, omega[i], omega[i + 1], widths);
     all += widths[PARTS];
   }
   /* Below a damping of some thousandths not all widths can be looked at; of a range beyond all
      numbers none. */
-  s->coarse = !(all / share <= MOST);
-  if (s->coarse) share = all / MOST;
-  for (int i = 0; i + 1 < PENDRES_SEARCH_COARSE; i++)
-    s->cuts += cut(&s->pendulum, s->request[i], s->request[i + 1], share, s->cut + s->cuts);
+  const int enough = all / share <= MOST;
+  if (!enough) share = all / MOST;
+  s->cuts = 0;
+  for (size_t i = 0; i + 1 < n; i++)
+    s->cuts += cut(&s->pendulum, omega[i], omega[i + 1], share, s->cut + s->cuts);
   s->stride = s->cuts > 0;
   while (s->stride < s->cuts) s->stride *= 2;
+  return enough;
+}
+
+/* Whether members change their states more often than where one state follows another on the way up
+   a resonance and down again: basins alternate. */
+static int alternates(const pendres_search *s)
+{
+  int changes = 0;
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    pendres_gap gap;
+    pendres_gap_look(&s->points[i], &s->points[i + 1], s->ensemble->members, &gap);
+    changes += gap.changed;
+  }
+  return changes > 2;
 }
 
 /* Request the next cuts: at first every stride-th, all over the range, so that a budget that ends
@@ -269,7 +284,7 @@ pendres_status pendres_search_scan(pendres_search *s)
     s->requests = PENDRES_SEARCH_COARSE;
     for (int i = 0; i < PENDRES_SEARCH_COARSE; i++)
       s->request[i] = s->lowest + (s->highest - s->lowest) * i / (PENDRES_SEARCH_COARSE - 1);
-    find_cuts(s);
+    s->coarse = !find_cuts(s, PENDRES_SEARCH_COARSE, s->request, scan_share);
     s->stage = PENDRES_SCAN_LEVELS;
     return PENDRES_OK;
   }
@@ -281,7 +296,19 @@ pendres_status pendres_search_scan(pendres_search *s)
                                 s->pendulum.drive_amplitude, s->count);
   if (!pendres_search_over(s)) next_level(s);
   if (s->requests > 0) return PENDRES_OK;
-  if (pendres_search_over(s)) s->coarse = 1;
+  if (pendres_search_over(s) && !s->fine) s->coarse = 1;
   s->stage = PENDRES_SCAN_DONE;
   return PENDRES_OK;
+}
+
+int pendres_search_scan_finely(pendres_search *s)
+{
+  double omega[PENDRES_SEARCH_POINTS];
+  const double few = (double)s->ensemble->members / GAP_FEW;
+  if (s->fine || !(few < 1.0) || pendres_search_over(s) || !alternates(s)) return 0;
+  s->fine = 1;
+  for (size_t i = 0; i < s->count; i++) omega[i] = pendres_scan_frequency(&s->points[i]);
+  (void)find_cuts(s, s->count, omega, few * scan_share);
+  s->stage = PENDRES_SCAN_LEVELS;
+  return s->cuts > 0;
 }

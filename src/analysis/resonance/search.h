@@ -36,6 +36,7 @@ typedef struct pendres_search {
   double rate;                   /* of the force: frequencies are measured by it */
   int crowded;                   /* no room for further frequencies */
   int coarse;                    /* the first scan is coarser than resonances may be narrow */
+  int fine;                      /* a finer one has begun */
   enum { PENDRES_SCAN_COARSE, PENDRES_SCAN_LEVELS, PENDRES_SCAN_DONE } stage;
   size_t cuts, stride;           /* of the first scan's finer part: every stride-th at a time */
   double cut[PENDRES_SEARCH_CUTS];
@@ -78,6 +79,13 @@ double pendres_search_width(const pendres_pendulum *p, double omega);
 /* Request the next frequencies of the first scan, which is coarse at first and finally as fine as
    the damping requires. If it requests none, it is complete. */
 pendres_status pendres_search_scan(pendres_search *s);
+
+/*
+ * Where basins alternate a member is on a state in windows that are narrower than any resonance. A
+ * small ensemble is then scanned again, as often as costs what a scan of one costs whose members
+ * lie close. Whether it is to be; 0: it was, or need not.
+ */
+int pendres_search_scan_finely(pendres_search *s);
 
 /* Which states continue from one neighbour to the other, which of the `members` on each change
    their state, how large the mean area can be in between. */

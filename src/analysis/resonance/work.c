@@ -238,7 +238,7 @@ static int look_around(pendres_search *s, double area, int far)
     pendres_gap *g = &s->points[i].gap;
     if (!(g->width > gap_narrow * s->rate)) continue;
     const double most = pendres_gap_around(s, i, far);
-    g->around = most > area ? most : g->bound;
+    g->around = fmax(most > area ? most : g->bound, far ? g->around : g->bound);
     open |= g->around > g->bound;
   }
   return open;
@@ -355,17 +355,20 @@ pendres_status pendres_resonance_no_area(pendres_context *ctx, const pendres_pen
 
 pendres_status pendres_search_next(pendres_search *s, pendres_resonance *out)
 {
-  if (s->stage != PENDRES_SCAN_DONE) {
-    const pendres_status status = pendres_search_scan(s);
-    if (status != PENDRES_OK || s->requests > 0) return status;
-    if (!(best_point(s)->response.mean_loop_area > 0.0))
-      return pendres_resonance_no_area(s->ctx, &s->pendulum);
-  }
-  for (int again = 1; again;) {
-    pendres_status status = resolve_gaps(s);
-    if (status != PENDRES_OK || s->requests > 0) return status;
-    status = choose(s, out, &again);
-    if (status != PENDRES_OK) return status;
-  }
-  return name_states(s, &out->response);
+  pendres_status status = PENDRES_OK;
+  do {
+    if (s->stage != PENDRES_SCAN_DONE) {
+      status = pendres_search_scan(s);
+      if (status != PENDRES_OK || s->requests > 0) return status;
+      if (!(best_point(s)->response.mean_loop_area > 0.0))
+        return pendres_resonance_no_area(s->ctx, &s->pendulum);
+    }
+    for (int again = 1; again && status == PENDRES_OK;) {
+      status = resolve_gaps(s);
+      if (status != PENDRES_OK || s->requests > 0) return status;
+      status = choose(s, out, &again);
+      if (status != PENDRES_OK && status != PENDRES_NOT_FOUND) return status;
+    }
+  } while (pendres_search_scan_finely(s));
+  return status == PENDRES_OK ? name_states(s, &out->response) : status;
 }
