@@ -325,12 +325,13 @@ static share missed(const pendres_switching_tally *y, size_t s, size_t t)
     const double each = (1.0 + 2.0 * returns / (1.0 - returns)) / wells;
     back = returns * rate;
     again = each * y->passed[s] / (1.0 + each * y->passed[s]);
-    chance = each * sqrt(y->passed[s]);
+    chance = each * sqrt(y->passed[s] + 1.0); /* none seen does not say that there are none */
   }
   const double late = y->passage[s][t] / events - 0.5 * y->absence2[s] / y->exposure[s];
   const double lost = fmin(fmax(0.0, late) * (rate + back), switching_most_missed);
   if (again < lost)
-    return (share){again, hypot(again * fmax(switching_first_order, 0.5 * again), chance)};
+    return (share){again, hypot(again * fmax(switching_first_order, 0.5 * again),
+                                fmin(chance, lost))};
   return (share){lost, lost * (lost < switching_most_missed
                                  ? fmax(switching_first_order, 0.5 * lost) : 1.0)};
 }
