@@ -17,14 +17,16 @@ static const pendres_pendulum junction = {
 
 /* Mean turns a period by Runge and Kutta's method of fourth order with so many steps: with the
    weights of smooth averages, which leave 1e-12 after so many periods where no lock is near. */
-static double by_hand(const pendres_pendulum *p, int steps, int periods)
+static double work_by_hand(const pendres_pendulum *p, int steps, int periods, double *work)
 {
   const double h = two_pi / p->drive_frequency / steps;
-  double y = 0.0, v = p->torque / p->damping, sum = 0.0, weights = 0.0;
+  double y = 0.0, v = p->torque / p->damping, sum = 0.0, weights = 0.0, works = 0.0;
   for (int k = -80; k < periods; k++) {
     const double from = y;
+    double done = 0.0;
     for (int i = 0; i < steps; i++) {
       double dy[4], dv[4];
+      done += h * v * p->drive_amplitude * cos(p->drive_frequency * i * h);
       for (int s = 0; s < 4; s++) {
         const double part = s == 0 ? 0.0 : s == 3 ? h : 0.5 * h;
         const double at = y + (s > 0 ? part * dy[s - 1] : 0.0);
@@ -41,9 +43,17 @@ static double by_hand(const pendres_pendulum *p, int steps, int periods)
     if (k < 0) continue;
     const double t = (k + 0.5) / periods, weight = exp(-1.0 / (t * (1.0 - t)));
     sum += weight * turned;
+    works += weight * done;
     weights += weight;
   }
+  *work = works / weights;
   return sum / weights;
+}
+
+static inline double by_hand(const pendres_pendulum *p, int steps, int periods)
+{
+  double work;
+  return work_by_hand(p, steps, periods, &work);
 }
 
 #endif

@@ -9,6 +9,7 @@
 
 #include <pendres/attractor.h>
 #include <pendres/lyapunov.h>
+#include <pendres/response.h>
 #include <pendres/rotation.h>
 
 enum { STARTS = 400 };
@@ -128,6 +129,64 @@ static void without_lock(void **state)
   check_near(drift, by_hand(&beside, 400, 4000), error + 1e-9);
 }
 
+/* Members of an ensemble that rotate without a lock are on a state that is known, with its work: by
+   smooth averages as above, whose sums of 400 samples a period are off by less than 1e-9. */
+static void members(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 0.12, .drive_amplitude = 0.1, .drive_frequency = 1.2, .torque = 0.4};
+  const pendres_ensemble e = {.members = 50, .x_first = -1.5, .x_last = 4.5};
+  pendres_response r;
+  double work = 0.0, area = 0.0, known = 0.0;
+  (void)state;
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
+  assert_int_equal(pendres_response_find(ctx, 1, &p, &e, &r), PENDRES_OK);
+  pendres_context_free(ctx);
+  assert_int_equal(r.unresolved, 0);
+  assert_int_equal(r.states, 2);
+  (void)work_by_hand(&p, 400, 4000, &work);
+  for (size_t k = 0; k < r.states; k++) {
+    const pendres_attractor *a = &r.state[k];
+    area += (double)r.state_members[k] / 50.0 * a->orbit.loop_area;
+    if (a->label != PENDRES_LABEL_QUASI_PERIODIC) continue;
+    known++;
+    check_near(a->orbit.loop_area, work, a->orbit.loop_area_error + 1e-9);
+    /* What friction takes is the work of the drive and of the torque. */
+    check_near(a->orbit.dissipation, work + two_pi * p.torque * a->drift,
+               a->orbit.dissipation_error + 1e-9);
+  }
+  assert_true(known == 1.0);
+  check_near(r.mean_loop_area, area, 1e-12);
+}
+
+/* So slow that all pendulums are in one place most of the time; and hardly damped, so that none has
+   come to its rotation for thousands of periods. */
+static void slow_or_weak(void **state)
+{
+  const pendres_pendulum p[] = {
+    {.damping = 5.0, .drive_amplitude = 0.1, .drive_frequency = 1.2, .torque = 1.05},
+    {.damping = 5.0, .drive_amplitude = 0.1, .drive_frequency = 1.2, .torque = 1.05},
+    {.damping = 8.0, .drive_amplitude = 0.3, .drive_frequency = 1.2, .torque = 1.3},
+    {.damping = 0.0008, .drive_amplitude = 0.1, .drive_frequency = 1.0, .torque = 0.01}};
+  const double x[] = {0.0, 2.0, 1.0, 1.0}, v[] = {0.0, 1.0, 0.0, 12.5};
+  pendres_attractors *set = NULL;
+  pendres_outcome outcome[4];
+  pendres_lyapunov told[4];
+  (void)state;
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
+  assert_int_equal(pendres_settle(ctx, 4, p, x, v, outcome, &set), PENDRES_OK);
+  assert_int_equal(pendres_lyapunov_find(ctx, 4, p, x, v, NULL, told), PENDRES_OK);
+  for (int k = 0; k < 4; k++) {
+    assert_int_equal(outcome[k].label, PENDRES_LABEL_QUASI_PERIODIC);
+    assert_int_equal(told[k].label, outcome[k].label);
+    const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome[k].attractor);
+    check_near(a->drift, told[k].rotation, a->drift_error + told[k].rotation_error);
+    assert_true(a->orbit.loop_area_error < 1e-6);
+  }
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
+}
+
 /* One that is locked is a closed orbit still, and one way round is not the other. */
 static void locks_and_ways(void **state)
 {
@@ -159,7 +218,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(beside_rest), cmocka_unit_test(by_averages),
-    cmocka_unit_test(without_lock),
+    cmocka_unit_test(without_lock), cmocka_unit_test(members),
+    cmocka_unit_test(slow_or_weak),
     cmocka_unit_test(locks_and_ways),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

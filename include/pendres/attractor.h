@@ -61,7 +61,7 @@ typedef enum pendres_label {
   PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity and too far out to return, or growing
                                      without bound under a linear force: not an attractor */
   PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation that is not locked to the drive within 128
-                                         periods; not found by response.h and what builds on it */
+                                         periods */
   PENDRES_LABEL_UNSTABLE = 8,   /**< at rest in an unstable state, without a drive: it began there,
                                      or on its stable side, and never leaves. With a drive rounding
                                      leads away from every unstable orbit */
@@ -75,8 +75,9 @@ typedef struct pendres_attractor {
                                  loop_area, dissipation, mean_power, and amplitude (half peak to
                                  peak within a cycle, cycles from drive phases 0 and pi on), with
                                  errors that hold with a confidence of 99.9 %; the rest is NaN.
-                                 For a rotation that does not close its pendulum and x, v, one of
-                                 its states at drive phase 0; the rest is NaN. Both have period 0 */
+                                 For a rotation that does not close loop_area, dissipation and
+                                 mean_power likewise, and x, v, one of its states at drive phase
+                                 0; the rest is NaN. Both have period 0 */
   double trap_metric[3];    /**< P_yy, P_yw, P_ww of the trapping ellipse at the Poincaré point, in
                                  y = x and w = v/omega; largest semi-axis of P = 1 is one */
   double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */

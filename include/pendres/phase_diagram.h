@@ -70,7 +70,8 @@ typedef enum pendres_other {
   PENDRES_OTHER_ASYMMETRIC = 1, /**< an orbit of one drive period that is not its own mirror image:
                                      it is SA or LA, too */
   PENDRES_OTHER_PERIODIC = 2,   /**< an orbit that closes after several drive periods */
-  PENDRES_OTHER_RUNNING = 4,    /**< an orbit that closes up to whole turns: its winding is not 0 */
+  PENDRES_OTHER_RUNNING = 4,    /**< a rotation: an orbit that closes up to whole turns, with a
+                                     winding that is not 0, or one without a lock to the drive */
   PENDRES_OTHER_CHAOTIC = 8,    /**< a chaotic attractor */
   PENDRES_OTHER_UNRESOLVED = 16, /**< some member did not settle within its budget */
   PENDRES_OTHER_ESCAPE = 32,    /**< some member escapes to infinity */

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pendres/strobe.h>
+
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -14,12 +16,10 @@
 #include "engine/steps.h"
 #include "model/equation.h"
 #include "model/model.h"
-#include "orbits/mean.h"
-#include "orbits/orbit_table.h"
 #include "settling/numbers.h"
+#include "orbits/mean.h"
+#include "settling/exponents/lyapunov_move.h"
 #include "settling/settle_lanes.h"
-
-#include <pendres/rotation.h>
 
 enum { NODES = PENDRES_ANNULUS_NODES };
 
@@ -57,7 +57,7 @@ static double node(int k)
 static long fading(const pendres_attractor_set *c)
 {
   const double contracts = 2.0 * pendres_equation_fading(&c->pendulum);
-  return (long)fmin(ceil(annulus_faded / contracts) + 1.0, ANNULUS_LONGEST);
+  return (long)fmin(ceil(annulus_faded / contracts) + 1.0, settle_last_most);
 }
 
 /* ---- the curve ---- */
@@ -122,16 +122,18 @@ static pendres_status find_curve(pendres_context *ctx, const pendres_attractor_s
                                  int *found)
 {
   const long settled = fading(c);
+  /* A slow rotation is fast in one place: each pendulum must have passed there. */
+  const long strobes = ANNULUS_STROBES + suspect->period / labs(suspect->turns);
   const int way = suspect->turns > 0 ? 1 : -1;
   size_t count = 0;
   pendres_room room = pendres_room_open(ctx, "a rotation");
   pendres_strobe_lane *lanes = pendres_room_take(&room, NODES, sizeof *lanes);
-  place *point = pendres_room_take(&room, (size_t)NODES * ANNULUS_STROBES, sizeof *point);
+  place *point = pendres_room_take(&room, (size_t)strobes * NODES, sizeof *point);
   pendres_status status = room.status;
   *found = 0;
   for (int k = 0; k < NODES && status == PENDRES_OK; k++)
     status = load(ctx, c, node(k), suspect->w, &lanes[k]);
-  for (int strobe = 0; strobe < ANNULUS_STROBES && status == PENDRES_OK; strobe++) {
+  for (long strobe = 0; strobe < strobes && status == PENDRES_OK; strobe++) {
     status = advance(ctx, NODES, lanes, settled + strobe);
     for (int k = 0; k < NODES && status == PENDRES_OK; k++)
       if (way * lanes[k].turns > 0 &&
@@ -228,135 +230,138 @@ static pendres_status find_wide(pendres_context *ctx, const pendres_attractor_se
   return status == PENDRES_OK ? widen(ctx, c, a, &a->below, -1.0, far) : status;
 }
 
-/* ---- the mean ---- */
+/* ---- means ---- */
 
-enum { RUNS = 2 }; /* the second with finer steps */
-
-typedef struct turning {
-  long periods;
-  pendres_mean mean[RUNS];
-  double before[RUNS]; /* the angle a period ago */
-} turning;
-
-static double turned(const pendres_strobe_lane *lane)
+/* The mean number of turns a drive period of a pendulum on the curve, and whether it is on such a
+   rotation at all: a lock of many periods has a curve around the cylinder, too. */
+static pendres_status find_turns(pendres_context *ctx, const pendres_attractor_set *c,
+                                 pendres_open_measures *m, int *found)
 {
-  return lane->y / two_pi + (double)lane->turns;
-}
-
-static int count_turns(void *arg, size_t i, const pendres_strobe_lane *lane)
-{
-  turning *t = arg;
-  const double now = turned(lane);
-  const pendres_mean_weights weights = pendres_mean_weights_at(lane->period - 1, t->periods);
-  pendres_mean_add(&t->mean[i], &weights, now - t->before[i]);
-  t->before[i] = now;
-  return lane->period >= t->periods;
-}
-
-/* Whether a mean may be that of an orbit which closes after some periods. */
-static int may_lock(double turns, double error)
-{
-  for (int q = 1; q < PENDRES_RECURRENCE_POINTS; q++)
-    if (fabs(q * turns - rint(q * turns)) < q * (surely * error + annulus_rounding)) return 1;
-  return 0;
-}
-
-/* The mean over so many periods from a state on the curve on. Its error is what the mean leaves,
-   and what steps do, by which two runs differ. */
-static pendres_status average(pendres_context *ctx, const pendres_attractor_set *c,
-                              const pendres_annulus *a, long periods, pendres_attractor *out)
-{
-  pendres_strobe_lane lane[RUNS];
-  turning t = {.periods = periods};
-  double mean[RUNS], error[RUNS];
-  const double speed = pendres_steps_turning_speed(&c->pendulum);
-  pendres_status status = load(ctx, c, node(0), a->centre[0], &lane[0]);
-  if (status == PENDRES_OK)
-    status = pendres_steps_choose(ctx, &c->pendulum, speed, pendres_accuracy_of_means(ctx),
-                                  &lane[0].steps);
-  if (status == PENDRES_TOLERANCE_UNREACHABLE) status = PENDRES_OK; /* the error says so */
-  if (status != PENDRES_OK) return status;
-  lane[1] = lane[0];
-  lane[1].steps = (int)ceil(annulus_finer * lane[0].steps);
-  for (int k = 0; k < RUNS; k++) t.before[k] = turned(&lane[k]);
-  status = pendres_strobe_run(ctx, RUNS, lane, count_turns, &t);
-  if (status != PENDRES_OK) return status;
-  for (int k = 0; k < RUNS; k++) mean[k] = pendres_mean_take(&t.mean[k], &error[k]);
-  out->drift = mean[1];
-  /* Of order eight, and four where that is not reached yet. */
-  const double left = pow((double)lane[0].steps / lane[1].steps, 4) * fabs(mean[1] - mean[0]);
-  out->drift_error = error[1] + left + annulus_rounding * (1.0 + fabs(mean[1]));
+  double x = m->x, v = m->v;
+  pendres_lyapunov told;
+  pendres_orbit orbit;
+  const pendres_lyapunov_motion motion = {.n = 1, .pendulum = &c->pendulum, .x = &x, .v = &v,
+                                          .out = &told, .orbit = &orbit, .points = 1};
+  const pendres_status status = pendres_lyapunov_move(ctx, &motion, PENDRES_CARE_FULL);
+  *found = status == PENDRES_OK && told.period == 0 &&
+           (told.label == PENDRES_LABEL_QUASI_PERIODIC || told.label == PENDRES_LABEL_RUNNING);
+  if (!*found) return status;
+  m->label = told.label;
+  m->turns = (pendres_chaos_mean){told.rotation, told.rotation_error};
   return status;
 }
 
-/* The mean number of turns a drive period: without a drive that of the rotation, which is known by
-   other means. */
-static pendres_status find_mean(pendres_context *ctx, const pendres_attractor_set *c,
-                                const pendres_annulus *a, pendres_attractor *out, int *found)
+/* Means over samples of a motion, for a drive period each: the work of the drive, what friction
+   takes, and errors of both. */
+typedef struct sampled {
+  pendres_mean work, loss;
+  int steps; /* a period */
+} sampled;
+
+/* Add a piece of a record, number `piece` of so many. */
+static void add_piece(const pendres_pendulum *p, int samples, long piece, long pieces,
+                      const pendres_record *record, sampled *s)
 {
-  const pendres_pendulum *p = &c->pendulum;
-  const int driven = p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0;
-  pendres_rotation r;
-  pendres_status status = PENDRES_OK;
-  *found = !driven && p->force == PENDRES_FORCE_PENDULUM &&
-           pendres_rotation_find(p, &r, NULL) == PENDRES_OK;
-  if (*found) {
-    out->drift = r.mean_velocity / p->drive_frequency;
-    out->drift_error = r.mean_velocity_error / p->drive_frequency;
+  const long n = (long)samples * ANNULUS_STROBES;
+  for (long k = 0; k < n; k++) {
+    const pendres_mean_weights weights = pendres_mean_weights_at(piece * n + k, pieces * n);
+    const double w = two_pi * record->v[k] / p->drive_frequency;
+    pendres_mean_add(&s->work, &weights,
+                     p->drive_amplitude * w * cos(two_pi * (double)(k % samples) / samples));
+    pendres_mean_add(&s->loss, &weights, p->damping * w * record->v[k]);
   }
-  for (long n = ANNULUS_MEAN; n <= ANNULUS_LONGEST_MEAN && !*found && status == PENDRES_OK;
-       n *= 4) {
-    status = average(ctx, c, a, n, out);
-    *found = status == PENDRES_OK && out->drift_error < annulus_mean &&
-             !(driven && may_lock(out->drift, out->drift_error));
+}
+
+/* So many samples a period, each after one step or several. */
+static pendres_status sample(pendres_context *ctx, const pendres_pendulum *p, int samples,
+                             const pendres_open_measures *m, sampled *s)
+{
+  /* So many turns, where it is slow. */
+  const long pieces = (long)fmin(ANNULUS_MEAN * fmax(1.0, 1.0 / fabs(m->turns.value)),
+                                 settle_slowest) / ANNULUS_STROBES;
+  const size_t n = (size_t)samples * ANNULUS_STROBES + 1;
+  pendres_recording r;
+  pendres_room room = pendres_room_open(ctx, "a rotation");
+  const pendres_record record = {
+    .x = pendres_room_take(&room, n, sizeof *record.x),
+    .v = pendres_room_take(&room, n, sizeof *record.v)};
+  pendres_status status = room.status;
+  if (status == PENDRES_OK)
+    status = pendres_recording_begin(ctx, p, &(pendres_state){m->x, m->v},
+                                     pieces * ANNULUS_STROBES, samples, &r);
+  for (long k = 0; k < pieces && status == PENDRES_OK; k++) {
+    status = pendres_recording_advance(ctx, &r, ANNULUS_STROBES, &record);
+    if (status == PENDRES_OK) add_piece(p, samples, k, pieces, &record, s);
   }
-  out->label = driven ? PENDRES_LABEL_QUASI_PERIODIC : PENDRES_LABEL_RUNNING;
+  if (status == PENDRES_OK) s->steps = r.stretch * samples;
+  return pendres_room_close(&room, status);
+}
+
+/* The mean of the run with finer steps, with what is left of its error by steps. */
+static pendres_chaos_mean compare(const pendres_mean *coarse, const pendres_mean *finer)
+{
+  pendres_chaos_mean m;
+  double unused;
+  m.value = pendres_mean_take(finer, &m.error);
+  m.error += claimed_share * fabs(m.value - pendres_mean_take(coarse, &unused));
+  m.error += means_rounding * (1.0 + fabs(m.value));
+  return m;
+}
+
+/* Its work, and what friction takes. */
+static pendres_status find_works(pendres_context *ctx, const pendres_pendulum *p,
+                                 pendres_open_measures *m)
+{
+  sampled coarse = {0}, finer = {0};
+  int samples = 1;
+  m->work = m->loss = (pendres_chaos_mean){NAN, NAN};
+  if (m->label == PENDRES_LABEL_RUNNING) { /* without a drive */
+    m->work = (pendres_chaos_mean){0.0, 0.0};
+    m->loss = (pendres_chaos_mean){two_pi * p->torque * m->turns.value,
+                                   two_pi * fabs(p->torque) * m->turns.error};
+    return PENDRES_OK;
+  }
+  pendres_status status = pendres_steps_choose(ctx, p, pendres_steps_turning_speed(p),
+                                               pendres_accuracy_of_means(ctx), &samples);
+  if (status == PENDRES_OK) status = sample(ctx, p, samples, m, &coarse);
+  if (status == PENDRES_OK)
+    status = sample(ctx, p, (int)ceil(finer_steps * coarse.steps), m, &finer);
+  if (status == PENDRES_TOLERANCE_UNREACHABLE) return PENDRES_OK; /* they stay unknown */
+  if (status != PENDRES_OK) return status;
+  m->work = compare(&coarse.work, &finer.work);
+  m->loss = compare(&coarse.loss, &finer.loss);
   return status;
 }
 
 /* ---- all ---- */
 
-static pendres_status append(pendres_context *ctx, pendres_attractor_set *c, pendres_attractor *of,
-                             pendres_annulus *a)
-{
-  if (pendres_attractor_set_reserve(c, 0) != 0) {
-    free(a);
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  }
-  of->orbit = pendres_orbit_none(&c->pendulum);
-  const pendres_coordinates at = {.y = node(0), .w = a->centre[0]};
-  pendres_coordinates_out(&c->pendulum, &at, &of->orbit.x, &of->orbit.v);
-  of->trap_metric[0] = of->trap_metric[1] = of->trap_metric[2] = of->trap_radius = NAN;
-  of->watched_periods = of->escape_rate_bound = NAN;
-  c->attractors[c->count] = *of;
-  a->attractor = (int)c->count++;
-  c->annulus[c->annuli++] = a;
-  return PENDRES_OK;
-}
-
 static pendres_status look(pendres_context *ctx, pendres_attractor_set *c,
                            const pendres_strobe_lane *suspect, int *found)
 {
-  pendres_attractor of = {.drift = NAN};
+  pendres_open_measures m = {.amplitude = {NAN, NAN}, .watched_periods = NAN,
+                             .escape_rate_bound = NAN};
   pendres_annulus *a = calloc(1, sizeof *a);
   if (a == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a rotation");
   pendres_status status = find_curve(ctx, c, suspect, a, found);
   if (status == PENDRES_OK && *found) status = find_thin(ctx, c, a, found);
-  if (status == PENDRES_OK && *found) status = find_mean(ctx, c, a, &of, found);
+  const pendres_coordinates at = {.y = node(0), .w = a->centre[0]};
+  pendres_coordinates_out(&c->pendulum, &at, &m.x, &m.v);
+  if (status == PENDRES_OK && *found) status = find_turns(ctx, c, &m, found);
+  if (status == PENDRES_OK && *found) status = find_works(ctx, &c->pendulum, &m);
   if (status == PENDRES_OK && *found) status = find_wide(ctx, c, a);
-  if (status == PENDRES_OK && *found) return append(ctx, c, &of, a);
+  if (status == PENDRES_OK && *found) return pendres_attractor_set_add_open(ctx, c, &m, NULL, a);
   free(a);
   return status;
 }
 
-pendres_status pendres_annulus_find(pendres_context *ctx, pendres_attractor_set *c, size_t n,
-                                    const pendres_strobe_lane *const *lanes, int *found)
+pendres_status pendres_annulus_find(pendres_context *ctx, pendres_attractor_set *c, long budget,
+                                    size_t n, const pendres_strobe_lane *const *lanes, int *found)
 {
   pendres_status status = PENDRES_OK;
   const pendres_pendulum *p = &c->pendulum;
   *found = 0;
-  if (!c->rotations || !pendres_pendulum_rotates(p)) return status;
+  if (!pendres_pendulum_rotates(p) || fading(c) > budget) return status;
   for (int way = -1; way <= 1; way += 2) {
     const pendres_strobe_lane *suspect = NULL;
     int new = 0;

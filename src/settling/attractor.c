@@ -69,10 +69,7 @@ static pendres_attractors *create_sets(size_t sets)
     return NULL;
   }
   set->sets = sets;
-  for (size_t i = 0; i < sets; i++) {
-    set->units[i] = (pendres_units){1.0, 1.0};
-    set->attractor_sets[i].rotations = 1;
-  }
+  for (size_t i = 0; i < sets; i++) set->units[i] = (pendres_units){1.0, 1.0};
   return set;
 }
 

@@ -24,7 +24,7 @@ void pendres_attractor_set_clear(pendres_attractor_set *c)
   for (size_t i = 0; i < c->covers; i++) free(c->cover[i]);
   for (size_t i = 0; i < c->annuli; i++) free(c->annulus[i]);
   *c = (pendres_attractor_set){.pendulum = c->pendulum, .effort = c->effort,
-                               .any_well = c->any_well, .rotations = c->rotations};
+                               .any_well = c->any_well};
 }
 
 const pendres_trapping_ellipse *pendres_attractor_set_ellipse(const pendres_attractor_set *c,
@@ -144,12 +144,14 @@ int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_ellipses
   return 0;
 }
 
-/* The means over time of a chaotic motion, for one drive cycle. Quantities that exist only for
-   closed orbits are NaN. */
-static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_measures *m)
+/* The means over time of a motion that does not close, for one drive cycle. Quantities that exist
+   only for closed orbits are NaN. */
+static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_open_measures *m)
 {
   const double cycles = p->drive_frequency / two_pi;
   pendres_orbit o = pendres_orbit_none(p);
+  o.x = m->x;
+  o.v = m->v;
   o.loop_area = m->work.value;
   o.loop_area_error = m->work.error;
   o.mean_power = cycles * m->work.value;
@@ -161,16 +163,17 @@ static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_m
   return o;
 }
 
-pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_attractor_set *c,
-                                               const pendres_chaos_measures *m,
-                                               pendres_cover *cover)
+pendres_status pendres_attractor_set_add_open(pendres_context *ctx, pendres_attractor_set *c,
+                                              const pendres_open_measures *m,
+                                              pendres_cover *cover, pendres_annulus *annulus)
 {
   const double tau = two_pi / c->pendulum.drive_frequency;
   if (pendres_attractor_set_reserve(c, 0) != 0) {
     free(cover);
+    free(annulus);
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   }
-  c->attractors[c->count] = (pendres_attractor){.label = PENDRES_LABEL_CHAOTIC,
+  c->attractors[c->count] = (pendres_attractor){.label = m->label,
                                                 .orbit = mean_cycle(&c->pendulum, m),
                                                 .lyapunov = m->growth.value / tau,
                                                 .lyapunov_error = m->growth.error / tau,
@@ -180,8 +183,11 @@ pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_att
                                                 .drift_error = m->turns.error,
                                                 .watched_periods = m->watched_periods,
                                                 .escape_rate_bound = m->escape_rate_bound};
-  cover->attractor = (int)c->count++;
-  c->cover[c->covers++] = cover;
+  if (cover != NULL) cover->attractor = (int)c->count;
+  if (cover != NULL) c->cover[c->covers++] = cover;
+  if (annulus != NULL) annulus->attractor = (int)c->count;
+  if (annulus != NULL) c->annulus[c->annuli++] = annulus;
+  c->count++;
   return PENDRES_OK;
 }
 

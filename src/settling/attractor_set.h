@@ -42,13 +42,15 @@ typedef struct pendres_chaos_mean {
   double value, error;
 } pendres_chaos_mean;
 
-/* What is known of a chaotic attractor: its means over a drive period. */
-typedef struct pendres_chaos_measures {
+/* What is known of an attractor that does not close: its means over a drive period. */
+typedef struct pendres_open_measures {
+  pendres_label label;
   pendres_chaos_mean growth;                  /* its error is one standard error */
   pendres_chaos_mean work, loss, amplitude, turns; /* their errors: half of a 99.9 % interval */
   double watched_periods;                     /* drive periods, all replicas together */
   double escape_rate_bound;                   /* see attractor.h */
-} pendres_chaos_measures;
+  double x, v;                                /* one of its states; NaN: none is known */
+} pendres_open_measures;
 
 typedef struct pendres_attractor_set {
   pendres_pendulum pendulum;
@@ -63,7 +65,6 @@ typedef struct pendres_attractor_set {
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
   size_t annuli;
   pendres_annulus *annulus[PENDRES_MOST_ANNULI]; /* of rotations without a lock; owned */
-  int rotations;    /* whether these are looked for */
   int grows;        /* the force is linear, and all motions grow without bound */
   pendres_escape_beside beside; /* from where on they do beside a spring */
   double transient; /* mean lifetime of transient chaos, in drive periods; 0: none was found */
@@ -118,10 +119,11 @@ pendres_status pendres_attractor_set_add(pendres_context *ctx,
 /* Make room for one more attractor with `more_ellipses` ellipses; nonzero if out of memory. */
 int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_ellipses);
 
-/* Add a chaotic attractor; the set takes ownership of the cover. */
-pendres_status pendres_attractor_set_add_chaos(pendres_context *ctx, pendres_attractor_set *c,
-                                               const pendres_chaos_measures *m,
-                                               pendres_cover *cover);
+/* Add an attractor that does not close, with its cover, or with its annulus if it is a rotation:
+   the other one is NULL. The set takes ownership of it. */
+pendres_status pendres_attractor_set_add_open(pendres_context *ctx, pendres_attractor_set *c,
+                                              const pendres_open_measures *m,
+                                              pendres_cover *cover, pendres_annulus *annulus);
 
 /*
  * The physical order of attractors: order[place] = number. Orbits come first, in the order of their

@@ -10,7 +10,7 @@
 #include "settling/chaos_replicas.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
-#include "settling/growth.h"
+#include "settling/exponents/growth.h"
 #include "settling/numbers.h"
 #include "settling/recurrence.h"
 #include "settling/settle_lanes.h"
@@ -245,14 +245,17 @@ static int alike(const ensemble *v)
   return 1;
 }
 
-static pendres_chaos_measures measures_of(const pendres_attractor_set *c, const ensemble *v)
+static pendres_open_measures measures_of(const pendres_attractor_set *c, const ensemble *v)
 {
   double ratio = 0.0;
   /* A replica that leaves is recognised only after some time, which does not count as watched. */
   const double each = (double)v->length * v->batches;
   const double late = fmin((double)pendres_settle_first_budget(&c->pendulum), 0.5 * each);
   const double watched = REPLICAS * (each - late);
-  pendres_chaos_measures m = {
+  pendres_open_measures m = {
+    .label = PENDRES_LABEL_CHAOTIC,
+    .x = NAN,
+    .v = NAN,
     .growth = mean_of(v, PENDRES_REPLICA_GROWTH, &ratio),
     .work = confident(mean_of(v, PENDRES_REPLICA_WORK, &ratio)),
     .loss = confident(mean_of(v, PENDRES_REPLICA_LOSS, &ratio)),
@@ -367,10 +370,10 @@ pendres_status pendres_chaos_find(pendres_context *ctx, pendres_attractor_set *c
   if (status == PENDRES_OK && !together) *verdict = PENDRES_CHAOS_TRANSIENT;
   if (status == PENDRES_OK && together) status = watch(ctx, c, v, verdict);
   if (status == PENDRES_OK && *verdict == PENDRES_CHAOS_NEW) {
-    const pendres_chaos_measures m = measures_of(c, v);
+    const pendres_open_measures m = measures_of(c, v);
     pendres_cover *cover = create_cover(&c->pendulum, v);
     status = cover != NULL
-               ? pendres_attractor_set_add_chaos(ctx, c, &m, cover)
+               ? pendres_attractor_set_add_open(ctx, c, &m, cover, NULL)
                : pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaos");
   }
   free(v);

@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "settling/attractor_set.h"
-#include "settling/growth.h"
+#include "settling/exponents/growth.h"
 #include "orbits/orbit_span.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"

@@ -5,7 +5,7 @@
 #ifndef PENDRES_SETTLING_NUMBERS_H
 #define PENDRES_SETTLING_NUMBERS_H
 
-#include "orbits/numbers.h"
+#include "settling/exponents/numbers.h"
 
 /* ---- where orbits are looked for ---- */
 
@@ -46,9 +46,7 @@ enum { RECURRENCE_SHORT = 32 /* periods: with more, chance returns are likely */
 enum {
   SETTLE_CHAOTIC_STREAK = 32, /* strobes in a row in a chaotic attractor's cells: then chaotic */
   SETTLE_ASIDE = 32,          /* periods that a lane is integrated for where there is no chart */
-  SETTLE_GLIDES = 4096,       /* charts, a millisecond, after which it is asked whether to go on */
-  /* Periods in which replicas part, and that lanes of slow drives get in any case. */
-  WARM_UP = 200
+  SETTLE_GLIDES = 4096        /* charts, a millisecond, after which it is asked whether to go on */
 };
 
 /* Steps after which a lane is given up, unless the caller has set a budget of periods: they take
@@ -57,11 +55,10 @@ enum {
 static const double settle_most_steps = 5e6;
 
 /* The first budget is so many periods and so many times of settling; the last one counts these a
-   hundred times. The slowest orbit's time, up to a bound, and that of transient chaos, of which one
-   of e^10 pendulums is still in it then, are added with the weights of the first. */
+   hundred times. The slowest orbit's time, up to settle_slowest, and that of transient chaos, of
+   which one of e^10 pendulums is still in it then, are added with the weights of the first. */
 static const double settle_least = 20.0, settle_times = 10.0;
 static const double settle_last_some = 2000.0, settle_last_times = 100.0;
-static const double settle_slowest = 1e4;
 
 /* Under a parametric drive pendulums become faster than the attractor that they settle on, by less
    than this on their way to it. */
@@ -76,40 +73,12 @@ static const double settle_overshoot = 2.0;
  */
 static const double settle_soon_least = 6.0, settle_soon_times = 3.0, settle_soon_most = 50.0;
 
-/* Budgets have these bounds, which only dampings below 1e-6 meet. */
-static const double settle_first_most = 1e7, settle_last_most = 1e8;
+/* Where the error itself is several times that distance, it is no longer known what the pendulum
+   does: the lane is lost. */
+static const double settle_lost = 100.0;
 
-/*
- * The ratio of the error to the largest one that cannot change the label decides whether that is
- * certain. Inside an ellipse trapping_margin of the radius is allowed. On the way there the error
- * must stay small against the distance to a basin boundary: both grow at the same rate, until the
- * distance is that between different outcomes, of order one; a thirtieth of that is allowed. Where
- * the error itself is several times that distance, it is no longer known what the pendulum does:
- * the lane is lost.
- */
-static const double settle_borne = 0.03, settle_lost = 100.0;
-
-/* The error a period of the most exact run: rounding in some hundred steps is as large. */
-static const double settle_most_exact = 1e-14;
-
-/* A further run is by this factor more exact than would just suffice, and by at least this factor
-   more exact than the run before. It gets this multiple of the first budget. */
-static const double settle_to_spare = 4.0, settle_at_least = 30.0;
+/* A further run gets this multiple of the first budget. */
 enum { SETTLE_AGAIN = 8 };
-
-/* ---- chaos: whether distances grow ---- */
-
-/* Student's t of 14 degrees of freedom is beyond this once in 13,000 times: of thirteen places in
-   which batches can be parted, once in a thousand at most. */
-static const double growth_by_chance = 5.5;
-
-/*
- * The logarithm grows by this in chaos, and shrinks by it on orbits. Order may stretch a vector for
- * a while: a rotation next to where a lock has ended is slow in one place, and stretches it as much
- * there as it will shrink it again; motions stay near an upright state, or the ghost of an orbit.
- * What rounding, 1e-13, can be parted by until it is seen is e^30.
- */
-static const double growth_passing = 30.0;
 
 /* ---- chaos: replicas that are followed ---- */
 
@@ -118,7 +87,6 @@ enum {
   SUSPECT_PERIODS = 128, /* ... over this number of periods */
   REPLICAS = 64,         /* replicas that are followed, once they have separated */
   ATTEMPTS = 3,          /* to start them, while some leave the chaotic set immediately */
-  BATCHES = 16,          /* into which periods of an average are divided: an even number */
   FEW_BATCHES = 4,       /* after which replicas on different attractors are distinguished */
   /* Periods of a batch, at first. Replicas may visit the bands of an attractor in turn, all in
      step: 120 periods are whole rounds of 2, 3, 4, 5, 6 or 8 bands. */
@@ -147,12 +115,10 @@ static const double chaos_confidence = 0.999, chaos_escape_confidence = 0.95;
 
 enum {
   ANNULUS_TURNS = 2,       /* of a pendulum that may be on one */
-  ANNULUS_LONGEST = 2000,  /* periods in which pendulums come to the curve, at most */
   ANNULUS_STROBES = 8,     /* from then on, that are its points */
   ANNULUS_POINTS = 64,     /* at least */
   ANNULUS_RETURNS = 256,   /* periods in which an edge comes in, at most */
-  ANNULUS_MEAN = 2048,     /* periods of the first mean, ... */
-  ANNULUS_LONGEST_MEAN = 32768 /* ... and of the last */
+  ANNULUS_MEAN = 512       /* periods of the means of works, or turns if these are slower */
 };
 
 /* Pendulums have come to the curve where what separated them has fallen by exp(-this). */
@@ -171,9 +137,5 @@ static const double annulus_step = 0.3, annulus_inside = 0.25, annulus_margin = 
 
 /* Edges are moved by such factors. */
 static const double annulus_first_factor = 8.0, annulus_least_factor = 1.05;
-
-/* A mean that is known to this is taken; it rounds to that much, and is computed with so many times
-   the steps to see what they do. */
-static const double annulus_mean = 1e-7, annulus_rounding = 1e-13, annulus_finer = 1.4;
 
 #endif

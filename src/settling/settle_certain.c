@@ -63,14 +63,6 @@ static pendres_status gather(const pendres_settle_labelling *job, size_t all, do
   return PENDRES_OK;
 }
 
-double pendres_settle_tighter(double accuracy, double error_ratio)
-{
-  if (isinf(error_ratio)) return settle_most_exact;
-  const double wanted = accuracy / fmax(settle_at_least, settle_to_spare * error_ratio);
-  if (!(wanted > settle_most_exact)) return settle_most_exact;
-  return fmax(settle_most_exact, pow(10.0, floor(log10(wanted))));
-}
-
 /* Load what is to be run, with errors a period of d->accuracy, and drop what needs too many
    steps. */
 static pendres_status load(pendres_context *ctx, const pendres_settle_labelling *job,

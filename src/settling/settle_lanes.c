@@ -53,18 +53,6 @@ double pendres_settle_driven(const pendres_attractor_set *c)
   return settle_overshoot * fastest;
 }
 
-int pendres_settle_carries(const pendres_context *ctx)
-{
-  return pendres_method_of(ctx)->fixed_steps && ctx->options.steps_per_period == 0;
-}
-
-double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps)
-{
-  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
-  if (!pendres_settle_carries(ctx)) return 0.0;
-  return accuracy * accuracy / steps + rounding * rounding;
-}
-
 pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor_set *c, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane)
 {
@@ -107,11 +95,6 @@ static int longer_streak(const pendres_attractor_set *c, const pendres_strobe_la
   for (size_t k = 0; k < c->covers; k++)
     if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return (int)k * STREAK_SCALE + 1;
   return 0;
-}
-
-double pendres_settle_error_ratio(double worst)
-{
-  return surely * sqrt(worst) / settle_borne;
 }
 
 static double error_ratio_in_ellipse(const pendres_trapping_ellipse *t,

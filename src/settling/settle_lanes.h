@@ -9,6 +9,8 @@
 #define PENDRES_SETTLE_LANES_H
 
 #include "settling/attractor_set.h"
+#include "settling/exponents/carried.h"
+#include "settling/exponents/unstable.h"
 #include "settling/recurrence.h"
 
 /* Strobe points kept of a pendulum that does not settle. */
@@ -58,16 +60,6 @@ typedef struct pendres_settle_labelling {
   struct pendres_settle_place *before; /* a period ago, of lanes that may escape; NULL: none may */
 } pendres_settle_labelling;
 
-static const pendres_outcome pendres_settle_unresolved = {
-  .label = PENDRES_LABEL_UNRESOLVED, .attractor = PENDRES_ATTRACTOR_UNKNOWN,
-  .settling_periods = -1};
-
-/* Whether a lane is done: it is on an attractor, has escaped, or never leaves an unstable state. */
-static inline int pendres_settle_ended(const pendres_outcome *o)
-{
-  return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
-}
-
 /* Periods after which attractors are searched for near a pendulum that is in no ellipse. */
 long pendres_settle_first_budget(const pendres_pendulum *p);
 
@@ -89,30 +81,11 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor
 pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
                                              double v);
 
-/* Whether errors are propagated: not with adaptive steps, and not where the caller has given the
-   number of steps, as the error of one such step is not known. */
-int pendres_settle_carries(const pendres_context *ctx);
-
-/* The variance of the error that a step adds. */
-double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps);
-
-/* The error_ratio (pendres_settle_labelling) of what is not in an ellipse, from the largest
-   variance that its error has had so far. */
-double pendres_settle_error_ratio(double worst);
-
 /* Run the lanes that are unresolved; those inside an ellipse are done before they begin. */
 pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                     pendres_settle_labelling *l);
 
 /* ---- settle_certain.c: labels that no error of the integration can change -------------------- */
-
-/*
- * The error a period that should leave no label uncertain: a power of ten, so that many pendulums
- * share it and blocks stay full. Where the error has grown beyond all bounds, it is not known how
- * much more exact the next run must be: the most exact one follows. A ratio that was not kept, as
- * that of lanes whose attractor was searched for, is NaN, which leaves at_least.
- */
-double pendres_settle_tighter(double accuracy, double error_ratio);
 
 /*
  * Make labels certain that are not: of pendulums whose propagated error is not small against what
@@ -131,18 +104,6 @@ double pendres_settle_tighter(double accuracy, double error_ratio);
  */
 pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelling *job,
                                       const pendres_settle_starts *from, double accuracy);
-
-/* ---- settle_unstable.c: pendulums that rest where nothing attracts --------------------------- */
-
-/*
- * Of lanes that have not settled, label those that are at rest in an unstable state, without a
- * drive: they began there, or on its stable side, and never leave. For that they are watched for as
- * long as rounding would take to grow until it is seen. state: receives the state of each that is
- * labelled; may be NULL.
- */
-pendres_status pendres_settle_unstable(pendres_context *ctx, size_t n,
-                                       const pendres_strobe_lane *lanes, pendres_outcome *outcome,
-                                       pendres_orbit *state);
 
 /* ---- settle_search.c: what attracts pendulums that are in no known ellipse ------------------- */
 

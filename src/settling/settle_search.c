@@ -102,7 +102,7 @@ static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres
 
 /* Look for rotations among the lost lanes, set by set. */
 static pendres_status add_rotations(pendres_context *ctx, lost_lanes *l,
-                                    pendres_attractor_set *attractor_sets)
+                                    pendres_attractor_set *attractor_sets, const long *budget)
 {
   pendres_status status = PENDRES_OK;
   for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
@@ -112,7 +112,7 @@ static pendres_status add_rotations(pendres_context *ctx, lost_lanes *l,
     for (last = first; last < l->count && l->set[last] == l->set[first]; last++)
       if (searched(l, last) && nowhere(c, l->watched[l->set[last]], &l->lanes[last]))
         l->suspects[n++] = &l->lanes[last];
-    status = pendres_annulus_find(ctx, c, n, l->suspects, &found);
+    status = pendres_annulus_find(ctx, c, budget[l->set[first]], n, l->suspects, &found);
     l->found[l->set[first]] |= (unsigned char)found;
   }
   return status;
@@ -224,7 +224,8 @@ pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
     for (size_t i = 0; i < l.count; i++) left += (size_t)searched(&l, i);
     if (status != PENDRES_OK || left == 0) break;
     status = add_recurrences(ctx, &l, attractor_sets);
-    if (status == PENDRES_OK && round % 2 == 0) status = add_rotations(ctx, &l, attractor_sets);
+    if (status == PENDRES_OK && round % 2 == 0)
+      status = add_rotations(ctx, &l, attractor_sets, again.budget);
     if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, attractor_sets);
   }
   const int again_timed = from->wanted != PENDRES_SETTLE_NOTHING;

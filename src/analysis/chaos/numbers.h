@@ -4,7 +4,7 @@
 #ifndef PENDRES_CHAOS_NUMBERS_H
 #define PENDRES_CHAOS_NUMBERS_H
 
-#include "settling/numbers.h"
+#include "settling/exponents/numbers.h"
 
 /* ---- dimensions and spectra ---- */
 

@@ -28,7 +28,7 @@ static int distinct(const pendres_small_end *end, const pendres_label_states *s)
 static int other_of(const pendres_attractor *a)
 {
   if (a->label == PENDRES_LABEL_CHAOTIC) return PENDRES_OTHER_CHAOTIC;
-  if (a->orbit.winding != 0) return PENDRES_OTHER_RUNNING;
+  if (a->orbit.winding != 0 || !pendres_attractor_closes(a)) return PENDRES_OTHER_RUNNING;
   if (a->orbit.period > 1) return PENDRES_OTHER_PERIODIC;
   return pendres_phase_on_sheets(&a->orbit) ? 0 : PENDRES_OTHER_ASYMMETRIC;
 }
@@ -46,7 +46,7 @@ static void judge_ensemble(const pendres_small_end *end, const pendres_label_sta
   for (size_t i = 0; i < states; i++) {
     const pendres_attractor *a = &r->state[i];
     p->other |= other_of(a);
-    if (a->label == PENDRES_LABEL_CHAOTIC || !pendres_label_named(&a->orbit))
+    if (!pendres_attractor_closes(a) || !pendres_label_named(&a->orbit))
       others += r->state_members[i];
     else if (pendres_label_of(known, &border, &a->orbit) == PENDRES_LABEL_SA)
       sa += r->state_members[i];
@@ -228,7 +228,7 @@ static pendres_status find_branches(pendres_context *ctx, size_t n, const pendre
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   for (size_t i = 0; i < n; i++)
     for (size_t k = 0; k < r[i].states && k < PENDRES_RESPONSE_STATES; k++)
-      if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC) orbits[count++] = r[i].state[k].orbit;
+      if (pendres_attractor_closes(&r[i].state[k])) orbits[count++] = r[i].state[k].orbit;
   for (size_t i = 0; i < others; i++) orbits[count++] = more[i];
   status = pendres_branches_find(ctx, count, orbits, &options, out);
   return pendres_room_close(&room, status);
@@ -244,7 +244,7 @@ static pendres_status judge_line(line *l, const pendres_response *r)
     l->asked[i] = 1;
     l->points[i] = (pendres_phase_point){.pendulum = r[i].pendulum};
     for (size_t k = 0; k < r[i].states && k < PENDRES_RESPONSE_STATES; k++)
-      if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC)
+      if (pendres_attractor_closes(&r[i].state[k]))
         pendres_label_note(&l->known[i], &r[i].state[k].orbit);
   }
   const pendres_status status = look_up(l, 0);

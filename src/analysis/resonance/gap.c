@@ -8,6 +8,7 @@
 
 #include "model/model.h"
 #include "orbits/orbit_same.h"
+#include "settling/attractor_set.h"
 
 enum { MOST_FAMILIES = 2 * PENDRES_RESPONSE_STATES };
 
@@ -46,11 +47,13 @@ static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
          off <= 0.05 + 0.25 * pendres_model_distance(p, dx, dv);
 }
 
-/* Chaos at both ends is taken for one attractor when its areas agree within their errors. */
-static int chaos_goes_on(const pendres_attractor *a, const pendres_attractor *b)
+/* Chaos at both ends is taken for one attractor when its areas agree within their errors, and so
+   are rotations without a lock that turn the same way. */
+static int open_goes_on(const pendres_attractor *a, const pendres_attractor *b)
 {
-  return a->label == PENDRES_LABEL_CHAOTIC && b->label == PENDRES_LABEL_CHAOTIC &&
-         fabs(a->orbit.loop_area - b->orbit.loop_area) <=
+  if (pendres_attractor_closes(a) || a->label != b->label) return 0;
+  if (a->label != PENDRES_LABEL_CHAOTIC) return a->drift * b->drift > 0.0;
+  return fabs(a->orbit.loop_area - b->orbit.loop_area) <=
            surely * (a->orbit.loop_area_error + b->orbit.loop_area_error);
 }
 
@@ -59,7 +62,7 @@ static family both_ends(const pendres_attractor *a, const pendres_attractor *b, 
   const pendres_orbit *p = &a->orbit, *q = &b->orbit;
   family f = {.area = {p->loop_area, q->loop_area},
               .slope = {p->loop_area_slope, q->loop_area_slope}};
-  if (a->label == PENDRES_LABEL_CHAOTIC) f.slope[0] = f.slope[1] = 0.0;
+  if (!pendres_attractor_closes(a)) f.slope[0] = f.slope[1] = 0.0;
   /* A slope that is not known is that of a parabola. */
   for (int e = 0; e < 2; e++)
     if (isnan(f.slope[e])) f.slope[e] = 2.0 * (f.area[1] - f.area[0]) / width - f.slope[1 - e];
@@ -118,7 +121,7 @@ static int find_families(const pendres_response *a, const pendres_response *b, d
     int match = -1;
     for (size_t j = 0; j < b->states && match < 0; j++)
       if (!taken[j] && (goes_on(&a->state[i].orbit, &b->state[j].orbit) ||
-                        chaos_goes_on(&a->state[i], &b->state[j])))
+                        open_goes_on(&a->state[i], &b->state[j])))
         match = (int)j;
     if (match >= 0) {
       taken[match] = 1;
@@ -348,7 +351,7 @@ static int belongs(const pendres_attractor *state, const pendres_attractor *othe
   const pendres_orbit *o = &state->orbit, *e = &other->orbit;
   const double step = e->pendulum.drive_frequency - o->pendulum.drive_frequency;
   const double slope = fmax(fabs(o->loop_area_slope), fabs(e->loop_area_slope));
-  if ((step > 0.0 ? goes_on(o, e) : goes_on(e, o)) || chaos_goes_on(state, other)) return 1;
+  if ((step > 0.0 ? goes_on(o, e) : goes_on(e, o)) || open_goes_on(state, other)) return 1;
   return pendres_pendulum_symmetric(&o->pendulum) && o->period == e->period &&
          fabs(e->loop_area - o->loop_area) <= gap_image * e->loop_area + fabs(step) * slope;
 }

@@ -49,8 +49,8 @@ double pendres_response_weakest_multiplier(const pendres_response *r)
 int pendres_response_running(const pendres_attractor *a)
 {
   /* Where chaos has no mean drift, the drift found is within twice its error for certain. */
-  return a->label == PENDRES_LABEL_CHAOTIC ? fabs(a->drift) > 2.0 * a->drift_error
-                                           : a->orbit.winding != 0;
+  return pendres_attractor_closes(a) ? a->orbit.winding != 0
+                                     : fabs(a->drift) > 2.0 * a->drift_error;
 }
 
 /* Add an attractor to the extremes: an uncertain member may be on any of them. */

@@ -10,7 +10,7 @@
 
 int pendres_response_has_loop(const pendres_attractor *a)
 {
-  return a->label != PENDRES_LABEL_CHAOTIC && a->orbit.winding == 0;
+  return pendres_attractor_closes(a) && a->orbit.winding == 0;
 }
 
 /* The number of harmonics that a trace of the attractors' orbits determines, and the mean. */

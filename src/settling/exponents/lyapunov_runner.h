@@ -10,7 +10,7 @@
 #include <pendres/lyapunov.h>
 
 #include "engine/strobe_run.h"
-#include "settling/growth.h"
+#include "settling/exponents/growth.h"
 #include "orbits/mean.h"
 
 enum { PENDRES_RUNNER_LONGEST_ORBIT = 128 /* drive periods of an orbit that is looked for */ };

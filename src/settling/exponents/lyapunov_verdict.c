@@ -15,7 +15,8 @@
 #include "model/model.h"
 #include "settling/trapping/escape.h"
 #include "orbits/linear.h"
-#include "settling/settle_lanes.h"
+#include "settling/exponents/carried.h"
+#include "settling/exponents/unstable.h"
 #include "settling/exponents/lyapunov_caught.h"
 #include "settling/exponents/numbers.h"
 

@@ -1,10 +1,56 @@
 /*
- * numbers.h -- numbers that were chosen for exponents, each with its reason.
+ * numbers.h -- numbers that were chosen for what single pendulums do, each with its reason.
  */
 #ifndef PENDRES_EXPONENTS_NUMBERS_H
 #define PENDRES_EXPONENTS_NUMBERS_H
 
-#include "settling/numbers.h"
+#include "orbits/numbers.h"
+
+/* ---- lengths of time, in drive periods ---- */
+
+enum {
+  /* In which replicas part, and that lanes of slow drives get in any case. */
+  WARM_UP = 200,
+  /* Into which periods of an average are divided: an even number. */
+  BATCHES = 16
+};
+
+/* Budgets have these bounds, which only dampings below 1e-6 meet. */
+static const double settle_first_most = 1e7, settle_last_most = 1e8;
+
+/* What takes longer is not waited for: the slowest orbit, or rest that is hardly unstable. */
+static const double settle_slowest = 1e4;
+
+/* ---- whether an error decides ---- */
+
+/*
+ * The ratio of the error to the largest one that cannot change the label decides whether that is
+ * certain. Inside an ellipse trapping_margin of the radius is allowed. On the way there the error
+ * must stay small against the distance to a basin boundary: both grow at the same rate, until the
+ * distance is that between different outcomes, of order one; a thirtieth of that is allowed.
+ */
+static const double settle_borne = 0.03;
+
+/* The error a period of the most exact run: rounding in some hundred steps is as large. */
+static const double settle_most_exact = 1e-14;
+
+/* A further run is by this factor more exact than would just suffice, and by at least this factor
+   more exact than the run before. */
+static const double settle_to_spare = 4.0, settle_at_least = 30.0;
+
+/* ---- chaos: whether distances grow ---- */
+
+/* Student's t of 14 degrees of freedom is beyond this once in 13,000 times: of thirteen places in
+   which batches can be parted, once in a thousand at most. */
+static const double growth_by_chance = 5.5;
+
+/*
+ * The logarithm grows by this in chaos, and shrinks by it on orbits. Order may stretch a vector for
+ * a while: a rotation next to where a lock has ended is slow in one place, and stretches it as much
+ * there as it will shrink it again; motions stay near an upright state, or the ghost of an orbit.
+ * What rounding, 1e-13, can be parted by until it is seen is e^30.
+ */
+static const double growth_passing = 30.0;
 
 /* ---- exponents: how long pendulums are followed ---- */
 

@@ -1,10 +1,10 @@
 /* growth.c -- how fast neighbouring motions part; see growth.h. */
-#include "settling/growth.h"
+#include "settling/exponents/growth.h"
 
 #include <float.h>
 #include <math.h>
 
-#include "settling/numbers.h"
+#include "settling/exponents/numbers.h"
 
 /* Vectors are put back to length one where they are longer, or shorter than its inverse. */
 static const double longest = 1e100;

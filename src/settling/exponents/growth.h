@@ -13,7 +13,7 @@
 #define PENDRES_GROWTH_H
 
 #include "engine/block.h"
-#include "settling/numbers.h"
+#include "settling/exponents/numbers.h"
 
 /* Tangent vectors of length one, as a motion begins with them. */
 #define PENDRES_TANGENTS_BEGIN {{0.6, 0.8}, {0.6, 0.8}}

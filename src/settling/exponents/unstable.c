@@ -1,12 +1,12 @@
-/* settle_unstable.c -- pendulums that rest where nothing attracts; see settle_lanes.h. */
-#include "settling/settle_lanes.h"
+/* unstable.c -- pendulums that rest where nothing attracts; see unstable.h. */
+#include "settling/exponents/unstable.h"
 
 #include <math.h>
 
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
-#include "settling/numbers.h"
+#include "settling/exponents/numbers.h"
 #include "orbits/orbit_same.h"
 #include "orbits/orbit_table.h"
 
