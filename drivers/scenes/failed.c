@@ -109,17 +109,6 @@ void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id 
   }
 }
 
-/* What to do about pendulums that do not settle; a longer wait does not help one that may rotate on
-   no closed orbit. */
-static const char *advice(const deck *d)
-{
-  const pendres_pendulum p = deck_pendulum(d);
-  if (p.torque != 0.0 && pendres_model_of(p.force)->period > 0.0)
-    return "they may rotate without locking to the drive, as scene 'hysteresis' tells; if not, "
-           "raise precision.period_budget";
-  return "raise precision.period_budget";
-}
-
 void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
                              double multiplier, char words[SCENE_TOLD])
 {
@@ -129,7 +118,7 @@ void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char 
   if (!isnan(multiplier))
     snprintf(weakest, sizeof weakest, " (weakest multiplier %.4g)", multiplier);
   snprintf(words, SCENE_TOLD, "%zu of %zu %s did not settle within %s%s: %s", some, all, what,
-           periods, weakest, advice(d));
+           periods, weakest, "raise precision.period_budget");
 }
 
 /* ---- the terminal -------------------------------------------------------------------------- */
