@@ -57,7 +57,7 @@ static double node(int k)
 static long fading(const pendres_attractor_set *c)
 {
   const double contracts = 2.0 * pendres_equation_fading(&c->pendulum);
-  return (long)fmin(ceil(annulus_faded / contracts) + 1.0, settle_last_most);
+  return (long)fmin(ceil(exponent_forgets / contracts) + 1.0, settle_last_most);
 }
 
 /* ---- the curve ---- */
@@ -265,10 +265,10 @@ static void add_piece(const pendres_pendulum *p, int samples, long piece, long p
   const long n = (long)samples * ANNULUS_STROBES;
   for (long k = 0; k < n; k++) {
     const pendres_mean_weights weights = pendres_mean_weights_at(piece * n + k, pieces * n);
-    const double w = two_pi * record->v[k] / p->drive_frequency;
+    const double v = record->v[k], w = two_pi * v / p->drive_frequency;
     pendres_mean_add(&s->work, &weights,
                      p->drive_amplitude * w * cos(two_pi * (double)(k % samples) / samples));
-    pendres_mean_add(&s->loss, &weights, p->damping * w * record->v[k]);
+    pendres_mean_add(&s->loss, &weights, pendres_equation_friction(p, v) * v * w);
   }
 }
 
@@ -276,8 +276,8 @@ static void add_piece(const pendres_pendulum *p, int samples, long piece, long p
 static pendres_status sample(pendres_context *ctx, const pendres_pendulum *p, int samples,
                              const pendres_open_measures *m, sampled *s)
 {
-  /* So many turns, where it is slow. */
-  const long pieces = (long)fmin(ANNULUS_MEAN * fmax(1.0, 1.0 / fabs(m->turns.value)),
+  /* As long as a first average; so many turns, where these take longer. */
+  const long pieces = (long)fmin(EXPONENT_PERIODS * fmax(1.0, 1.0 / fabs(m->turns.value)),
                                  settle_slowest) / ANNULUS_STROBES;
   const size_t n = (size_t)samples * ANNULUS_STROBES + 1;
   pendres_recording r;

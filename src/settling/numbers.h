@@ -73,10 +73,6 @@ static const double settle_overshoot = 2.0;
  */
 static const double settle_soon_least = 6.0, settle_soon_times = 3.0, settle_soon_most = 50.0;
 
-/* Where the error itself is several times that distance, it is no longer known what the pendulum
-   does: the lane is lost. */
-static const double settle_lost = 100.0;
-
 /* A further run gets this multiple of the first budget. */
 enum { SETTLE_AGAIN = 8 };
 
@@ -117,12 +113,8 @@ enum {
   ANNULUS_TURNS = 2,       /* of a pendulum that may be on one */
   ANNULUS_STROBES = 8,     /* from then on, that are its points */
   ANNULUS_POINTS = 64,     /* at least */
-  ANNULUS_RETURNS = 256,   /* periods in which an edge comes in, at most */
-  ANNULUS_MEAN = 512       /* periods of the means of works, or turns if these are slower */
+  ANNULUS_RETURNS = 256    /* periods in which an edge comes in, at most */
 };
-
-/* Pendulums have come to the curve where what separated them has fallen by exp(-this). */
-static const double annulus_faded = 25.0;
 
 /* Angles between its points: less is not needed, more leaves it undetermined. */
 static const double annulus_points_apart = 1e-3, annulus_widest_gap = 0.2;

@@ -45,7 +45,7 @@ static int in_doubt(const verdict *l)
    copies part whatever distance they start at. In chaos errors grow in any case. */
 static int hopeless(const pendres_lyapunov_job *job, size_t i)
 {
-  return job->out[i].label != PENDRES_LABEL_CHAOTIC && !(job->runner[i].doubt <= copies_parted);
+  return job->out[i].label != PENDRES_LABEL_CHAOTIC && !(job->runner[i].doubt <= settle_lost);
 }
 
 static int near(double a, double a_error, double b, double b_error)
@@ -164,7 +164,7 @@ static pendres_status repeat(pendres_context *ctx, const pendres_lyapunov_job *j
   double *each = pendres_room_take(&room, n, sizeof *each);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0; i < n; i++) {
-    const double doubt = copies_parted * job->runner[which[i]].doubt;
+    const double doubt = settle_lost * job->runner[which[i]].doubt;
     orbit[i] = pendres_orbit_none(&job->pendulum[which[i]]);
     each[i] = fmax(pendres_settle_tighter(job->accuracy, doubt), PENDRES_ACCURACY_TIGHTEST);
   }

@@ -22,6 +22,10 @@
 
 typedef pendres_lyapunov_job job;
 
+static const pendres_lyapunov unknown = {.label = PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
+                                         .exponent_error = NAN, .rotation = NAN,
+                                         .rotation_error = NAN};
+
 int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 {
   const int driven = p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0;
@@ -68,7 +72,7 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
     r->state = PENDRES_RUNNER_CAUGHT;
     return 1;
   }
-  return lane->period >= r->until || (exactly && r->doubt > copies_parted) ||
+  return lane->period >= r->until || (exactly && r->doubt > settle_lost) ||
          !(isfinite(lane->y) && isfinite(lane->w));
 }
 
@@ -84,9 +88,8 @@ static pendres_status tell_away(pendres_context *ctx, const job *j)
     if (!away && r->state != PENDRES_RUNNER_LOST) continue;
     if (!away) status = pendres_escape_within(ctx, &r->lane, r->before_y, r->before_w, &away);
     r->state = PENDRES_RUNNER_DONE;
-    j->out[i] = (pendres_lyapunov){
-      .label = away ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
-      .exponent_error = NAN, .rotation = NAN, .rotation_error = NAN};
+    j->out[i] = unknown;
+    if (away) j->out[i].label = PENDRES_LABEL_ESCAPE;
   }
   return status;
 }
@@ -103,9 +106,10 @@ static void take_linear(const pendres_linear *l, pendres_runner *r, pendres_lyap
     pendres_lyapunov_take_orbit(&l->orbit, out);
     return;
   }
-  *out = (pendres_lyapunov){
-    .label = l->fate == PENDRES_LINEAR_GROWS ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_UNRESOLVED,
-    .exponent = l->exponent, .exponent_error = l->error, .rotation = NAN, .rotation_error = NAN};
+  *out = unknown;
+  if (l->fate == PENDRES_LINEAR_GROWS) out->label = PENDRES_LABEL_ESCAPE;
+  out->exponent = l->exponent;
+  out->exponent_error = l->error;
 }
 
 static pendres_status tell_linear(pendres_context *ctx, const job *j)
@@ -235,9 +239,7 @@ static void give_up(const job *j, long batch, int first)
     const double steps = (double)(batch * BATCHES) * r->lane.steps;
     if (r->state != PENDRES_RUNNER_MOVING || steps <= exponent_most_steps) continue;
     r->state = PENDRES_RUNNER_DONE;
-    if (first)
-      j->out[i] = (pendres_lyapunov){.label = PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
-                                  .exponent_error = NAN, .rotation = NAN, .rotation_error = NAN};
+    if (first) j->out[i] = unknown;
   }
 }
 

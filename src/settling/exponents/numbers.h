@@ -31,6 +31,10 @@ static const double settle_slowest = 1e4;
  */
 static const double settle_borne = 0.03;
 
+/* An error this many times as large as one that may decide is several times the distance between
+   different outcomes: motions have parted for good, and what the pendulum does is not known. */
+static const double settle_lost = 100.0;
+
 /* The error a period of the most exact run: rounding in some hundred steps is as large. */
 static const double settle_most_exact = 1e-14;
 
@@ -68,7 +72,7 @@ enum {
 static const double exponent_most_steps = 5e7;
 
 /* Times in which a deviation falls to 1/e that pendulums are followed for before an average, next
-   to an orbit and elsewhere. */
+   to an orbit or a rotation and elsewhere. */
 static const double exponent_forgets = 25.0, exponent_forgets_all = 80.0;
 
 /* Chaos that stretches by less than this in a drive period, or in one of small oscillations if that
@@ -100,9 +104,6 @@ enum {
   COPIES_FEW = 4, /* that are tried first: most of those that differ are seen by them */
   COPIES = 16     /* what one copy in five does is missed by all of them once in thirty times */
 };
-
-/* An error this many times as large as one that may decide has parted motions for good. */
-static const double copies_parted = 100.0;
 
 /* Verdicts of copies agree within this many times their errors. */
 static const double copies_agree = 5.0;
