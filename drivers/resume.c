@@ -141,6 +141,11 @@ static int add_parts(const place *at, const options *o, const char *own, progres
   return code;
 }
 
+static const char *unfinished(const journal *j)
+{
+  return journal_states(j) > 0 ? " and the states of unfinished ones" : "";
+}
+
 static int open_at(const place *at, const char *path, const char *head, const options *o,
                    progress *p, journal **out)
 {
@@ -156,8 +161,9 @@ static int open_at(const place *at, const char *path, const char *head, const op
                     "kept under another name)");
   if (words[0] != '\0') progress_warning(p, "%s", words);
   const size_t own = journal_count(*out);
-  if (own > 0)
-    progress_note(p, "going on from %zu finished task%s in %s", own, own == 1 ? "" : "s", path);
+  if (own + journal_states(*out) > 0)
+    progress_note(p, "going on from %zu finished task%s%s in %s", own, own == 1 ? "" : "s",
+                  unfinished(*out), path);
   if (o->shards > 0 || o->merge) code = add_parts(at, o, path, p, *out, &parts);
   if (code == 0 && o->merge && parts == 0) {
     progress_error(p, "there are no journals of parts, %s.I-of-N.journal, in the folder '%s'",
@@ -198,9 +204,9 @@ int resume_open(const deck *d, const options *o, progress *p, journal **out)
 const char *resume_advice(const journal *j, char *text, size_t size)
 {
   text[0] = '\0';
-  if (j != NULL && journal_own(j) > 0)
-    snprintf(text, size, "%zu finished tasks are kept in %s, and the same command with --resume "
-             "goes on from there", journal_own(j), journal_path(j));
+  if (j != NULL && journal_own(j) + journal_states(j) > 0)
+    snprintf(text, size, "%zu finished tasks%s are kept in %s, and the same command with --resume "
+             "goes on from there", journal_own(j), unfinished(j), journal_path(j));
   return text;
 }
 

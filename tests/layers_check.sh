@@ -26,7 +26,7 @@ layers()
 src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions.h base/numbers.h base/mix.h base/sine.h base/sized.h
   base/student.h
   model/equation.h model/forces.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
-  engine/accuracy.h engine/block.h engine/chain.h engine/charts.h engine/context_internal.h engine/door.h engine/coordinates.h engine/kernels_force.h
+  engine/accuracy.h engine/block.h engine/chain.h engine/charts.h engine/context_internal.h engine/door.h engine/keep.h engine/coordinates.h engine/kernels_force.h
   engine/rank.h engine/room.h
   engine/steps.h engine/strobe_run.h engine/tables.h engine/team.h
   orbits/free_force.h orbits/label.h orbits/linear.h orbits/mean.h orbits/numbers.h orbits/orbit_error.h

@@ -79,6 +79,48 @@ static long long bytes(const char *path)
   return stat(path, &s) == 0 ? (long long)s.st_size : 0;
 }
 
+/* A path is one task: a run that is killed whenever it has kept another state of it comes to its end
+   all the same, in the same bytes. The states follow each other by half a second at least, and each
+   run adds one. */
+static void makes_headway(const char *deck, const char *kind)
+{
+  enum { MOST_RUNS = 100 };
+  const char *const go_on[] = { "--resume", "-t1", "-o", "killed.h5", deck, NULL };
+  int runs = 0, killed = 1, went_on = 0;
+  write_text(deck, kind);
+  check_code(RUN("-q", "-t1", "-o", "whole.h5", deck), DONE);
+  for (; killed && runs < MOST_RUNS; runs++) {
+    int ended = 0, code = 0;
+    const long long before = bytes("killed.h5.journal");
+    const pid_t pid = start("stdout.txt", 0, go_on);
+    while (!ended && !(bytes("killed.h5.journal") > before + 20000)) {
+      wait_seconds(0.01);
+      ended = exists("killed.h5");
+    }
+    if (!ended) (void)kill(pid, SIGKILL);
+    code = finish(pid);
+    killed = code == 1000 + SIGKILL;
+    went_on += strstr(err, "the states of unfinished ones") != NULL;
+    assert_true(killed || code == DONE);
+  }
+  assert_true(went_on > 0 && !killed);
+  check_same_results("whole.h5", "killed.h5");
+  assert_int_equal(count_names("journal"), 0);
+  assert_int_equal(remove("killed.h5"), 0);
+}
+
+static void paths_make_headway(void **state)
+{
+  (void)state;
+  makes_headway("deck.nml", "&scene kind = 'hysteresis' /\n"
+                "&pendulum damping = 0.5, drive_frequency = 0.66666666666666667 /\n"
+                "&sweep drive_amplitude_range = 1.06, 1.083, 24 /\n&hysteresis x = 1.6 /\n");
+  makes_headway("deck.nml", "&scene kind = 'bifurcation_diagram' /\n"
+                "&pendulum damping = 0.5, drive_frequency = 0.66666666666666667 /\n"
+                "&sweep drive_amplitude_range = 1.06, 1.09, 31 /\n"
+                "&bifurcation_diagram x = 1.6, strobes = 20 /\n");
+}
+
 /* Stopped by a signal: said so, with the way to go on. */
 static void stopped_by_signal(void **state)
 {
@@ -195,6 +237,7 @@ static void place_of_journal(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(killed_at_any_moment), TEST(stopped_by_signal),
+                                      TEST(paths_make_headway),
                                       TEST(place_of_journal), TEST(other_roundings_are_told),
                                       TEST(killed_without_locks),
                                       TEST(kept_for_others) };

@@ -38,7 +38,7 @@ struct journal {
   void *index;      /* a tree of slots, which takes no more memory than there are records, whatever
                        their numbers are */
   size_t count;
-  size_t own;       /* records in the first file */
+  size_t own, states; /* records in the first file, and states, those that are outdated too */
   int locked;       /* the first, by this process */
   int broken;       /* nothing more is written to it */
   int named;        /* the user has named the folder: journals of others count */
@@ -58,10 +58,11 @@ static int compare(const void *one, const void *other)
   return (a->task > b->task) - (a->task < b->task);
 }
 
-/* A record may be there twice: both have the same bytes. */
+/* A record may be there twice: both have the same bytes. Of states the last counts. */
 static pendres_status note(journal *j, size_t file, const journal_entry *e, off_t at)
 {
   slot *s = malloc(sizeof *s);
+  const int state = (e->task & JOURNAL_STATE) != 0;
   if (s == NULL) return PENDRES_OUT_OF_MEMORY;
   *s = (slot){ e->stage, e->task, file, at };
   slot **found = tsearch(s, &j->index, compare);
@@ -69,8 +70,9 @@ static pendres_status note(journal *j, size_t file, const journal_entry *e, off_
     free(s);
     return PENDRES_OUT_OF_MEMORY;
   }
+  j->states += state && file == 0;
   if (*found == s) {
-    j->count++;
+    j->count += !state;
     return PENDRES_OK;
   }
   **found = *s;
@@ -102,13 +104,13 @@ uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t re
   return (uint64_t)journal_file_sum(text, strlen(text)) << 32 | (uint32_t)ordinal;
 }
 
-const char *journal_place(const journal *j, uint64_t stage, size_t task)
+const char *journal_place(const journal *j, uint64_t stage, uint64_t task)
 {
   const slot *s = find(j, stage, task);
   return s != NULL ? j->file[s->file].name : NULL;
 }
 
-int journal_has(journal *j, uint64_t stage, size_t task)
+int journal_has(journal *j, uint64_t stage, uint64_t task)
 {
   if (j == NULL) return 0;
   pthread_mutex_lock(&j->lock);
@@ -125,6 +127,11 @@ size_t journal_count(const journal *j)
 size_t journal_own(const journal *j)
 {
   return j->own;
+}
+
+size_t journal_states(const journal *j)
+{
+  return j->states;
 }
 
 const char *journal_path(const journal *j)
@@ -374,7 +381,7 @@ pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORD
 
 /* ---- records ------------------------------------------------------------------------------- */
 
-pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record *record)
+pendres_status journal_read(journal *j, uint64_t stage, uint64_t task, farm_record *record)
 {
   journal_entry e;
   pthread_mutex_lock(&j->lock);
@@ -393,7 +400,7 @@ pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record
 }
 
 /* Under the lock. */
-static pendres_status append(journal *j, uint64_t stage, size_t task, const farm_record *r,
+static pendres_status append(journal *j, uint64_t stage, uint64_t task, const farm_record *r,
                              char *words)
 {
   const pendres_cost *c = &r->cost;
@@ -409,7 +416,7 @@ static pendres_status append(journal *j, uint64_t stage, size_t task, const farm
   }
   const off_t at = j->end;
   j->end += (off_t)(sizeof e + e.stored);
-  j->own++;
+  j->own += (task & JOURNAL_STATE) == 0;
   j->dirty = 1;
   if (clock_wall() - j->synced > journal_sync_after) {
     (void)fdatasync(j->file[0].fd);
@@ -418,7 +425,7 @@ static pendres_status append(journal *j, uint64_t stage, size_t task, const farm
   return note(j, 0, &e, at);
 }
 
-pendres_status journal_append(journal *j, uint64_t stage, size_t task, const farm_record *record,
+pendres_status journal_append(journal *j, uint64_t stage, uint64_t task, const farm_record *record,
                               char words[JOURNAL_WORDS])
 {
   pendres_status status = PENDRES_IO;
@@ -439,7 +446,7 @@ void journal_stay(journal *j)
 void journal_close(journal *j)
 {
   if (j == NULL) return;
-  if (j->own == 0 && !j->stays) (void)file_remove(j->file[0].fd, j->path);
+  if (j->own + j->states == 0 && !j->stays) (void)file_remove(j->file[0].fd, j->path);
   else if (j->dirty) (void)fsync(j->file[0].fd);
   let_go(j);
 }

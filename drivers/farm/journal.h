@@ -37,9 +37,11 @@ pendres_status journal_open(const char *path, const char *head, journal_from fro
    conditions. Errors and words as for journal_open; PENDRES_NOT_FOUND: there is none. */
 pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORDS]);
 
-/* Records that are there; those in the own file among them; its name. */
+/* Finished tasks that are there; those in the own file among them; states of unfinished ones that
+   were appended to it; its name. */
 size_t journal_count(const journal *j);
 size_t journal_own(const journal *j);
+size_t journal_states(const journal *j);
 const char *journal_path(const journal *j);
 
 /* Whether it is locked, so that no other process writes it; on file systems without locks this
@@ -50,14 +52,18 @@ int journal_alone(const journal *j);
    tasks and the size of their records. */
 uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t record_size);
 
+/* To be added to the number of a task: the state of one that is not finished, of which the last
+   that was appended counts. It is no finished task. */
+#define JOURNAL_STATE (UINT64_C(1) << 63)
+
 /* The name of the file that holds a record; NULL: none. */
-const char *journal_place(const journal *j, uint64_t stage, size_t task);
+const char *journal_place(const journal *j, uint64_t stage, uint64_t task);
 
 /* Is the record of a task there? j may be NULL: no. */
-int journal_has(journal *j, uint64_t stage, size_t task);
+int journal_has(journal *j, uint64_t stage, uint64_t task);
 
 /* Read it; record->data is to be freed. PENDRES_IO if it cannot be read or is not what it was. */
-pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record *record);
+pendres_status journal_read(journal *j, uint64_t stage, uint64_t task, farm_record *record);
 
 /*
  * Append a record; any thread may call. What is written survives a crash of the process
@@ -65,7 +71,7 @@ pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record
  * full disk) the file is truncated to complete records, and nothing more is written:
  * words[JOURNAL_WORDS] receives the reason the first time and is "" from then on.
  */
-pendres_status journal_append(journal *j, uint64_t stage, size_t task, const farm_record *record,
+pendres_status journal_append(journal *j, uint64_t stage, uint64_t task, const farm_record *record,
                               char words[JOURNAL_WORDS]);
 
 /* From now on the file is kept even if it holds no record, as when a part of a run has nothing to

@@ -28,6 +28,10 @@ enum {
 /* At most the records of this number of seconds are lost when the machine fails. */
 static const double journal_sync_after = 10.0;
 
+/* Seconds after which a task's state is kept, and the share of the time that it has taken so far:
+   what a run that is killed has to do again. Writing takes no larger share of the time. */
+static const double state_every = 0.5, state_share = 0.1;
+
 /* A point is costly, and reported, when it has taken this multiple of the mean of those before, and
    longer than a fraction of the time between two lines on the run, usually five seconds. */
 static const double costly_times = 20.0, costly_wait = 1.0 / 60.0;

@@ -236,13 +236,16 @@ void pool_finish(pool *c, size_t task, pendres_status status, farm_record *recor
 /* Run a task; its record then holds what it has cost, and why it failed. */
 static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_record *record)
 {
+  task_state state;
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
   settle_books(c->farm, ctx);
   w->ctx = ctx;
   record->watch = c->farm->trial == NULL ? &w->watch : NULL;
   pendres_context_set_interrupt(ctx, worker_stop, w);
+  state_begin(&state, c, w->task, ctx);
   const pendres_status status = c->stage->task(c->stage->arg, w->task, ctx, record);
+  state_end(&state, ctx);
   point_end(&w->watch);
   record->watch = NULL;
   pendres_context_cost(ctx, &record->cost);

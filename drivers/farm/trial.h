@@ -29,6 +29,7 @@ typedef struct farm_trial {
   double periods;      /* of the drive, of all pendulums, in these seconds */
   const char *what;    /* tasks of the stage that ended it; NULL: the scene came to its end */
   size_t tasks, tried;
+  double share;        /* of the task that was begun last: how much of it was done */
   int cut;             /* the trial ended in the middle of something: the times are lower bounds */
   /* Of several trials: */
   double outside;      /* seconds outside of tasks */

@@ -9,6 +9,8 @@
  * distances of successive doublings finally shrink by Feigenbaum's ratio, 4.669..., with which the
  * last two are extrapolated to the accumulation point, beyond which there is chaos.
  *
+ * A cascade keeps states (pendres_context_set_keep()), at each of its forks.
+ *
  * Source: Feigenbaum, Journal of Statistical Physics 19 (1978) 25; Kuznetsov, Elements of Applied
  * Bifurcation Theory, chapter 4.
  */

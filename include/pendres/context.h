@@ -131,6 +131,29 @@ void pendres_context_cost_reset(pendres_context *ctx);
  */
 void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg);
 
+/**
+ * How a long computation keeps what it has done, so that another process takes it up there if this
+ * one is killed: hysteresis.h and cascade.h say which functions do so. States are plain bytes of
+ * this build of the library; they hold the question, too, so that one of another call is passed
+ * over. Results are the same bytes as without an end in between, and costs count once.
+ */
+typedef struct pendres_keep {
+  int (*due)(void *arg, double done); /**< whether a state is wanted now, `done` being the share of
+                                           the work's parts that are done; asked between parts */
+  void (*put)(void *arg, const void *state, size_t size); /**< takes a copy of a state */
+  const void *state; /**< the latest state of an earlier process; NULL: none. Not owned, and read
+                          only by the next call that keeps states */
+  size_t size;       /**< its bytes */
+  void *arg;         /**< of both functions */
+} pendres_keep;
+
+/**
+ * Set how computations on a context keep states; NULL: not at all. *keep is copied. Within its
+ * functions the context is in use, as with pendres_context_set_interrupt. A context in use keeps
+ * what it has.
+ */
+void pendres_context_set_keep(pendres_context *ctx, const pendres_keep *keep);
+
 #ifdef __cplusplus
 }
 #endif

@@ -14,6 +14,9 @@
  * A value that cannot be computed is left out, and the path continues as if it had not been given.
  * A pendulum that has escaped to infinity does not return on the rest of the path.
  *
+ * A path keeps states (pendres_context_set_keep()): the points so far and what it needs to go on, a
+ * kilobyte or two a point.
+ *
  * Sources: Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111, for averages. Kuznetsov,
  * Elements of Applied Bifurcation Theory, chapter 4; Thompson and Soliman, Proceedings of the Royal
  * Society A 432 (1991) 101, for jumps whose outcome is uncertain.

@@ -33,6 +33,11 @@ typedef struct pendres_part {
   pendres_part_end end;
   double end_value, end_error;     /* of the parameter; the limit's if that is reached */
   pendres_bifurcation bifurcation; /* where it ends at one */
+  struct pendres_part_way {        /* how it was found: what finds it again */
+    pendres_bifurcation birth;     /* if it is born at one */
+    int extended;                  /* how often; -1: too often for that */
+    double limit, to[16];          /* the limits, at first and of each extension */
+  } way;
 } pendres_part;
 
 /* Point number k, counted from the first one on; NULL where the branch ends before. */

@@ -156,6 +156,12 @@ void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg),
   ctx->stop_arg = arg;
 }
 
+void pendres_context_set_keep(pendres_context *ctx, const pendres_keep *keep)
+{
+  if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
+  ctx->keep = keep != NULL ? *keep : (pendres_keep){.due = NULL};
+}
+
 pendres_status pendres_context_poll(pendres_context *ctx)
 {
   if (ctx->most_slopes < INFINITY && pendres_context_slopes(ctx) > ctx->most_slopes)

@@ -41,6 +41,7 @@ struct pendres_context {
   double most_slopes;    /* pendres_context_slopes at which a computation ends; INFINITY: never */
   int (*stop)(void *arg);
   void *stop_arg;
+  pendres_keep keep;      /* keep.h */
 };
 
 /* The body of a public function that computes with a context; see guard.h. */

@@ -6,6 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/door.h"
+#include "engine/keep.h"
 #include "model/parameter.h"
 #include "orbits/orbit_newton.h"
 #include "analysis/sweeps/stable_part.h"
@@ -68,15 +69,69 @@ static pendres_status orbit_before(pendres_context *ctx, const pendres_part *s,
   return status;
 }
 
+/* Where a cascade is: at the fork from which it goes on. */
+typedef struct place {
+  int32_t fork, unused;
+  pendres_bifurcation end;
+} place;
+
+/* As keep.h has it; what is asked for is an orbit's cascade towards a limit. */
+static pendres_keeping keep_begin(pendres_context *ctx, const pendres_cascade_way *way)
+{
+  pendres_bytes question = {.reads = 0};
+  double q[5 + PENDRES_PARAMETER_FOLLOWED] = {
+    way->limit, way->longest, way->orbit->x, way->orbit->v, way->parameter};
+  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
+    q[5 + k] = pendres_parameter_get((pendres_parameter)k, &way->orbit->pendulum);
+  pendres_bytes_pass(&question, 1, sizeof q, q);
+  return pendres_keeping_begin(ctx, "cascade", question);
+}
+
+/* Each doubling costs twice as much as the one before. */
+static void keep_state(pendres_keeping *keep, pendres_cascade *c, place *at)
+{
+  if (!pendres_keeping_due(keep, ldexp(1.0, c->doublings - PENDRES_CASCADE_DOUBLINGS))) return;
+  pendres_bytes *b = pendres_keeping_write(keep);
+  pendres_bytes_pass(b, 1, sizeof *c, c);
+  pendres_bytes_pass(b, 1, sizeof *at, at);
+  pendres_keeping_put(keep);
+}
+
+/* From the fork of an earlier process on; at->fork 0: there is none. */
+static void keep_read(pendres_keeping *keep, const pendres_cascade_way *way, pendres_cascade *c,
+                      place *at)
+{
+  const pendres_cascade none = *c;
+  *at = (place){.fork = 0};
+  if (!pendres_keeping_found(keep)) return;
+  pendres_bytes_pass(&keep->state, 1, sizeof *c, c);
+  pendres_bytes_pass(&keep->state, 1, sizeof *at, at);
+  const pendres_bifurcation *b = &at->end;
+  if (pendres_bytes_end(&keep->state) && at->fork > 0 && at->fork < MOST_FORKS &&
+      c->doublings >= 0 && c->doublings < PENDRES_CASCADE_DOUBLINGS &&
+      b->parameter == way->parameter && (unsigned)b->kind < PENDRES_SPECIAL_COUNT &&
+      pendres_orbit_refuses(&b->orbit) == NULL &&
+      b->orbit.pendulum.force == way->orbit->pendulum.force) {
+    pendres_keeping_taken(keep);
+    return;
+  }
+  *c = none;
+  *at = (place){.fork = 0};
+}
+
 pendres_status pendres_cascade_follow(pendres_context *ctx, const pendres_cascade_way *way,
                                       pendres_cascade *out, pendres_orbit *last)
 {
   pendres_part s = pendres_part_none;
+  pendres_keeping keep = keep_begin(ctx, way);
+  place at;
   *out = (pendres_cascade){.doublings = 0};
   if (last != NULL) last->period = 0;
+  keep_read(&keep, way, out, &at);
   pendres_status status =
-    pendres_part_from(ctx, way->orbit, way->parameter, way->limit, &s);
-  for (int fork = 0; fork < MOST_FORKS && status == PENDRES_OK; fork++) {
+    at.fork > 0 ? pendres_part_born(ctx, &at.end, way->limit, &s)
+                : pendres_part_from(ctx, way->orbit, way->parameter, way->limit, &s);
+  for (int fork = at.fork; fork < MOST_FORKS && status == PENDRES_OK; fork++) {
     const pendres_bifurcation end = s.bifurcation;
     const int doubles = end.kind == PENDRES_PERIOD_DOUBLING;
     if (s.end != PENDRES_PART_BIFURCATION || end.kind == PENDRES_FOLD) break;
@@ -87,8 +142,11 @@ pendres_status pendres_cascade_follow(pendres_context *ctx, const pendres_cascad
       break;
     }
     pendres_part_free(&s);
+    at = (place){.fork = fork + 1, .end = end};
+    keep_state(&keep, out, &at);
     status = pendres_part_born(ctx, &end, way->limit, &s);
   }
+  pendres_keeping_end(&keep);
   pendres_part_free(&s);
   finish(out);
   return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;

@@ -7,11 +7,13 @@
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
+#include "engine/keep.h"
 #include "analysis/sweeps/hysteresis_chaos.h"
 #include "analysis/sweeps/hysteresis_crisis.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/hysteresis_orbit.h"
 #include "analysis/sweeps/hysteresis_rotation.h"
+#include "analysis/sweeps/hysteresis_state.h"
 #include "analysis/sweeps/hysteresis_steps.h"
 #include "analysis/sweeps/hysteresis_unlocked.h"
 #include "settling/exponents/lyapunov_move.h"
@@ -246,27 +248,35 @@ static pendres_status go_on(path *w, size_t *i)
   return settle_at(w, i, &known);
 }
 
-static pendres_status follow_path(path *w, pendres_path_left *left)
+/* Put the state in which the path is at value number `at`, if it is wanted. */
+static void keep_state(path *w, pendres_path_left *left, size_t at, pendres_keeping *keep)
+{
+  int follows;
+  if (at == 0 || at == w->n || !pendres_keeping_due(keep, (double)at / (double)w->n) ||
+      !pendres_path_keeps(w))
+    return;
+  pendres_path_pass(pendres_keeping_write(keep), w, left, &at, &follows);
+  pendres_keeping_put(keep);
+}
+
+static pendres_status follow_path(path *w, pendres_path_left *left, size_t at,
+                                  pendres_keeping *keep)
 {
   pendres_status status = PENDRES_OK;
   pendres_path_mark mark = pendres_path_mark_here(w);
-  size_t at = 0;
   pendres_path_allow(w);
-  for (size_t i = 0; i < w->n && status == PENDRES_OK;) {
+  for (size_t i = at; i < w->n && status == PENDRES_OK;) {
     status = go_on(w, &i);
     const int came = pendres_path_came(w, left, &mark, at, &status);
     if (!came) i = at;
     if (came && i == at) continue;
     w->settled = i > 0;
     at = i;
+    if (status == PENDRES_OK) keep_state(w, left, at, keep);
     mark = pendres_path_mark_here(w);
     pendres_path_allow(w);
   }
   pendres_path_allow_all(w);
-  pendres_part_free(&w->part);
-  pendres_path_unlocked_free(w);
-  pendres_rotation_table_free(w->rotations);
-  free(w->seen);
   return status;
 }
 
@@ -285,8 +295,49 @@ static pendres_hysteresis *create(size_t n)
   return NULL;
 }
 
+static pendres_status open_path(path *w, pendres_path_left *left)
+{
+  *left = (pendres_path_left){.value = NULL};
+  w->h = create(w->n);
+  if (w->h == NULL)
+    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values",
+                                w->n);
+  return pendres_path_left_open(w, left);
+}
+
+/* All but the results. */
+static void close_path(path *w, pendres_path_left *left)
+{
+  pendres_part_free(&w->part);
+  pendres_path_unlocked_free(w);
+  pendres_rotation_table_free(w->rotations);
+  free(w->seen);
+  pendres_path_left_close(left);
+}
+
+/* Go on from the state of an earlier process; begin anew where there is none of use. */
+static pendres_status take_up(path *w, pendres_path_left *left, pendres_keeping *keep, size_t *at)
+{
+  const path fresh = *w;
+  int follows = 0;
+  pendres_status status = open_path(w, left);
+  if (status != PENDRES_OK || !pendres_keeping_found(keep)) return status;
+  pendres_path_pass(&keep->state, w, left, at, &follows);
+  status = keep->state.status;
+  if (status == PENDRES_OK && follows) status = pendres_part_again(w->ctx, w->parameter, &w->part);
+  if (status == PENDRES_OK) pendres_keeping_taken(keep);
+  if (status == PENDRES_OK || status == PENDRES_INTERRUPTED) return status;
+  close_path(w, left);
+  pendres_hysteresis_free(w->h);
+  *w = fresh;
+  *at = 0;
+  return open_path(w, left);
+}
+
 pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hysteresis **out)
 {
+  pendres_path_left left;
+  size_t at = 0;
   w->state = (pendres_settled){.x = x, .v = v};
   for (size_t i = 0; i < w->n; i++) {
     const char *why = NULL;
@@ -296,15 +347,12 @@ pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hys
       return pendres_context_fail(w->ctx, PENDRES_INVALID_ARGUMENT, "value %zu of the path: %s", i,
                                   why);
   }
-  w->h = create(w->n);
-  if (w->h == NULL)
-    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values",
-                                w->n);
-  pendres_path_left left;
-  pendres_status status = pendres_path_left_open(w, &left);
-  if (status == PENDRES_OK) status = follow_path(w, &left);
-  const int interrupted = status == PENDRES_INTERRUPTED;
-  if (status == PENDRES_OK || interrupted) {
+  pendres_keeping keep =
+    pendres_keeping_begin(w->ctx, "hysteresis", pendres_path_question(w, x, v));
+  pendres_status status = take_up(w, &left, &keep, &at);
+  if (status == PENDRES_OK) status = follow_path(w, &left, at, &keep);
+  pendres_keeping_end(&keep);
+  if (status == PENDRES_OK || status == PENDRES_INTERRUPTED) {
     pendres_path_number(w, &left);
     pendres_status named = pendres_hysteresis_name(w->ctx, w->h);
     if (named == PENDRES_OK && pendres_model_of(w->pendulum.force)->period > 0.0)
@@ -313,7 +361,7 @@ pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hys
   }
   if (status == PENDRES_OK || status == PENDRES_INTERRUPTED) *out = w->h;
   else pendres_hysteresis_free(w->h);
-  pendres_path_left_close(&left);
+  close_path(w, &left);
   return status;
 }
 

@@ -377,6 +377,13 @@ static pendres_status compare(search *w, pendres_crisis_seen **seen, const pendr
   return status;
 }
 
+void pendres_crisis_seen_pass(pendres_bytes *b, pendres_path *path)
+{
+  size_t n = path->seen != NULL;
+  pendres_bytes_pass(b, 1, sizeof n, &n);
+  if (pendres_bytes_fit(b, n < 2)) pendres_bytes_pass_array(b, n, sizeof *path->seen, &path->seen);
+}
+
 pendres_status pendres_crisis_find(pendres_path *path, const pendres_settled *old,
                                    pendres_jump *jump)
 {

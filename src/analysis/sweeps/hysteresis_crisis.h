@@ -18,4 +18,7 @@
  */
 pendres_status pendres_crisis_find(pendres_path *w, const pendres_settled *old, pendres_jump *jump);
 
+/* Pass what was seen of chaos last as plain bytes. */
+void pendres_crisis_seen_pass(pendres_bytes *b, pendres_path *path);
+
 #endif

@@ -145,13 +145,14 @@ static int at_fold(const pendres_part *s, double value)
          fabs(value - s->end_value) <= s->end_error;
 }
 
-/* Put the values from number i on that the part holds into the results; returns the number after
-   the last of them. */
+/* The number after the last of the values from number i on that the part holds: those that are
+   computed side by side. */
 static size_t held(const pendres_path *w, size_t i)
 {
   const int direction = w->part.direction;
   double last = w->at;
-  for (; i < w->n && pendres_part_holds(&w->part, w->value[i]); i++) {
+  const size_t most = i + SWEEP_HELD < w->n ? i + SWEEP_HELD : w->n;
+  for (; i < most && pendres_part_holds(&w->part, w->value[i]); i++) {
     if ((w->value[i] - last) * direction < 0.0 || at_fold(&w->part, w->value[i])) break;
     last = w->value[i];
   }

@@ -10,6 +10,7 @@
 #include "analysis/sweeps/hysteresis_names.h"
 #include "analysis/sweeps/rotation_table.h"
 #include "analysis/sweeps/stable_part.h"
+#include "base/bytes.h"
 
 /* A rotation without a lock to the drive that was met on the way. */
 typedef struct pendres_unlocked pendres_unlocked;

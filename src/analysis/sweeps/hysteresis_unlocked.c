@@ -47,6 +47,14 @@ static pendres_status make_table(pendres_path *w)
   return PENDRES_OK;
 }
 
+void pendres_path_unlocked_pass(pendres_bytes *b, pendres_path *w)
+{
+  pendres_bytes_pass(b, 1, sizeof w->values, &w->values);
+  pendres_bytes_pass_array(b, w->values, sizeof *w->unlocked, &w->unlocked);
+  for (size_t i = 0; b->reads && w->unlocked != NULL && i < w->n; i++)
+    (void)pendres_bytes_fit(b, at(w, w->value[i]) != NULL);
+}
+
 void pendres_path_unlocked_free(pendres_path *w)
 {
   free(w->unlocked);

@@ -21,6 +21,9 @@ pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled
    those at the values that follow: *found says whether w->state is on it. */
 pendres_status pendres_path_unlocked_at(pendres_path *w, size_t i, int *found);
 
+/* Pass the rotations that are known as plain bytes. */
+void pendres_path_unlocked_pass(pendres_bytes *b, pendres_path *w);
+
 void pendres_path_unlocked_free(pendres_path *w);
 
 #endif

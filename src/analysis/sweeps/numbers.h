@@ -22,6 +22,8 @@ enum {
   /* So many at once that the few lanes left at last, which slip past the end of a lock seldom, are
      those of all values of most paths. */
   SWEEP_ABREAST = 4096,
+  SWEEP_HELD = 256,  /* orbits of a part that are computed together, within a second or so, after
+                        which a path may keep its state */
   SWEEP_AT_LEAST = 8 /* one alone takes as long as so many, the lanes of the widest vectors */
 };
 

@@ -183,6 +183,20 @@ void pendres_rotation_table_free(pendres_rotation_table *t)
   free(t);
 }
 
+void pendres_rotation_table_pass(pendres_bytes *b, pendres_rotation_table **table)
+{
+  pendres_rotation_table *t = *table;
+  size_t n = t != NULL ? t->n + 1 : 0; /* a table may be empty */
+  pendres_bytes_pass(b, 1, sizeof n, &n);
+  if (b->status != PENDRES_OK || n == 0) return;
+  if (b->reads) *table = t = calloc(1, sizeof *t);
+  if (t == NULL) b->status = PENDRES_OUT_OF_MEMORY;
+  if (t == NULL) return;
+  t->n = n - 1;
+  pendres_bytes_pass_array(b, t->n, sizeof *t->value, &t->value);
+  pendres_bytes_pass_array(b, t->n, sizeof *t->rotation, &t->rotation);
+}
+
 const pendres_rotation *pendres_rotation_table_at(const pendres_rotation_table *t, double value)
 {
   const double *at = bsearch(&value, t->value, t->n, sizeof *at, ascending);

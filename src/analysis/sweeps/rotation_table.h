@@ -15,6 +15,8 @@
 #include <pendres/continuation.h>
 #include <pendres/rotation.h>
 
+#include "base/bytes.h"
+
 typedef struct pendres_rotation_table pendres_rotation_table;
 
 /* The table for a pendulum with one free parameter, at value[n] in any order. */
@@ -22,6 +24,9 @@ pendres_status pendres_rotation_table_create(pendres_context *ctx, const pendres
                                              pendres_parameter parameter, size_t n,
                                              const double *value, pendres_rotation_table **out);
 void pendres_rotation_table_free(pendres_rotation_table *t);
+
+/* Pass a table, or none, as plain bytes; one that was read only has its rotations. */
+void pendres_rotation_table_pass(pendres_bytes *b, pendres_rotation_table **table);
 
 /* The rotation at one of the values: only mean velocity and v with their errors are set. NULL if
    there is none. */

@@ -107,7 +107,7 @@ static pendres_status follow(pendres_context *ctx, const pendres_orbit *start,
 pendres_status pendres_part_from(pendres_context *ctx, const pendres_orbit *orbit,
                                  pendres_parameter parameter, double limit, pendres_part *out)
 {
-  *out = (pendres_part){.at = *orbit};
+  *out = (pendres_part){.at = *orbit, .way.limit = limit};
   return follow(ctx, orbit, parameter, limit, out);
 }
 
@@ -131,8 +131,9 @@ static pendres_status born(pendres_context *ctx, const pendres_bifurcation *at, 
   return status == PENDRES_NOT_CONVERGED ? PENDRES_NOT_FOUND : status;
 }
 
-pendres_status pendres_part_born(pendres_context *ctx, const pendres_bifurcation *at, double limit,
-                                 pendres_part *out)
+/* The same, from whichever point of it that is possible. */
+static pendres_status born_somewhere(pendres_context *ctx, const pendres_bifurcation *at,
+                                     double limit, pendres_part *out)
 {
   pendres_bifurcation wide;
   int lost = 0;
@@ -144,14 +145,41 @@ pendres_status pendres_part_born(pendres_context *ctx, const pendres_bifurcation
   return status == PENDRES_OK ? born(ctx, &wide, limit, out, &lost) : status;
 }
 
+pendres_status pendres_part_born(pendres_context *ctx, const pendres_bifurcation *at, double limit,
+                                 pendres_part *out)
+{
+  const pendres_status status = born_somewhere(ctx, at, limit, out);
+  if (status != PENDRES_OK) return status;
+  out->way.birth = *at;
+  out->way.limit = limit;
+  return status;
+}
+
 pendres_status pendres_part_extend(pendres_context *ctx, pendres_part *s, double limit)
 {
   const double same = pendres_part_same(s), end = s->end_value;
   if (pendres_part_branch_end(s) != PENDRES_END_POINTS) return PENDRES_NOT_FOUND;
   const size_t most = 2 * s->points_each_way;
+  struct pendres_part_way *way = &s->way;
+  if ((size_t)way->extended >= sizeof way->to / sizeof *way->to) way->extended = -1;
+  else way->to[way->extended++] = limit;
   const pendres_status status = find_end(ctx, s, limit, most, most);
   if (status != PENDRES_OK || s->end != PENDRES_PART_STOPPED) return status;
   return pendres_part_ahead(s, s->end_value, end) > same ? PENDRES_OK : PENDRES_NOT_FOUND;
+}
+
+pendres_status pendres_part_again(pendres_context *ctx, pendres_parameter parameter,
+                                  pendres_part *s)
+{
+  const pendres_part old = *s;
+  const pendres_uncounted work = pendres_uncounted_begin(ctx);
+  pendres_status status =
+    old.born ? pendres_part_born(ctx, &old.way.birth, old.way.limit, s)
+             : pendres_part_from(ctx, &old.at, parameter, old.way.limit, s);
+  for (int k = 0; k < old.way.extended && status == PENDRES_OK; k++)
+    status = pendres_part_extend(ctx, s, old.way.to[k]);
+  pendres_uncounted_end(ctx, &work);
+  return status;
 }
 
 int pendres_part_period(const pendres_part *s)

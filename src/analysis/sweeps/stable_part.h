@@ -29,6 +29,10 @@ pendres_status pendres_part_born(pendres_context *ctx, const pendres_bifurcation
 /* Go on with a part that stopped. PENDRES_NOT_FOUND if it gets no further. */
 pendres_status pendres_part_extend(pendres_context *ctx, pendres_part *s, double limit);
 
+/* Find a part again of which only the place and the way are there, without counting the work. */
+pendres_status pendres_part_again(pendres_context *ctx, pendres_parameter parameter,
+                                  pendres_part *s);
+
 /* The drive periods after which its orbits close. */
 int pendres_part_period(const pendres_part *s);
 
