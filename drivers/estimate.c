@@ -117,6 +117,8 @@ static void print_basis(const farm_trial *t, int rule, FILE *out)
 {
   if (rule) fputs(", by a rule for scenes of this kind", out);
   else if (t->members) fputs(", by what some members need at one point", out);
+  if (t->path > 0.0 && t->path < 1.0)
+    fprintf(out, ", if the rest of its path is like the first %.2g %%", 100.0 * t->path);
   if (t->what == NULL && !t->cut) fputs(": all of it was computed to see\n", out);
   else if (t->what == NULL) fputs(": what comes first takes longer than a trial\n", out);
   else if (t->tried == 0) fputs(": a task is too long to be tried\n", out);
@@ -248,6 +250,7 @@ static void add_trial(const farm_trial *t, double times, farm_trial *sum)
   sum->spent += times * t->spent;
   sum->periods += times * t->periods;
   sum->cut |= t->cut;
+  sum->path = t->path;
   if (t->what == NULL) return;
   sum->what = t->what;
   sum->tasks += t->tasks;

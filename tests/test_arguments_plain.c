@@ -98,6 +98,7 @@ static void no_handles(void **state)
   pendres_context_cost(NULL, NULL);
   pendres_context_cost_reset(NULL);
   pendres_context_set_interrupt(NULL, NULL, NULL);
+  pendres_context_set_keep(NULL, NULL);
   assert_int_equal(wrong, 0);
 }
 

@@ -10,8 +10,10 @@
 
 #include <stdint.h>
 
+#include "engine/context_internal.h"
 #include "farm/farm.h"
 #include "farm/journal.h"
+#include "farm/trial.h"
 #include "scenes/failed.h"
 
 enum { TASKS = 20, ENDLESS = 12 };
@@ -307,13 +309,40 @@ static void parts_tell(void **state)
   check_says(err, "--budget has no effect on scenes of this kind");
 }
 
+/* A path that says how much of it is done, and comes to no end. */
+static pendres_status path_task(const void *arg, size_t i, pendres_context *ctx, farm_record *out)
+{
+  (void)arg, (void)out;
+  if (i > 0) return PENDRES_OK;
+  (void)ctx->keep.due(ctx->keep.arg, 0.125);
+  while (!ctx->stop(ctx->stop_arg)) continue;
+  return PENDRES_INTERRUPTED;
+}
+
+/* Then all of it is known, and the other tasks do not count as such. */
+static void tried_by_its_share(void **state)
+{
+  farm *f = new_farm(1, 0.0, NULL, NULL);
+  farm_trial t = { .few = 1e9, .most = 0.1 };
+  const farm_stage stage = { .what = "paths", .tasks = 3, .paths = 1, .record_size = 1,
+                             .task = path_task };
+  (void)state;
+  farm_set_trial(f, &t);
+  assert_int_equal(farm_run(f, &stage), PENDRES_INTERRUPTED);
+  assert_int_equal(t.tried, 3);
+  assert_int_equal(t.cut, 0);
+  check_near(t.path, 0.125, 0.0);
+  check_near(t.seconds, 8.0 * t.spent, 0.1 * t.seconds); /* the others are as good as nothing */
+  farm_free(f);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(ends_at_its_budget), TEST(costly_points_are_told),
                                       TEST(a_bar_names_what_is_long), TEST(waiting_is_shown),
                                       TEST(doing_is_told), TEST(the_run_goes_on),
                                       TEST(scenes_without_lines),
-                                      TEST(parts_tell) };
+                                      TEST(parts_tell), TEST(tried_by_its_share) };
   if (!find_program()) return 77;
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

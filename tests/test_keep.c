@@ -1,7 +1,7 @@
 /*
- * test_keep.c -- computations that are killed again and again, and taken up from the states that they
- * keep, end, and give the bytes and the costs of one that was not; states that are damaged do no
- * harm.
+ * test_keep.c -- computations that are killed again and again, and taken up from the states that
+ * they keep, end, and give the bytes and the costs of one that was not; states that are damaged do
+ * no harm.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -79,9 +79,9 @@ static long long bytes(const char *path)
   return stat(path, &s) == 0 ? (long long)s.st_size : 0;
 }
 
-/* A path is one task: a run that is killed whenever it has kept another state of it comes to its end
-   all the same, in the same bytes. The states follow each other by half a second at least, and each
-   run adds one. */
+/* A path is one task: a run that is killed whenever it has kept another state of it comes to its
+   end all the same, in the same bytes. The states follow each other by half a second at least, and
+   each run adds one. */
 static void makes_headway(const char *deck, const char *kind)
 {
   enum { MOST_RUNS = 100 };

@@ -74,6 +74,8 @@ typedef struct farm_stage {
   size_t record_size;    /* bytes */
   size_t element;        /* bytes of the elements that end each record, as the states of a grid's
                             rows: trials count those that differ from the one before; 0: none */
+  size_t paths;          /* the first tasks that are unlike the others, as a path is: trials count
+                            each for itself, by the share of it that is done */
   int last;              /* no later stage of the run reads its records */
   int cheap;             /* so little work that every shard does all of it */
   int timed;             /* tasks measure times: they are run one at a time */

@@ -17,14 +17,18 @@ enum { ENTRY = sizeof(journal_entry) };
 typedef struct stage_trial {
   pool pool;
   size_t count, cut;    /* that came to their end, and that the end of the trial cut short */
-  double seconds, bytes, changes; /* seconds of both kinds */
+  size_t paths, known;  /* paths that came to their end, and those of which a share was done, too */
+  double path_seconds;  /* of these, all of each */
+  double seconds, bytes, changes; /* seconds of both kinds, without paths */
   pendres_cost cost;
 } stage_trial;
 
 void farm_set_trial(farm *f, farm_trial *t)
 {
   f->trial = t;
-  if (t != NULL) t->start = clock_process();
+  if (t == NULL) return;
+  t->start = clock_process();
+  t->until = t->most;
 }
 
 double farm_trial_outside(const farm_trial *t)
@@ -34,7 +38,7 @@ double farm_trial_outside(const farm_trial *t)
 
 int trial_over(const farm_trial *t)
 {
-  return clock_process() - t->start > t->most;
+  return clock_process() - t->start > t->until;
 }
 
 /* Number k of the tasks in an order of which every beginning is spread evenly: k's bits mirrored at
@@ -70,14 +74,25 @@ static pendres_status try_task(stage_trial *s, size_t task)
   pool *c = &s->pool;
   farm_record record = { 0 };
   const double start = clock_process();
+  farm_trial *t = c->farm->trial;
+  t->share = 0.0;
   const pendres_status status = pool_try(c, task, &record);
   const double seconds = clock_process() - start;
-  c->farm->trial->spent += seconds;
-  c->farm->trial->periods += record.cost.pendulum_periods;
-  s->cut += status == PENDRES_INTERRUPTED;
-  s->seconds += seconds;
+  const int path = task < c->stage->paths, known = path && t->share > 0.0;
+  t->spent += seconds;
+  t->periods += record.cost.pendulum_periods;
+  if (status == PENDRES_OK) t->share = 1.0;
+  if (known || (path && status == PENDRES_OK)) {
+    s->known++;
+    s->path_seconds += seconds / t->share;
+    t->path += t->share / (double)c->stage->paths;
+  } else {
+    s->cut += status == PENDRES_INTERRUPTED;
+    s->seconds += seconds;
+  }
   if (status == PENDRES_OK) {
-    s->count++;
+    s->paths += (size_t)path;
+    s->count += (size_t)!path;
     s->bytes += (double)stored_bytes(&record);
     s->changes += (double)changes_in(&record, c->stage->element);
     s->cost.pendulum_periods += record.cost.pendulum_periods;
@@ -93,16 +108,34 @@ static void conclude(const stage_trial *s)
 {
   const farm_stage *stage = s->pool.stage;
   farm_trial *t = s->pool.farm->trial;
-  const double tasks = (double)stage->tasks, all = tasks / fmax((double)s->count, 1.0);
+  const double tasks = (double)(stage->tasks - s->known);
+  const double all = (double)(stage->tasks - stage->paths) / fmax((double)s->count, 1.0);
   /* A task that was cut short takes at least the time that it has taken so far. */
+  t->seconds += s->path_seconds;
   t->seconds += tasks / fmax((double)(s->count + s->cut), 1.0) * s->seconds;
   t->journal += all * s->bytes;
   t->changes += all * s->changes;
   t->cost.pendulum_periods += all * s->cost.pendulum_periods;
   t->cost.settled_pendulums += all * s->cost.settled_pendulums;
-  t->what = s->count < stage->tasks ? stage->what : NULL;
-  t->tried = s->count;
+  t->what = s->paths + s->count < stage->tasks ? stage->what : NULL;
+  t->tried = s->known + s->count;
   t->cut = s->cut > 0;
+}
+
+/* Paths get half of the time, and tell by their shares what they take; whoever cannot is cut. */
+static pendres_status try_paths(stage_trial *s)
+{
+  farm_trial *t = s->pool.farm->trial;
+  const size_t paths = s->pool.stage->paths;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < paths; k++) {
+    if (s->pool.done[k]) continue;
+    t->until = clock_process() - t->start + 0.5 * t->most / (double)paths;
+    status = try_task(s, k);
+    if (status != PENDRES_OK && status != PENDRES_INTERRUPTED) return status;
+  }
+  t->until = t->most;
+  return PENDRES_OK;
 }
 
 /* Tasks of a chain go on from what was collected of the one before. */
@@ -110,16 +143,17 @@ static pendres_status try_stage(stage_trial *s)
 {
   const farm_trial *t = s->pool.farm->trial;
   const farm_stage *stage = s->pool.stage;
-  const size_t least = stage->chained ? 2 : t->least;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; s->count < stage->tasks && status == PENDRES_OK; k++) {
-    const size_t task = stage->chained ? k : spread(k, stage->tasks);
+  const size_t least = stage->chained ? 2 : t->least, others = stage->tasks - stage->paths;
+  pendres_status status = try_paths(s);
+  for (size_t k = 0; s->count < others && status == PENDRES_OK; k++) {
+    const size_t task = stage->paths + (stage->chained ? k : spread(k, others));
     if (s->pool.done[task]) continue;
     if (s->count >= least && s->seconds > t->few) break;
     status = try_task(s, task);
   }
   conclude(s);
-  return status == PENDRES_OK && s->count < stage->tasks ? PENDRES_INTERRUPTED : status;
+  const int all = s->paths + s->count == stage->tasks;
+  return status == PENDRES_OK && !all ? PENDRES_INTERRUPTED : status;
 }
 
 pendres_status trial_run(farm *f, const farm_stage *stage)

@@ -30,6 +30,9 @@ typedef struct farm_trial {
   const char *what;    /* tasks of the stage that ended it; NULL: the scene came to its end */
   size_t tasks, tried;
   double share;        /* of the task that was begun last: how much of it was done */
+  double path;         /* share of the paths that was done, by which their time is told; 0: none was
+                          begun, or it is not known */
+  double until;        /* as `most`, of the present task */
   int cut;             /* the trial ended in the middle of something: the times are lower bounds */
   /* Of several trials: */
   double outside;      /* seconds outside of tasks */

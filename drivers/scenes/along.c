@@ -246,7 +246,9 @@ void scene_along_compute(scene_run *run, const scene_along_way *way, scene_along
                          size_t beside, scene_points *const *points)
 {
   sweep s = {run, way, path};
+  const size_t one = beside > 0 && points[0]->n == 1; /* as a cascade, which is a path, too */
   scene_points_compute(run, &(farm_stage){.what = "sweeps", .tasks = 1, .record_size = 1,
+                                          .paths = 1 + one,
                                           .task = follow, .check = check, .collect = collect,
                                           .arg = &s},
                        beside, points);

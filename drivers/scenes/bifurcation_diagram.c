@@ -343,14 +343,13 @@ static void options(const deck *d, pendres_options *out)
   out->exponent_error = d->diagram.exponents ? d->precision.exponent_error : 1.0;
 }
 
-/* The path is one task of many in the first stage, and takes as long as all others together. */
 const scene_kind scene_bifurcation_diagram = {
   .kind = DECK_BIFURCATION_DIAGRAM,
   .references = "; G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996); M. J. Feigenbaum, "
                 "Journal of Statistical Physics 19 (1978) 25",
   .budget = 1,
   .path = 1,
-  .size = {.head = 60e3, .point = 200.0, .memory = 100e3, .stages = 2.0, .after = 2.0,
+  .size = {.head = 60e3, .point = 200.0, .memory = 100e3, .stages = 2.0, .after = 1.0,
            .seconds = 0.3, .slowest = SCENE_SLOWEST_BRANCH, .journal = SCENE_PATH_JOURNAL,
            .values = strobes_of, .value = 3.5},
   .options = options,
