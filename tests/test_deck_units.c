@@ -328,7 +328,8 @@ static void conversions(void **state)
     { "deg", "rad", 180, PI, 1e-15 },     { "eV", "J", 1, 1.602176634e-19, 3e-35 },
     { "k\342\204\246", "ohm", 1, 1e3, 0 }, { "\316\274V", "V", 1, 1e-6, 0 },
     { "kOhm", "ohm", 1, 1e3, 0 },         { "N\302\267m\342\201\273\302\263", "N m-3", 3, 3, 0 },
-    { "V/A", "ohm", 1, 1, 0 },            { "Hz", "1/s", 1, 2 * PI, 1e-15 },
+    { "V/A", "ohm", 1, 1, 0 },            { "mS", "1/ohm", 1, 1e-3, 0 },
+    { "Hz", "1/s", 1, 2 * PI, 1e-15 },
   };
   static const char *const none[] = { "Kg", "m^0", "N/", "2 m", "m s -1", "xHz", "mm^", "m^-" };
   si_unit from, to;

@@ -60,6 +60,21 @@ static const char *colours(int value)
   return value >= 0 && value < 3 ? names[value] : NULL;
 }
 
+/* Ten lines are told: points that a deck tolerates take none of them from what failed. */
+static void failures_are_told_first(void **state)
+{
+  deck d = { .precision.unresolved_share = 0.5 };
+  scene_run run = { .deck = &d };
+  (void)state;
+  for (int i = 0; i < SCENE_MOST_TOLD + 2; i++)
+    scene_failure_tell(&run, SCENE_FAILURE_UNRESOLVED, NULL, "open %d", i);
+  scene_failure_tell(&run, SCENE_FAILURE_TOLERANCE, NULL, "failed");
+  assert_int_equal(run.told_count, SCENE_MOST_TOLD);
+  assert_int_equal(strncmp(run.told[0], "open 0: ", 8), 0);
+  assert_int_equal(strncmp(run.told[SCENE_MOST_TOLD - 1], "failed: ", 8), 0);
+  assert_int_equal(run.told_open[SCENE_MOST_TOLD - 1], 0);
+}
+
 /* The codes of a row from elsewhere are those that its columns name; a blank row is NaN where it
    has doubles, and stays as it is elsewhere. */
 static void rows_from_elsewhere(void **state)
@@ -70,7 +85,7 @@ static void rows_from_elsewhere(void **state)
     int colour, sum, yes;
   } row;
   static const scene_column columns[] = {
-    SCENE_COLUMN(row, x, "x", "1"), SCENE_CODE(row, colour, "colour", colours),
+    SCENE_COLUMN(row, x, "x"), SCENE_CODE(row, colour, "colour", colours),
     { .name = "sum", .type = SCENE_FLAG, .value = offsetof(row, sum), .names = colours,
       .codes = bits },
     { .name = "yes", .type = SCENE_FLAG, .value = offsetof(row, yes) } };
@@ -286,7 +301,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(reasons_of_statuses),
-    cmocka_unit_test(rows_from_elsewhere),
+    cmocka_unit_test(failures_are_told_first), cmocka_unit_test(rows_from_elsewhere),
     cmocka_unit_test(what_takes_too_long),
     cmocka_unit_test(response_keeps_the_others),
     cmocka_unit_test(lines_keep_the_others),

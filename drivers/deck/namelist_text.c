@@ -123,6 +123,7 @@ pendres_status namelist_read(const char *path, namelist *out, namelist_errors *e
   if (status == PENDRES_IO) return refuse(path, words, out, errors);
   if (status == PENDRES_UNSUPPORTED) length = (size_t)NAMELIST_MAX_BYTES + 1; /* which is told */
   if (status != PENDRES_OUT_OF_MEMORY) status = namelist_parse(path, text, length, out, errors);
+  else (void)namelist_parse(path, "", 0, out, errors); /* they are to be freed in any case */
   if (status == PENDRES_OUT_OF_MEMORY) errors->out_of_memory = 1;
   free(text);
   return status;

@@ -132,9 +132,17 @@ void scene_failure_count(scene_run *run, scene_failure reason, size_t n)
 void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
                         const char *format, ...)
 {
-  if (run->told_count == SCENE_MOST_TOLD) return;
-  run->told_open[run->told_count] = reason == SCENE_FAILURE_UNRESOLVED;
-  char *line = run->told[run->told_count++];
+  const int open = reason == SCENE_FAILURE_UNRESOLVED;
+  size_t at = run->told_count;
+  if (at == SCENE_MOST_TOLD) { /* a failure takes the place of what a deck may tolerate */
+    if (open || !(run->deck->precision.unresolved_share > 0.0)) return;
+    while (at > 0 && !run->told_open[at - 1]) at--;
+    if (at-- == 0) return;
+  } else {
+    run->told_count++;
+  }
+  run->told_open[at] = (char)open;
+  char *line = run->told[at];
   va_list args;
   snprintf(line, SCENE_TOLD, "%s%s", run->where, run->where[0] != '\0' ? ", " : "");
   size_t used = strlen(line);

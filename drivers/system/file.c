@@ -44,7 +44,7 @@ int file_open(const char *path, file_use use, int named, char why[FILE_WORDS])
 {
   const int flags = O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (use == FILE_READ ? 0 : O_NOFOLLOW);
   const int makes = use == FILE_OWN || use == FILE_NEW;
-  int fd = -1, error = ENOENT;
+  int fd = -1, error = ENOENT, may = 1;
   why[0] = '\0';
   for (int i = 0; i < ATTEMPTS && error == ENOENT && (i == 0 || makes); i++) {
     struct stat s;
@@ -54,12 +54,12 @@ int file_open(const char *path, file_use use, int named, char why[FILE_WORDS])
     fd = open(path, (use == FILE_OWN ? O_RDWR : O_RDONLY) | flags);
     error = errno;
     const int seen = fd >= 0 ? fstat(fd, &s) : use == FILE_READ ? stat(path, &s) : lstat(path, &s);
-    const int may = seen != 0 || may_open(&s, path, use, named, why);
+    may = seen != 0 || may_open(&s, path, use, named, why);
     if (may && fd >= 0) return fd;
     if (!may) error = EPERM;
   }
   if (fd >= 0) (void)close(fd);
-  if (error != EPERM || why[0] == '\0')
+  if (may) /* a note on a file that may be opened is none on why it was not */
     snprintf(why, FILE_WORDS, "'%.300s' cannot be %s: %s", path, makes ? "written" : "read",
              strerror(error));
   errno = error;

@@ -149,6 +149,8 @@ static pendres_status take_over(pendres_store_file *file, int alone, int *again)
     *again = 1;
     return close_again(file, PENDRES_IO);
   }
+  if ((why = foreign(&info)) != NULL) /* it may have come between the two looks */
+    return close_again(file, file_fail(file, "'%s' exists, and %s", file->part, why));
   if (info.st_size && find_mark(file->fd) < 0)
     return close_again(file, file_fail(file, "'%s' exists, and was not left by a run that was "
                                        "killed: move it elsewhere", file->part));
