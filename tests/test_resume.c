@@ -6,6 +6,7 @@
 #include "kinds_fixture.h"
 #include "same_results.h"
 
+#include <math.h>
 #include <signal.h>
 #include <time.h>
 
@@ -119,6 +120,24 @@ static void paths_make_headway(void **state)
                 "&pendulum damping = 0.5, drive_frequency = 0.66666666666666667 /\n"
                 "&sweep drive_amplitude_range = 1.06, 1.09, 31 /\n"
                 "&bifurcation_diagram x = 1.6, strobes = 20 /\n");
+}
+
+/* A fit is a search, and its state where that is: of a linear decay, whose scale nothing tells, the
+   model is computed at some thousand values. */
+static void fits_make_headway(void **state)
+{
+  (void)state;
+  FILE *f = fopen("decay.csv", "w");
+  assert_non_null(f);
+  fprintf(f, "time, volts\n");
+  for (int i = 0; i < 12000; i++)
+    fprintf(f, "%.17g, %.17g\n", 0.05 * i,
+            exp(-0.005 * i * 0.05) * cos(0.05 * i) + 0.02 * cos(1e3 * i * i));
+  assert_int_equal(fclose(f), 0);
+  makes_headway("deck.nml", "&scene kind = 'fit' /\n&pendulum force = 'polynomial', "
+                "force_coefficients = 1 /\n&data file = 'decay.csv', axis = 'time', columns = "
+                "'time', 'volts', error = 0.0141 /\n&fit free = 'damping', 'a1', "
+                "'amplitude_scale' /\n");
 }
 
 /* Stopped by a signal: said so, with the way to go on. */
@@ -237,7 +256,7 @@ static void place_of_journal(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(killed_at_any_moment), TEST(stopped_by_signal),
-                                      TEST(paths_make_headway),
+                                      TEST(paths_make_headway), TEST(fits_make_headway),
                                       TEST(place_of_journal), TEST(other_roundings_are_told),
                                       TEST(killed_without_locks),
                                       TEST(kept_for_others) };

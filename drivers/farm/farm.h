@@ -159,6 +159,11 @@ const char *farm_message(const farm *f);
 /* A context for work outside of tasks, on the calling thread. NULL: out of memory. */
 pendres_context *farm_context(farm *f);
 
+/* Between these what is computed on that context keeps states in the journal, as in tasks: `what`
+   names it. */
+void farm_keep_begin(farm *f, pendres_context *ctx, const char *what);
+void farm_keep_end(farm *f, pendres_context *ctx);
+
 /* What that work is, as a sentence for users who wait for it; "": it is done. */
 void farm_doing(farm *f, const char *what);
 

@@ -7,6 +7,23 @@
 #include "farm/farm.h"
 #include "farm/journal.h"
 
+/*
+ * state.c: a task that is computed keeps states in the journal, and goes on from the last one of an
+ * earlier run; a trial hears how much of it is done. So does work outside of tasks.
+ */
+typedef struct task_state {
+  struct farm_trial *trial;
+  journal *journal; /* NULL: none is kept */
+  uint64_t stage;
+  size_t task;
+  double begun, next; /* seconds: when the task began, and when a state is wanted next */
+  farm_record last;   /* of an earlier run */
+} task_state;
+
+/* Begin with stage, task, journal and trial set. */
+void state_begin(task_state *s, pendres_context *ctx);
+void state_end(task_state *s, pendres_context *ctx);
+
 struct farm {
   farm_options options;
   int threads;
@@ -24,6 +41,7 @@ struct farm {
   int left;                  /* a stage was left to other shards */
   int dismissed;             /* on ranks other than 0: rank 0 has announced that the scene has
                                 ended */
+  task_state outside;        /* of the work outside of tasks */
   size_t run, stages;        /* which farm of its rank this is; stages that were run */
   char message[512];
 };

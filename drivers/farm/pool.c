@@ -236,14 +236,15 @@ void pool_finish(pool *c, size_t task, pendres_status status, farm_record *recor
 /* Run a task; its record then holds what it has cost, and why it failed. */
 static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_record *record)
 {
-  task_state state;
+  task_state state = { .trial = c->farm->trial, .journal = c->journal, .stage = c->number,
+                       .task = w->task };
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
   settle_books(c->farm, ctx);
   w->ctx = ctx;
   record->watch = c->farm->trial == NULL ? &w->watch : NULL;
   pendres_context_set_interrupt(ctx, worker_stop, w);
-  state_begin(&state, c, w->task, ctx);
+  state_begin(&state, ctx);
   const pendres_status status = c->stage->task(c->stage->arg, w->task, ctx, record);
   state_end(&state, ctx);
   point_end(&w->watch);

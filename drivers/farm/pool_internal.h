@@ -88,20 +88,6 @@ int pool_take(pool *c, size_t *task);
 void pool_finish(pool *c, size_t task, pendres_status status, farm_record *record);
 
 /*
- * state.c: a task that is computed keeps states in the journal, and goes on from the last one of an
- * earlier run; a trial hears how much of it is done.
- */
-typedef struct task_state {
-  pool *pool;
-  size_t task;
-  double begun, next; /* seconds: when the task began, and when a state is wanted next */
-  farm_record last;   /* of an earlier run */
-} task_state;
-
-void state_begin(task_state *s, pool *c, size_t task, pendres_context *ctx);
-void state_end(task_state *s, pendres_context *ctx);
-
-/*
  * point.c: the clock of a point, and when it is costly: beside the mean of the points that the
  * stage has finished. A point is what a user knows: the parameters of one result. Time is that of
  * the processor, of the thread that computes, so that a machine which others use too does not end

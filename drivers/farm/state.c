@@ -1,5 +1,5 @@
-/* state.c -- states of a task that is not finished yet; see pool_internal.h. */
-#include "farm/pool_internal.h"
+/* state.c -- states of a task that is not finished yet; see internal.h. */
+#include "farm/internal.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -11,9 +11,8 @@
 static int due(void *arg, double done)
 {
   const task_state *s = arg;
-  struct farm_trial *t = s->pool->farm->trial;
-  if (t != NULL) t->share = done;
-  return t == NULL && s->pool->journal != NULL && clock_wall() >= s->next;
+  if (s->trial != NULL) s->trial->share = done;
+  return s->trial == NULL && s->journal != NULL && clock_wall() >= s->next;
 }
 
 /* The longer a task takes the less often, and never so often that writing takes long. */
@@ -23,18 +22,19 @@ static void put(void *arg, const void *state, size_t size)
   char words[JOURNAL_WORDS]; /* the finished task's record will say why none can be written */
   const double before = clock_wall();
   const farm_record kept = { .data = (void *)(uintptr_t)state, .size = size };
-  (void)journal_append(s->pool->journal, s->pool->number, s->task | JOURNAL_STATE, &kept, words);
+  (void)journal_append(s->journal, s->stage, s->task | JOURNAL_STATE, &kept, words);
   const double now = clock_wall();
   s->next = now + fmax(fmax(state_every, state_share * (now - s->begun)),
                        (now - before) / state_share);
 }
 
-void state_begin(task_state *s, pool *c, size_t task, pendres_context *ctx)
+void state_begin(task_state *s, pendres_context *ctx)
 {
-  const double now = clock_wall();
-  *s = (task_state){ .pool = c, .task = task, .begun = now, .next = now + state_every };
-  if (c->journal != NULL)
-    (void)journal_read(c->journal, c->number, task | JOURNAL_STATE, &s->last); /* or anew */
+  s->begun = clock_wall();
+  s->next = s->begun + state_every;
+  s->last = (farm_record){ 0 };
+  if (s->journal != NULL)
+    (void)journal_read(s->journal, s->stage, s->task | JOURNAL_STATE, &s->last); /* or anew */
   pendres_context_set_keep(ctx, &(pendres_keep){ due, put, s->last.data, s->last.size, s });
 }
 
@@ -42,4 +42,16 @@ void state_end(task_state *s, pendres_context *ctx)
 {
   pendres_context_set_keep(ctx, NULL);
   free(s->last.data);
+}
+
+void farm_keep_begin(farm *f, pendres_context *ctx, const char *what)
+{
+  f->outside = (task_state){ .journal = f->trial == NULL ? f->journal : NULL,
+                             .stage = journal_stage(f->stages, what, 1, 0) };
+  state_begin(&f->outside, ctx);
+}
+
+void farm_keep_end(farm *f, pendres_context *ctx)
+{
+  state_end(&f->outside, ctx);
 }

@@ -176,7 +176,9 @@ static void find_fit(fit_work *w)
   char doing[160];
   snprintf(doing, sizeof doing, "the fit of %.100s has no answer yet", w->data.path);
   farm_doing(w->run->farm, doing);
+  farm_keep_begin(w->run->farm, ctx, "fit");
   const pendres_status status = pendres_fit_find(ctx, &w->data.of, &model, &options, &w->fit);
+  farm_keep_end(w->run->farm, ctx);
   farm_doing(w->run->farm, "");
   if (status == PENDRES_OK) return;
   size_t datum = w->data.of.n;

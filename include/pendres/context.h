@@ -133,9 +133,9 @@ void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg),
 
 /**
  * How a long computation keeps what it has done, so that another process takes it up there if this
- * one is killed: hysteresis.h and cascade.h say which functions do so. States are plain bytes of
- * this build of the library; they hold the question, too, so that one of another call is passed
- * over. Results are the same bytes as without an end in between, and costs count once.
+ * one is killed: hysteresis.h, cascade.h and fit.h say which functions do so. States are plain
+ * bytes of this build of the library; they hold the question, too, so that one of another call is
+ * passed over. Results are the same bytes as without an end in between, and costs count once.
  */
 typedef struct pendres_keep {
   int (*due)(void *arg, double done); /**< whether a state is wanted now, `done` being the share of

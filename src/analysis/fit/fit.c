@@ -1,5 +1,5 @@
 /* fit.c -- parameters from measured responses; see fit.h. */
-#include "analysis/fit/call.h"
+#include "analysis/fit/search.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,68 +82,11 @@ static void set_units(fit_model *m, const pendres_units *u)
   m->area = u->length * u->length / (u->time * u->time);
 }
 
-static void scale_values(const fit_model *m, const fit_values v, fit_values out)
-{
-  for (int q = 0; q < FIT_QUANTITIES; q++) out[q] = v[q] / m->unit[q];
-}
-
-/* ---- errors that are not known ---- */
-
-static int ascending(const void *a, const void *b)
-{
-  const double p = *(const double *)a, q = *(const double *)b;
-  return (p > q) - (p < q);
-}
-
-/* The scatter of an observable: the median of second differences of neighbours, which a smooth
-   response hardly has, and jumps do not change. */
-static double scatter_of(const fit_model *m, pendres_fit_observable o, double *work, int *known)
-{
-  size_t n = 0;
-  double largest = 0.0;
-  for (size_t k = 0; k < m->tracks; k++) {
-    double last[2] = {NAN, NAN};
-    for (size_t i = m->track[k].first; i < m->track[k].first + m->track[k].count; i++)
-      for (size_t j = m->station[i].first; j < m->station[i].first + m->station[i].count; j++) {
-        const pendres_fit_datum *d = &m->datum[m->order[j]];
-        if (d->observable != o) continue;
-        const double second = d->observed - 2.0 * last[1] + last[0];
-        if (!isnan(second)) work[n++] = fabs(second);
-        last[0] = last[1];
-        last[1] = d->observed;
-        largest = fmax(largest, fabs(d->observed));
-      }
-  }
-  for (size_t i = 0; i < m->marks; i++)
-    largest = fmax(largest, fabs(m->datum[m->mark[i].datum].observed));
-  const double least = 1e-6 * largest + 1e-300; /* exact data, or digits that stand still */
-  *known = 0;
-  if (m->decays || m->stations == 0) return fit_decay_scatter * largest + 1e-300;
-  qsort(work, n, sizeof *work, ascending);
-  const double median = n > 0 ? work[n / 2] / (0.6745 * sqrt(6.0)) : 0.0;
-  *known = median > least;
-  return fmax(median, least);
-}
-
-static void set_errors(const pendres_fit_call *c, fit_problem *p, double *error, double *work)
-{
-  const fit_model *m = p->m;
-  double scatter[FIT_BASES] = {0.0};
-  p->excess = !c->errors_known;
-  for (int o = 0; o < FIT_BASES && !c->errors_known; o++) {
-    int known = 1;
-    if (m->measured[o]) scatter[o] = scatter_of(m, (pendres_fit_observable)o, work, &known);
-    p->excess *= known;
-  }
-  for (size_t i = 0; i < m->data; i++)
-    error[i] = c->errors_known ? m->datum[i].error : scatter[m->datum[i].observable];
-}
-
 /* ---- the fit ---- */
 
-static pendres_status take_room(fit_problem *p, fit_result *best, fit_result *now, size_t unknowns,
-                                pendres_room *room)
+static pendres_status take_room(fit_search *s, size_t unknowns, pendres_room *room)
 {
+  fit_problem *p = s->p;
   const size_t rows = pendres_fit_rows(p->m) + unknowns, n = unknowns;
   p->unknowns = unknowns;
   p->free = pendres_room_take(room, n, sizeof *p->free);
@@ -153,13 +96,15 @@ static pendres_status take_room(fit_problem *p, fit_result *best, fit_result *no
   p->rows.slope = pendres_room_take(room, rows, sizeof *p->rows.slope);
   p->rows.used = pendres_room_take(room, p->m->tracks * FIT_STAGES, sizeof *p->rows.used);
   p->rows.from = pendres_room_take(room, p->m->stations + 1, sizeof *p->rows.from);
-  fit_result *both[] = {best, now};
+  fit_result *both[] = {&s->best, &s->now};
   for (int k = 0; k < 2; k++) {
     both[k]->covariance = pendres_room_take(room, n * n, sizeof *both[k]->covariance);
     both[k]->combination = pendres_room_take(room, n + 1, sizeof *both[k]->combination);
     both[k]->at_bound = pendres_room_take(room, n, sizeof *both[k]->at_bound);
     both[k]->spread = pendres_room_take(room, n, sizeof *both[k]->spread);
   }
+  s->error = pendres_room_take(room, p->m->data, sizeof *s->error);
+  s->work = pendres_room_take(room, p->m->data, sizeof *s->work);
   return room->status;
 }
 
@@ -174,160 +119,6 @@ static void set_free(const pendres_fit_call *c, fit_problem *p)
                               .high = u->high / unit, .prior = u->prior / unit,
                               .prior_error = u->prior_error / unit};
   }
-}
-
-/* Whether a fit is better than the best so far by more than this in chi-square. */
-static int is_better(const fit_result *a, const fit_result *b, double least)
-{
-  if (!b->computed || !a->computed) return a->computed;
-  return a->chi_square < b->chi_square - least;
-}
-
-/* What chi-square is expected of a datum: 1, or where errors are not known what the scatter about
-   the fit says. */
-static double expected(const pendres_fit_call *c, const fit_result *r)
-{
-  return c->errors_known ? 1.0 : fmax(r->chi_square, 1e-300) / fmax(r->freedom, 1.0);
-}
-
-/* Remember the worse of two fits if their values are different ones, and about as good. */
-static void compare(const pendres_fit_call *c, fit_problem *p, const fit_result *best,
-                    const fit_result *other)
-{
-  const double above = (other->chi_square - best->chi_square) / expected(c, best);
-  double apart = 0.0;
-  if (!best->computed || !other->computed || !best->converged || !other->converged) return;
-  for (size_t k = 0; k < p->unknowns && best->determined; k++) {
-    const int q = p->free[k].quantity;
-    const double error = sqrt(best->covariance[k * p->unknowns + k]);
-    if (!best->at_bound[k]) apart = fmax(apart, fabs(other->v[q] - best->v[q]) / error);
-  }
-  if (!(apart > fit_apart && above < fit_twin)) return;
-  p->has_twin = 1;
-  p->twin_above = above;
-  memcpy(p->twin, other->v, sizeof p->twin);
-}
-
-/* What comes next is computed from the beginnings of the curves on. */
-static void forget_curves(fit_problem *p)
-{
-  for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
-  p->known = 0;
-}
-
-/* Put the starts, behind the caller's own, into the order of their chi-square: guesses know nothing
-   of jumps. Those without a model come last. */
-static pendres_status order_starts(const pendres_fit_call *c, fit_problem *p, int starts,
-                                   fit_values *start)
-{
-  double chi[FIT_TRIED];
-  for (int k = c->own; k < starts; k++) {
-    fit_values v, at;
-    memcpy(at, start[k], sizeof at);
-    scale_values(p->m, at, v);
-    p->m->usual_steps = 0;
-    forget_curves(p);
-    const double sum = pendres_fit_evaluate(p, v) ? pendres_fit_sum_of_squares(p) : INFINITY;
-    if (p->status != PENDRES_OK) return p->status;
-    int to = k;
-    for (; to > c->own && chi[to - 1] > sum; to--) {
-      chi[to] = chi[to - 1];
-      memcpy(start[to], start[to - 1], sizeof(fit_values));
-    }
-    chi[to] = sum;
-    memcpy(start[to], at, sizeof at);
-  }
-  return PENDRES_OK;
-}
-
-/* More data of a free decay: a guess of the frequency is good for a few cycles, and a fit to these
-   for some more. Where the data so far tell no damping its logarithm may have gone anywhere; it
-   comes back to where the data that follow see it. */
-static void widen(fit_problem *p, fit_values v)
-{
-  fit_model *m = p->m;
-  const double span = m->station[m->active - 1].axis - m->station[0].axis;
-  const double least = fit_decay_seen / (two_pi * v[PENDRES_FIT_FREQUENCY_SCALE] * span);
-  m->active += m->active / 2;
-  if (m->active > m->stations) m->active = m->stations;
-  for (size_t k = 0; k < p->unknowns; k++)
-    if (p->free[k].quantity == PENDRES_DAMPING && !(p->free[k].low < p->free[k].high))
-      v[PENDRES_DAMPING] = fmax(v[PENDRES_DAMPING], least);
-}
-
-/* Without a frequency axis a spring that stiffens, driven above its frequency, is like one that
-   softens, driven below it: there all starts are tried, although one fits. */
-static pendres_status try_starts(const pendres_fit_call *c, fit_problem *p, int starts,
-                                 fit_values *start, fit_result *best, fit_result *now)
-{
-  pendres_status status = PENDRES_OK;
-  const size_t window = p->m->active;
-  int own = 0; /* the best is of the caller's start */
-  for (int k = 0; k < starts && status == PENDRES_OK; k++) {
-    scale_values(p->m, start[k], now->v);
-    forget_curves(p);
-    p->m->usual_steps = 0;
-    p->m->active = window;
-    status = pendres_fit_solve(p, c->options.iterations, now);
-    while (status == PENDRES_OK && now->computed && p->m->decays &&
-           p->m->active < p->m->stations) {
-      widen(p, now->v);
-      status = pendres_fit_solve(p, c->options.iterations, now);
-    }
-    /* Of values that fit as well those next to the caller's guesses are taken. */
-    const double least = own && best->converged ? fit_twin * expected(c, best) : 0.0;
-    if (status == PENDRES_OK && is_better(now, best, least)) {
-      const fit_result other = *best;
-      p->has_twin &= best->computed &&
-                     now->chi_square > best->chi_square - fit_twin * expected(c, now);
-      *best = *now;
-      *now = other;
-      own = k < c->own;
-    }
-    if (status == PENDRES_OK) compare(c, p, best, now);
-    /* Without errors of the data nothing but worse ones tells that a fit is good. */
-    const int good = best->computed && best->converged && c->errors_known &&
-                     pendres_fit_probability(best) > fit_good_enough;
-    if (good && (p->m->decays || p->m->rotates || p->m->axis == PENDRES_DRIVE_FREQUENCY)) break;
-  }
-  return status;
-}
-
-/* Errors that make chi-square what is expected, and the fit with these: jumps and data then have
-   their weights. */
-static pendres_status find_errors(const pendres_fit_call *c, fit_problem *p, double *error,
-                                  fit_result *best)
-{
-  pendres_status status = PENDRES_OK;
-  for (int round = 0; round < 2 && status == PENDRES_OK && best->computed; round++) {
-    const double factor = sqrt(fmax(best->chi_square, 1e-300) / fmax(best->freedom, 1.0));
-    for (size_t i = 0; i < p->m->data; i++) error[i] *= factor;
-    p->excess *= factor;
-    p->known = 0;
-    status = pendres_fit_solve(p, c->options.iterations, best);
-  }
-  return status;
-}
-
-/* The errors of the values. Where following finds better ones, those of data are found anew. */
-static pendres_status conclude(const pendres_fit_call *c, fit_problem *p, double *error,
-                               fit_result *best, fit_result *now)
-{
-  pendres_status status = PENDRES_OK;
-  double before = INFINITY;
-  for (int again = 0; again < FIT_AGAIN && status == PENDRES_OK && best->computed &&
-                      best->chi_square < before - fit_twin; again++) {
-    if (!c->errors_known) status = find_errors(c, p, error, best);
-    forget_curves(p);
-    const int converged = best->converged; /* also where derivatives do not tell */
-    before = best->chi_square;
-    if (status == PENDRES_OK && best->computed) status = pendres_fit_conclude(p, best);
-    best->converged |= converged;
-    if (status == PENDRES_OK && best->computed)
-      status = pendres_fit_profile(p, c->options.iterations, best, now);
-    if (c->errors_known) break;
-  }
-  return status;
 }
 
 /* ---- the call ---- */
@@ -389,35 +180,29 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
   for (size_t i = 0; i < c->model->unknowns; i++) open += !c->model->unknown[i].fixed;
   fit_problem p = {.m = m, .errors_known = c->errors_known,
                    .terms = {.jump_error = c->options.jump_error, .huber = c->options.huber}};
-  fit_result best = {.computed = 0}, now = {.computed = 0};
-  double *error = pendres_room_take(room, m->data, sizeof *error);
-  double *work = pendres_room_take(room, m->data, sizeof *work);
-  pendres_status status = take_room(&p, &best, &now, open, room);
+  fit_search s = {.call = c, .p = &p, .starts = starts, .start = start};
+  pendres_status status = take_room(&s, open, room);
   if (status != PENDRES_OK) return status;
-  p.terms.error = error;
-  set_errors(c, &p, error, work);
+  fit_result *best = &s.best;
+  p.terms.error = s.error;
   set_free(c, &p);
-  const int most = c->options.starts > 0 ? c->options.starts : FIT_TRIED;
-  if (starts > 1) status = order_starts(c, &p, starts, start);
-  if (status == PENDRES_OK)
-    status = try_starts(c, &p, starts < most ? starts : most, start, &best, &now);
-  if (status == PENDRES_OK) status = conclude(c, &p, error, &best, &now);
+  status = pendres_fit_search(&s);
   if (status != PENDRES_OK) return status;
-  if (!best.computed)
+  if (!best->computed)
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
                                 "the model could not be computed from any start%s%s: give guesses "
                                 "of the unknowns", m->lost != NULL ? "; the last: " : "",
                                 m->lost != NULL ? m->lost : "");
-  if (best.impossible) best.converged *= 2;
-  if (!p.known) forget_curves(&p);
-  if (status == PENDRES_OK && !pendres_fit_evaluate(&p, best.v))
+  if (best->impossible) best->converged *= 2;
+  if (!p.known) pendres_fit_forget(&p);
+  if (status == PENDRES_OK && !pendres_fit_evaluate(&p, best->v))
     status = p.status != PENDRES_OK ? p.status : pendres_context_fail(
       ctx, PENDRES_NOT_CONVERGED, "the model could not be computed anew at the best values");
   if (status != PENDRES_OK) return status;
-  status = pendres_fit_result(c, &p, &best);
+  status = pendres_fit_result(c, &p, best);
   if (status == PENDRES_NOT_CONVERGED)
     (void)pendres_context_fail(ctx, status, "the fit has not converged%s; the values are the best",
-                               best.converged ? " to a chi-square that can be" : "");
+                               best->converged ? " to a chi-square that can be" : "");
   return status;
 }
 

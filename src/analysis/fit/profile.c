@@ -13,34 +13,35 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct place {
-  double along; /* the unknown that is given as the solver sees it, from the best values on */
-  double rise;  /* of chi-square, in units of what one error makes */
-  fit_values v;
-} place;
+typedef fit_profile_place place;
 
 typedef struct profile {
   fit_problem *whole, rest; /* rest: without the unknown that is given */
   fit_free free[FIT_QUANTITIES], *given;
   fit_result *best, *work;
-  double far[FIT_QUANTITIES];  /* of those to be given: an error as the solver sees it */
-  size_t by[FIT_QUANTITIES];   /* the combination for which an unknown is given */
-  place lowest;  /* where chi-square is lower than at the best values, if it is anywhere */
-  size_t count;
-  place at[FIT_PROFILE_PLACES];
+  fit_profile *s;
 } profile;
 
 /* Begin with each value going on as before, by factors where it keeps its sign. */
-static void predict(const profile *f, double step, place *next)
+static void predict(const fit_profile *s, const fit_problem *rest, place *next)
 {
-  const place *last = &f->at[f->count - 1], *before = f->count > 1 ? last - 1 : last;
-  const double part = last != before ? step / fabs(last->along - before->along) : 0.0;
+  const place *last = &s->at[s->count - 1], *before = s->count > 1 ? last - 1 : last;
+  const double part = last != before ? s->step / fabs(last->along - before->along) : 0.0;
   *next = *last;
-  for (size_t i = 0; i < f->rest.unknowns; i++) {
-    const int q = f->rest.free[i].quantity;
+  for (size_t i = 0; i < rest->unknowns; i++) {
+    const int q = rest->free[i].quantity;
     const double a = before->v[q], b = last->v[q];
     next->v[q] = a * b > 0.0 ? b * pow(b / a, part) : b + part * (b - a);
   }
+}
+
+/* Where a state can be kept: what was counted so far belongs to the whole problem. */
+static void tell(profile *f)
+{
+  fit_problem *p = f->whole;
+  p->evaluations = f->rest.evaluations;
+  p->iterations = f->rest.iterations;
+  p->between(p->search);
 }
 
 /* Fit the rest, if there is any; 0 where that is not possible, or the status ends all. */
@@ -61,7 +62,7 @@ static int fit_rest(profile *f, place *to, pendres_status *status)
                                           : pendres_fit_sum_of_squares(&f->rest);
   const double prior = error > 0.0 ? pow((value - mean) / error, 2.0) : 0.0;
   to->rise = (sum + prior - f->best->chi_square) / f->best->scatter;
-  if (to->rise < f->lowest.rise - fit_converged) f->lowest = *to;
+  if (to->rise < f->s->lowest.rise - fit_converged) f->s->lowest = *to;
   return 1;
 }
 
@@ -69,30 +70,34 @@ static int fit_rest(profile *f, place *to, pendres_status *status)
 typedef enum { LOST, OPEN, CLOSED } ending;
 
 /* Follow one way, until chi-square has grown or a bound is come to, or no further. */
-static ending follow(profile *f, size_t k, int way, pendres_status *status)
+static ending follow(profile *f, size_t k, pendres_status *status)
 {
-  double step = fmin(0.5 * f->far[k], fit_profile_first), longest = fit_profile_long;
-  f->count = 1;
-  f->at[0] = (place){.along = 0.0};
-  memcpy(f->at[0].v, f->best->v, sizeof f->at[0].v);
-  while (f->count < FIT_PROFILE_PLACES && fabs(f->at[f->count - 1].along) < fit_profile_end) {
-    const place *last = &f->at[f->count - 1];
+  fit_profile *s = f->s;
+  if (s->count == 0) {
+    s->step = fmin(0.5 * s->far[k], fit_profile_first);
+    s->longest = fit_profile_long;
+    s->at[s->count++] = (place){.along = 0.0};
+    memcpy(s->at[0].v, f->best->v, sizeof s->at[0].v);
+  }
+  while (s->count < FIT_PROFILE_PLACES && fabs(s->at[s->count - 1].along) < fit_profile_end) {
+    const place *last = &s->at[s->count - 1];
     const int q = f->given->quantity;
     place next;
-    predict(f, step, &next);
-    next.along = last->along + way * step;
+    if (f->whole->m->decays) tell(f);
+    predict(s, &f->rest, &next);
+    next.along = last->along + s->way * s->step;
     next.v[q] = pendres_fit_moved(f->given, f->best->v[q], next.along);
     if (next.v[q] == last->v[q]) return CLOSED;
     const int found = fit_rest(f, &next, status);
     if (*status != PENDRES_OK) return LOST;
     if (!found || next.rise > last->rise + fit_profile_grows) {
-      longest = step *= 0.5;
-      if (step > fit_profile_short * fmin(1.0, f->far[k])) continue;
+      s->longest = s->step *= 0.5;
+      if (s->step > fit_profile_short * fmin(1.0, s->far[k])) continue;
       return last->rise >= 1.0 ? CLOSED : LOST;
     }
-    f->at[f->count++] = next;
+    s->at[s->count++] = next;
     if (next.rise > fit_profile_rise) return CLOSED;
-    step = fmin(2.0 * step, longest);
+    s->step = fmin(2.0 * s->step, s->longest);
   }
   return OPEN;
 }
@@ -101,17 +106,17 @@ static ending follow(profile *f, size_t k, int way, pendres_status *status)
    moves, where the way has no end, nothing is known. */
 static void widen(profile *f, size_t k, ending how)
 {
-  const place *last = &f->at[f->count - 1], *half = last;
+  const place *at = f->s->at, *last = &at[f->s->count - 1], *half = last;
   const size_t n = f->whole->unknowns;
   const double *covariance = f->best->covariance;
-  const int open = f->best->combination[f->by[k]].open;
-  while (half > f->at && fabs(half->along) > 0.5 * fabs(last->along)) half--;
+  const int open = f->best->combination[f->s->by[k]].open;
+  while (half > at && fabs(half->along) > 0.5 * fabs(last->along)) half--;
   for (size_t a = 0; a < n; a++) {
     const int q = f->whole->free[a].quantity;
     const double from = f->best->v[q], variance = covariance[a * n + a];
     double most = 0.0;
-    for (size_t i = 0; i < f->count; i++)
-      most = fmax(most, fabs(f->at[i].v[q] - from) / sqrt(fmax(1.0, f->at[i].rise)));
+    for (size_t i = 0; i < f->s->count; i++)
+      most = fmax(most, fabs(at[i].v[q] - from) / sqrt(fmax(1.0, at[i].rise)));
     const double moved = fabs(last->v[q] - from);
     const int goes_on = moved > fit_profile_ends * fabs(half->v[q] - from);
     if (how != CLOSED && goes_on && moved * moved > variance) most = INFINITY;
@@ -121,28 +126,31 @@ static void widen(profile *f, size_t k, ending how)
   }
 }
 
-/* Follow all that is to be followed, both ways; *whole: none was lost. */
-static pendres_status follow_all(fit_problem *p, profile *f, int *whole)
+/* Follow all that is to be followed, both ways. */
+static pendres_status follow_all(fit_problem *p, profile *f)
 {
+  fit_profile *s = f->s;
   pendres_status status = PENDRES_OK;
-  f->lowest = (place){.along = 0.0};
-  *whole = 1;
-  for (size_t k = 0; k < p->unknowns && status == PENDRES_OK; k++) {
-    if (!(f->far[k] > 0.0)) continue;
-    f->rest = *p;
-    f->rest.free = f->free;
-    f->rest.unknowns = 0;
-    for (size_t i = 0; i < p->unknowns; i++)
-      if (i != k) f->free[f->rest.unknowns++] = p->free[i];
-    f->given = &p->free[k];
-    for (int way = -1; way <= 1 && status == PENDRES_OK; way += 2) {
-      const ending how = follow(f, k, way, &status);
+  for (; s->next < p->unknowns && status == PENDRES_OK; s->next++, s->way = -1) {
+    const size_t k = s->next;
+    if (!(s->far[k] > 0.0)) continue;
+    for (; s->way <= 1 && status == PENDRES_OK; s->way += 2) {
+      f->rest = *p;
+      f->rest.free = f->free;
+      f->rest.unknowns = 0;
+      for (size_t i = 0; i < p->unknowns; i++)
+        if (i != k) f->free[f->rest.unknowns++] = p->free[i];
+      f->given = &p->free[k];
+      if (!p->m->decays) tell(f);
+      pendres_fit_forget(&f->rest);
+      const ending how = follow(f, k, &status);
       if (status == PENDRES_OK) widen(f, k, how);
-      *whole &= how != LOST;
+      s->whole &= how != LOST;
+      s->count = 0;
+      p->evaluations = f->rest.evaluations;
+      p->iterations = f->rest.iterations;
+      p->known = 0;
     }
-    p->evaluations = f->rest.evaluations;
-    p->iterations = f->rest.iterations;
-    p->known = 0;
   }
   return status;
 }
@@ -174,7 +182,7 @@ static int is_bent(fit_problem *p, const fit_result *best, const fit_combination
 static int choose(fit_problem *p, profile *f)
 {
   int any = 0;
-  memset(f->far, 0, sizeof f->far);
+  memset(f->s->far, 0, sizeof f->s->far);
   for (size_t c = 0; c < f->best->combinations; c++) {
     const fit_combination *of = &f->best->combination[c];
     size_t most = p->unknowns;
@@ -188,34 +196,41 @@ static int choose(fit_problem *p, profile *f)
     }
     const int followed = of->open || (largest > fit_far && is_bent(p, f->best, of));
     if (most == p->unknowns || !followed) continue;
-    f->far[most] = fmax(f->far[most], of->open ? INFINITY : largest);
-    f->by[most] = c;
+    f->s->far[most] = fmax(f->s->far[most], of->open ? INFINITY : largest);
+    f->s->by[most] = c;
     any = 1;
   }
   return any;
 }
 
-pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_result *best,
-                                   fit_result *work)
+pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_profile *s,
+                                   fit_result *best, fit_result *work)
 {
+  profile f = {.whole = p, .best = best, .work = work, .s = s};
   pendres_status status = PENDRES_OK;
-  profile f = {.whole = p, .best = best, .work = work};
-  int whole = 0, followed = 0;
-  for (int again = 0; again < FIT_AGAIN && status == PENDRES_OK; again++) {
-    followed = choose(p, &f);
-    status = p->status;
+  int followed = 1;
+  if (!s->begun) s->again = 0;
+  for (; s->again < FIT_AGAIN && status == PENDRES_OK; s->again++) {
+    if (!s->begun) {
+      *s = (fit_profile){.again = s->again, .whole = 1, .way = -1};
+      followed = choose(p, &f);
+      status = p->status;
+    }
     if (!followed || status != PENDRES_OK) break;
-    status = follow_all(p, &f, &whole);
-    if (status != PENDRES_OK || f.lowest.along == 0.0) break;
-    memcpy(best->v, f.lowest.v, sizeof best->v);
+    s->begun = 1;
+    status = follow_all(p, &f);
+    if (status != PENDRES_OK || s->lowest.along == 0.0) break;
+    s->begun = 0;
+    memcpy(best->v, s->lowest.v, sizeof best->v);
     status = pendres_fit_solve(p, iterations, best);
   }
   /* Where a solver stalls in a long valley this tells that it is at the lowest place. */
-  best->converged |= followed && whole && f.lowest.along == 0.0;
+  best->converged |= followed && s->whole && s->lowest.along == 0.0;
   best->determined = 1;
   for (size_t k = 0; k < p->unknowns; k++) {
     best->determined &= isfinite(best->spread[k]) != 0;
-    if (f.far[k] > 0.0) best->combination[f.by[k]].open = !isfinite(best->spread[k]);
+    if (s->far[k] > 0.0) best->combination[s->by[k]].open = !isfinite(best->spread[k]);
   }
+  s->begun = 0;
   return status;
 }

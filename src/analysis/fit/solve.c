@@ -118,6 +118,12 @@ int pendres_fit_evaluate(fit_problem *p, const fit_values v)
   return !p->lost;
 }
 
+void pendres_fit_forget(fit_problem *p)
+{
+  for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
+  p->known = 0;
+}
+
 double pendres_fit_sum_of_squares(const fit_problem *p)
 {
   double sum = 0.0, slope;

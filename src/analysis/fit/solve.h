@@ -32,6 +32,8 @@ typedef struct fit_problem {
   int has_twin; /* other values fit about as well: */
   fit_values twin;
   double twin_above; /* by so much more chi-square, in units of what is expected a datum */
+  void (*between)(void *search); /* called where a state of the search can be kept */
+  void *search;
 } fit_problem;
 
 /* A combination of unknowns that is independent of the others: by how much one error along it
@@ -82,11 +84,34 @@ double pendres_fit_probability(const fit_result *r);
 double pendres_fit_moved(fit_free *f, double value, double by);
 double pendres_fit_seen(fit_free *f, double value, double change, int open);
 
+/* What comes next is computed from the beginnings of the curves on. */
+void pendres_fit_forget(fit_problem *p);
+
 /* ---- profile.c ---- */
 
+/* Values along what is followed. */
+typedef struct fit_profile_place {
+  double along; /* the unknown that is given as the solver sees it, from the best values on */
+  double rise;  /* of chi-square, in units of what one error makes */
+  fit_values v;
+} fit_profile_place;
+
+/* How far following has come. */
+typedef struct fit_profile {
+  int begun, again, whole, way; /* whole: no way was lost */
+  size_t next;                  /* the unknown that is given next, that way */
+  double far[FIT_QUANTITIES];   /* of those to be given: an error as the solver sees it */
+  size_t by[FIT_QUANTITIES];    /* the combination for which an unknown is given */
+  fit_profile_place lowest;     /* where chi-square is lower than at the best values, if it is */
+  double step, longest;         /* of the way, and the places that it has come to; 0: none yet */
+  size_t count;
+  fit_profile_place at[FIT_PROFILE_PLACES];
+} fit_profile;
+
 /* Follow chi-square from a fit's values along what derivatives do not determine, and widen errors
-   by what moves; `work` is overwritten. */
-pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_result *best,
-                                   fit_result *work);
+   by what moves; `work` is overwritten. It goes on from where *s is; before each way, and along
+   decays, which know no curves, before each place, p->between is called. */
+pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_profile *s,
+                                   fit_result *best, fit_result *work);
 
 #endif
