@@ -344,14 +344,19 @@ void scene_lines_write_places(const scene_lines *l, const scene_table *table, co
   }
 }
 
-/* Points that the branches' bifurcations do not explain; *first is one of them. */
-static int32_t count_doubts(const scene_lines *l, const pendres_branch_point **first)
+/* Points that the branches' bifurcations do not explain, and ends of branches that could not be
+   followed on; *first is one of them. */
+static int32_t count_doubts(const scene_lines *l, const pendres_branch_point **first,
+                            int32_t *stuck)
 {
   int32_t doubts = 0;
+  *stuck = 0;
   for (size_t i = 0; i < l->grid.lines; i++) {
     const pendres_branches *all = pendres_phase_diagram_branches_get(l->diagram, i);
     for (size_t k = 0; k < pendres_branches_count(all); k++) {
       const pendres_branch *b = pendres_branches_get(all, k);
+      for (int end = 0; end < 2; end++)
+        *stuck += pendres_branch_end_get(b, end) == PENDRES_END_STUCK;
       for (size_t m = 0; m < pendres_branch_count(b); m++) {
         const pendres_branch_point *p = pendres_branch_get(b, m);
         if (p->doubt == 0) continue;
@@ -365,19 +370,29 @@ static int32_t count_doubts(const scene_lines *l, const pendres_branch_point **f
 void scene_lines_write_doubts(const scene_lines *l)
 {
   const pendres_branch_point *first = NULL;
-  const int32_t doubts = count_doubts(l, &first);
+  int32_t stuck;
+  const int32_t doubts = count_doubts(l, &first, &stuck);
+  if (l->run->deck->kind != DECK_BRANCHES) stuck = 0; /* what it asks for does not end there */
   const pendres_store_spec spec = {
     .name = "branch_doubts",
     .type = PENDRES_STORE_INT32,
     .long_name = "points of branches at which stability or turns and the bifurcations disagree"};
   scene_put(l->run, &spec, &doubts, NULL, 1);
+  scene_failure_count(l->run, SCENE_FAILURE_NOT_CONVERGED, (size_t)(doubts + stuck));
+  if (doubts > 0)
+    scene_failure_tell(l->run, SCENE_FAILURE_NOT_CONVERGED, "a bifurcation is missed or misnamed "
+                       "on a branch", "branch_doubts %ld", (long)doubts);
+  if (stuck > 0)
+    scene_failure_tell(l->run, SCENE_FAILURE_NOT_CONVERGED, "branches could not be followed on "
+                       "there", "%ld ends 'stuck'", (long)stuck);
 }
 
 void scene_lines_print(const scene_lines *l, FILE *out)
 {
   const pendres_cusp *c = pendres_phase_diagram_get(l->diagram).cusp;
   const pendres_branch_point *p = NULL;
-  const int32_t doubts = count_doubts(l, &p);
+  int32_t stuck;
+  const int32_t doubts = count_doubts(l, &p, &stuck);
   char across[DECK_NAME], along[DECK_NAME];
   scene_spaced(l->grid.across, across);
   scene_spaced(l->grid.options.parameter, along);

@@ -196,6 +196,8 @@ static pendres_status follow(fit_model *m, fit_curve *c, const fit_values v)
     if (steps > FIT_MOST_STEPS) return lose(m, "a curve leads to motions far from the data's");
     for (int k = 0; k < w.found; k++) c->node[c->nodes++] = w.ahead[k];
   }
+  if (c->nodes + PENDRES_AHEAD >= FIT_NODES)
+    return lose(m, "a curve of orbits has more points than a fit follows");
   if (over) return lose(m, "a curve of orbits does not lead over the range of the data");
   c->ready = 1;
   return PENDRES_OK;
