@@ -198,7 +198,8 @@ TEST_NAMES := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_PROGRAMS := $(TEST_NAMES:%=$(BUILD)/tests/%)
 # Scripts look at what would be installed: nothing for sanitizers and valgrind.
 SCRIPT_NAMES := $(if $(SANITIZE)$(VALGRIND),,$(patsubst tests/%.sh,%,$(wildcard tests/*_check.sh)))
-CHECKS ?= $(filter-out $(SKIP),$(TEST_NAMES) $(SCRIPT_NAMES))
+# Scripts first: some take long, and short tests fill what is left of the time at the end.
+CHECKS ?= $(filter-out $(SKIP),$(SCRIPT_NAMES) $(TEST_NAMES))
 ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
 ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
