@@ -5,7 +5,9 @@
 
 Decks of a Duffing oscillator are run in units of length and time that are powers of two, and all
 results compared with those of the plain units, bit for bit, each multiplied by what its dimension
-makes of them. Dimensions are told here by the names of variables; all others are pure numbers.
+makes of them. Dimensions are told here by the names of variables; all others are pure numbers. The
+plain ones are in a laboratory's units, too: what files say makes SI of a result is what follows from
+its dimension.
 """
 import os
 import re
@@ -24,17 +26,25 @@ LENGTH, SPEED, RATE, TIME, FORCE, AREA, POWER, PURE = (
 DIMENSIONS = [
     (r"(.*_)?a1", (0, -2)), (r"a2", (-1, -2)), (r"(.*_)?a3", (-2, -2)), (r"a4", (-3, -2)),
     (r"a5", (-4, -2)),
+    (r".*escape_rate_bound", PURE),  # a drive period
     (r".*cov_xx", (2, 0)), (r".*cov_xv", (2, -1)), (r".*cov_vv", AREA),
     (r"power_spectrum", (2, -1)),
     (r".*curvature", (-2, -1)),
     (r".*drive_amplitude|.*torque|drive", FORCE),
     (r"drive_period|resonance_period|.*exposure.*|.*mean_time.*", TIME),
     (r".*mean_power", POWER),
-    (r".*(loop_area|dissipation|torque_work|parametric_work|temperature|energy.*)", AREA),
+    (r".*(loop_area|dissipation|torque_work|parametric_work|energy.*)", AREA),
+    (r"(fit_)?temperature(_.*)?|linear_depth_.*", AREA),
     (r".*(damping|frequency|lyapunov|lyapunov_exponent|rate(_.*)?)", RATE),
     (r".*(amplitude|cosine|sine|mean_angle|(_|^)x|turning_point_.*)", LENGTH),
     (r"distance|.*(velocity|(_|^)v)", SPEED),
 ]
+
+# The laboratory: natural frequency, mass, length; and k_B. Second derivatives along a curve have no
+# unit of SI: arclength is counted in canonical units.
+HERTZ, MASS, METRE, BOLTZMANN = 0.7, 3.0, 0.4, 1.380649e-23
+LABORATORY = f"&units natural_frequency = {HERTZ}, mass = {MASS}, length = {METRE} /"
+WITHOUT_SI = r".*curvature(_error)?"
 
 DUFFING = """&pendulum force = 'polynomial', force_coefficients = <1|0,-2>, 0, <1|-2,-2>"""
 SPRING = """&pendulum force = 'polynomial', force_coefficients = <1|0,-2>, damping = <0.2|0,-1>"""
@@ -55,7 +65,8 @@ DECKS = [
       drive_frequency = <1.5|0,-1> /
       &scene kind = 'basins' /
       &sweep x = <-1|1,0>, <-0.5|1,0>, <0|1,0>, <0.5|1,0>, <1|1,0>,
-      v = <-1|1,-1>, <-0.5|1,-1>, <0|1,-1>, <0.5|1,-1>, <1|1,-1> /
+      v = <-1|1,-1>, <-0.75|1,-1>, <-0.5|1,-1>, <-0.25|1,-1>, <0|1,-1>, <0.25|1,-1>, <0.5|1,-1>,
+      <0.75|1,-1>, <1|1,-1> /
       &basins boundary = .true., statistics = .true. /""", PURE),
     ("clouds", DUFFING + """, damping = <0.25|0,-1>, drive_amplitude = <0.3|1,-2>,
       drive_frequency = <1.5|0,-1> /
@@ -157,6 +168,35 @@ def results(program, folder, name, text):
     return found
 
 
+def compare_si(name, path, moved):
+    """What the file of a laboratory's deck says of the dimensions of its variables."""
+    faults, second = [], 2 * numpy.pi * HERTZ
+
+    def look(variable, item):
+        if (not isinstance(item, h5py.Dataset) or item.dtype.kind != "f"
+                or variable.startswith("provenance/") or re.fullmatch(WITHOUT_SI, variable)):
+            return
+        length, time = dimension(variable, moved)
+        said = item.attrs.get("si_units", "")
+        said = said.decode() if isinstance(said, bytes) else str(said)
+        factor = item.attrs.get("si_factor", 1.0)
+        want = METRE**length * second**-time
+        if re.search("[NJW]", said):
+            want *= MASS
+        elif said == "K":
+            want *= MASS / BOLTZMANN
+        elif said == "Hz":
+            want /= 2 * numpy.pi
+        elif "Hz-1" in said:
+            want *= 2 * numpy.pi
+        if (said == "") != (length == 0 and time == 0) or abs(factor / want - 1) > 1e-12:
+            faults.append(f"{name}: {variable} has si_factor {factor:.6g} {said}, where its dimension "
+                          f"makes {want:.6g}")
+    with h5py.File(path) as f:
+        f.visititems(look)
+    return faults
+
+
 def compare(name, plain, other, unit, moved):
     faults = []
     for path in sorted(set(plain) | set(other)):
@@ -188,11 +228,14 @@ def main():
         for name, deck, moved in DECKS:
             if only and name not in only:
                 continue
-            plain = results(program, folder, name, in_units(deck, (1.0, 1.0)))
+            plain = results(program, folder, name, in_units(deck, (1.0, 1.0)) + LABORATORY)
             if isinstance(plain, str):
                 print(f"{name}: {plain}")
                 failed = 1
                 continue
+            faults = compare_si(name, os.path.join(folder, name + ".h5"), moved)
+            print("\n".join(faults), end="\n" if faults else "")
+            failed |= bool(faults)
             for unit in UNITS:
                 other = results(program, folder, name, in_units(deck, unit))
                 faults = [f"{name}: {other}"] if isinstance(other, str) else \
