@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "continuation/map.h"
+#include "model/model.h"
 #include "orbits/orbit_newton.h"
 
 double pendres_parameter_scale(pendres_parameter parameter)
@@ -30,8 +31,7 @@ const char *pendres_follow_refuses(const pendres_orbit *o, pendres_parameter par
   const char *why = pendres_orbit_refuses(o);
   if (why == NULL) why = pendres_parameter_refuses(parameter, o->pendulum.force);
   if (why != NULL) return why;
-  if (o->winding != 0 && o->pendulum.drive_amplitude == 0.0 &&
-      o->pendulum.parametric_amplitude == 0.0)
+  if (o->winding != 0 && !pendres_model_driven(&o->pendulum))
     return "without a drive a rotation has a period of its own, and is no orbit of the strobe map";
   return NULL;
 }

@@ -319,6 +319,11 @@ int pendres_model_escapes(const pendres_pendulum *p, double y, double w)
   return side * y > far_out(p, side);
 }
 
+int pendres_model_driven(const pendres_pendulum *p)
+{
+  return p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0;
+}
+
 int pendres_model_is_linear(const pendres_pendulum *p)
 {
   return p->force == PENDRES_FORCE_POLYNOMIAL && p->force_coefficients[0] != 0.0 && powers(p) == 1;

@@ -81,6 +81,9 @@ double pendres_model_distance(const pendres_pendulum *p, double x, double v);
 /* Whether a pendulum in a state is certainly on its way to infinity; see pendres_outcome. */
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
 
+/* Whether the equation depends on the drive's phase; otherwise its frequency is but a clock. */
+int pendres_model_driven(const pendres_pendulum *p);
+
 /* Whether the force is linear, so that all motions under it have the same Floquet multipliers. */
 int pendres_model_is_linear(const pendres_pendulum *p);
 

@@ -16,6 +16,7 @@
 #include <gsl/gsl_roots.h>
 
 #include "base/angles.h"
+#include "model/model.h"
 #include "model/numbers.h"
 #include "model/rotation_slope.h"
 #include "model/rotation_stiff.h"
@@ -428,7 +429,7 @@ static const char *refuses(const pendres_pendulum *p)
   if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
   if (p->force != PENDRES_FORCE_PENDULUM)
     return "only the pendulum's force has rotations: other coordinates have no period";
-  if (p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0)
+  if (pendres_model_driven(p))
     return "under a drive a rotation has no period of its own: it is locked to the drive, an "
            "orbit, or quasi-periodic";
   if (!sound_damping(p->damping)) return "the damping of a rotation must lie between 1e-9 and 100";

@@ -5,6 +5,7 @@
 
 #include "base/angles.h"
 #include "base/sized.h"
+#include "model/model.h"
 
 static int is_size(pendres_fit_observable o)
 {
@@ -122,7 +123,7 @@ static const char *refuses_rotations(const pendres_fit_call *c)
   if (c->data->axis != PENDRES_TORQUE || (c->data->other != PENDRES_PARAMETER_COUNT && !of_damping))
     return "mean velocities are measured over the torque, at one or several dampings";
   if (p->force != PENDRES_FORCE_PENDULUM) return "only the pendulum's force has rotations";
-  if (p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0)
+  if (pendres_model_driven(p))
     return "mean velocities are those without a drive: its amplitude must be 0";
   for (size_t i = 0; i < c->model->unknowns; i++) {
     const int q = c->model->unknown[i].quantity;

@@ -10,14 +10,15 @@
 #include "analysis/sweeps/hysteresis_jump.h"
 #include "analysis/sweeps/numbers.h"
 #include "model/equation.h"
+#include "model/model.h"
 
 /* ---- what states look like ---- */
 
 /* Whether anything follows the drive; else its frequency concerns the pendulum in nothing. */
 static int driven(const pendres_ramp *r)
 {
-  return r->pendulum.drive_amplitude != 0.0 || r->pendulum.parametric_amplitude != 0.0 ||
-         r->parameter == PENDRES_DRIVE_AMPLITUDE || r->parameter == PENDRES_DRIVE_FREQUENCY ||
+  return pendres_model_driven(&r->pendulum) || r->parameter == PENDRES_DRIVE_AMPLITUDE ||
+         r->parameter == PENDRES_DRIVE_FREQUENCY ||
          r->parameter == PENDRES_PARAMETRIC_AMPLITUDE;
 }
 

@@ -11,6 +11,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "model/equation.h"
+#include "model/model.h"
 
 enum {
   NODES = 25,     /* of an interpolation */
@@ -248,8 +249,7 @@ pendres_status pendres_rotation_limit_between(const pendres_pendulum *p,
 
 int pendres_rotation_may_be(const pendres_pendulum *p)
 {
-  return p->force == PENDRES_FORCE_PENDULUM && p->drive_amplitude == 0.0 &&
-         p->parametric_amplitude == 0.0 && p->torque != 0.0;
+  return pendres_pendulum_rotates(p) && !pendres_model_driven(p);
 }
 
 /* How many upper equilibria lie behind a position, as the torque pushes. */

@@ -65,8 +65,8 @@ int pendres_means_undriven(const pendres_runner *r, pendres_lyapunov *out)
 {
   const pendres_pendulum *p = r->lane.pendulum;
   pendres_rotation rotation;
-  if (p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0 || r->lane.period == 0 ||
-      !pendres_pendulum_rotates(p) || pendres_rotation_find(p, &rotation, NULL) != PENDRES_OK)
+  if (r->lane.period == 0 || !pendres_pendulum_rotates(p) ||
+      pendres_rotation_find(p, &rotation, NULL) != PENDRES_OK)
     return 0;
   const double turns = rotation.mean_velocity / p->drive_frequency;
   /* What rests has turned no further for long, and nothing rotates against the torque. */

@@ -28,8 +28,7 @@ static const pendres_lyapunov unknown = {.label = PENDRES_LABEL_UNRESOLVED, .exp
 
 int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 {
-  const int driven = p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0;
-  return driven && pendres_pendulum_rotates(p);
+  return pendres_model_driven(p) && pendres_pendulum_rotates(p);
 }
 
 /* ---- coming back --------------------------------------------------------------------------- */
