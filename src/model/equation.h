@@ -3,9 +3,9 @@
  *
  *     x'' + h(x') + f(x) (1 + b cos omega t) = I + F0 cos omega t.
  *
- * Owns: the friction, and all that is concluded from it. Here alone, and in the kernels' loops, it
- * stands that h = damping x'. What asks for a bound gets one; what asks for a time or a width gets
- * a guess, by which work is planned and nothing is told.
+ * Owns: the friction, and what is concluded from it. That h = damping x' stands here, in kernels'
+ * loops, and where docs/architecture.md says so. What asks for a bound gets one; what asks for a
+ * time or a width gets a guess, by which work is planned and nothing is told.
  */
 #ifndef PENDRES_EQUATION_H
 #define PENDRES_EQUATION_H
