@@ -107,8 +107,8 @@ static void response(accuracy_random *r, void *of, long number)
     const double far = lab_uniform(&seed) < dirty ? 10.0 : 1.0;
     data[i] = (pendres_fit_datum){
       .observable = PENDRES_FIT_AMPLITUDE, .direction = 1, .axis = w, .error = t->noise * top,
-      .observed = t->of.drive / hypot(1.0 - w * w, t->of.damping * w) +
-                  far * t->noise * top * lab_normal(&seed)};
+      .observed = fabs(t->of.drive / hypot(1.0 - w * w, t->of.damping * w) +
+                       far * t->noise * top * lab_normal(&seed))}; /* as instruments have it */
   }
   pendres_fit_model model = {
     .pendulum = {.force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0}}};
