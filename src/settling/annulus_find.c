@@ -233,14 +233,14 @@ static pendres_status find_wide(pendres_context *ctx, const pendres_attractor_se
 /* ---- means ---- */
 
 /* The mean number of turns a drive period of a pendulum on the curve, and whether it is on such a
-   rotation at all: a lock of many periods has a curve around the cylinder, too. */
+   rotation at all: a lock of many periods has a curve around the cylinder, too. Afterwards it is
+   nearer to the curve than this was drawn: weakly damped, it would not come to it in an average. */
 static pendres_status find_turns(pendres_context *ctx, const pendres_attractor_set *c,
                                  pendres_open_measures *m, int *found)
 {
-  double x = m->x, v = m->v;
   pendres_lyapunov told;
   pendres_orbit orbit;
-  const pendres_lyapunov_motion motion = {.n = 1, .pendulum = &c->pendulum, .x = &x, .v = &v,
+  const pendres_lyapunov_motion motion = {.n = 1, .pendulum = &c->pendulum, .x = &m->x, .v = &m->v,
                                           .out = &told, .orbit = &orbit, .points = 1};
   const pendres_status status = pendres_lyapunov_move(ctx, &motion, PENDRES_CARE_FULL);
   *found = status == PENDRES_OK && told.period == 0 &&
