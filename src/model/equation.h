@@ -42,7 +42,7 @@ static inline double pendres_equation_left(double contraction, double computed)
 /* NULL, or why nothing settles: a static sentence. */
 const char *pendres_equation_undamped(const pendres_pendulum *p);
 
-/* The speed at which friction balances a push; infinite if none does. */
+/* The speed at which friction balances a push; infinite if none does, NaN if there is neither. */
 double pendres_equation_speed(const pendres_pendulum *p, double push);
 
 /* By what power of e motions come together in a drive period: half of what

@@ -334,10 +334,9 @@ int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
   int same = a->force == b->force;
   for (int k = 0; k < PENDRES_PARAMETER_COUNT && same; k++) {
     const pendres_parameter parameter = (pendres_parameter)k;
-    const double value = pendres_parameter_get(parameter, a);
-    /* There is none of the state. */
-    same = parameter == PENDRES_TEMPERATURE || isnan(value) ||
-           value == pendres_parameter_get(parameter, b);
+    const int of_state = pendres_parameter_place(parameter) >= sizeof *a;
+    same = parameter == PENDRES_TEMPERATURE || of_state ||
+           pendres_parameter_get(parameter, a) == pendres_parameter_get(parameter, b);
   }
   return same;
 }
