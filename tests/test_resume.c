@@ -122,6 +122,21 @@ static void paths_make_headway(void **state)
                 "&bifurcation_diagram x = 1.6, strobes = 20 /\n");
 }
 
+/* Where no state of a path can be written that is said at once, with the reason. */
+static void states_that_cannot_be_kept(void **state)
+{
+  const char *const arguments[] = { "-q", "-t1", "-o", "tight.h5", "deck.nml", NULL };
+  (void)state;
+  write_text("deck.nml", "&scene kind = 'hysteresis' /\n"
+             "&pendulum damping = 0.5, drive_frequency = 0.66666666666666667 /\n"
+             "&sweep drive_amplitude_range = 1.06, 1.083, 24 /\n&hysteresis x = 1.6 /\n");
+  const pid_t pid = start("stdout.txt", 8192, arguments); /* a state is larger */
+  assert_int_equal(finish(pid), 1);
+  check_says(err, "cannot write the journal");
+  check_says(err, "is not kept if the run is stopped");
+  (void)remove("tight.h5.journal");
+}
+
 /* A fit is a search, and its state where that is: of a linear decay, whose scale nothing tells, the
    model is computed at some thousand values. */
 static void fits_make_headway(void **state)
@@ -257,6 +272,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(killed_at_any_moment), TEST(stopped_by_signal),
                                       TEST(paths_make_headway), TEST(fits_make_headway),
+                                      TEST(states_that_cannot_be_kept),
                                       TEST(place_of_journal), TEST(other_roundings_are_told),
                                       TEST(killed_without_locks),
                                       TEST(kept_for_others) };

@@ -12,17 +12,21 @@
  * earlier run; a trial hears how much of it is done. So does work outside of tasks.
  */
 typedef struct task_state {
-  struct farm_trial *trial;
-  journal *journal; /* NULL: none is kept */
+  farm *farm;
+  pthread_mutex_t *lock; /* of the progress meanwhile */
+  journal *journal;      /* NULL: none is kept */
   uint64_t stage;
   size_t task;
   double begun, next; /* seconds: when the task began, and when a state is wanted next */
   farm_record last;   /* of an earlier run */
 } task_state;
 
-/* Begin with stage, task, journal and trial set. */
+/* Begin with farm, lock, journal, stage and task set. */
 void state_begin(task_state *s, pendres_context *ctx);
 void state_end(task_state *s, pendres_context *ctx);
+
+/* Say why the journal cannot be written. */
+void farm_tell_unkept(farm *f, pthread_mutex_t *lock, const char *words);
 
 struct farm {
   farm_options options;

@@ -181,11 +181,7 @@ static int keep(pool *c, size_t task, farm_record *record, pendres_status *statu
     *status = PENDRES_IO;
     snprintf(record->message, sizeof record->message, "%.500s", words);
   }
-  if (c->others > 0 || words[0] == '\0') return 0;
-  pthread_mutex_lock(&c->lock);
-  progress_error(c->farm->options.progress, "%s; what is computed from now on is not kept if the "
-                 "run is stopped", words);
-  pthread_mutex_unlock(&c->lock);
+  if (c->others == 0 && words[0] != '\0') farm_tell_unkept(c->farm, &c->lock, words);
   return 0;
 }
 
@@ -236,8 +232,8 @@ void pool_finish(pool *c, size_t task, pendres_status status, farm_record *recor
 /* Run a task; its record then holds what it has cost, and why it failed. */
 static pendres_status run_task(pool *c, worker *w, pendres_context *ctx, farm_record *record)
 {
-  task_state state = { .trial = c->farm->trial, .journal = c->journal, .stage = c->number,
-                       .task = w->task };
+  task_state state = { .farm = c->farm, .lock = &c->lock, .journal = c->journal,
+                       .stage = c->number, .task = w->task };
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
   settle_books(c->farm, ctx);

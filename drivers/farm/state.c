@@ -11,18 +11,28 @@
 static int due(void *arg, double done)
 {
   const task_state *s = arg;
-  if (s->trial != NULL) s->trial->share = done;
-  return s->trial == NULL && s->journal != NULL && clock_wall() >= s->next;
+  farm_trial *trial = s->farm->trial;
+  if (trial != NULL) trial->share = done;
+  return trial == NULL && s->journal != NULL && clock_wall() >= s->next;
+}
+
+void farm_tell_unkept(farm *f, pthread_mutex_t *lock, const char *words)
+{
+  pthread_mutex_lock(lock);
+  progress_error(f->options.progress, "%s; what is computed from now on is not kept if the run is "
+                 "stopped", words);
+  pthread_mutex_unlock(lock);
 }
 
 /* The longer a task takes the less often, and never so often that writing takes long. */
 static void put(void *arg, const void *state, size_t size)
 {
   task_state *s = arg;
-  char words[JOURNAL_WORDS]; /* the finished task's record will say why none can be written */
+  char words[JOURNAL_WORDS];
   const double before = clock_wall();
   const farm_record kept = { .data = (void *)(uintptr_t)state, .size = size };
   (void)journal_append(s->journal, s->stage, s->task | JOURNAL_STATE, &kept, words);
+  if (words[0] != '\0') farm_tell_unkept(s->farm, s->lock, words);
   const double now = clock_wall();
   s->next = now + fmax(fmax(state_every, state_share * (now - s->begun)),
                        (now - before) / state_share);
@@ -46,7 +56,8 @@ void state_end(task_state *s, pendres_context *ctx)
 
 void farm_keep_begin(farm *f, pendres_context *ctx, const char *what)
 {
-  f->outside = (task_state){ .journal = f->trial == NULL ? f->journal : NULL,
+  f->outside = (task_state){ .farm = f, .lock = &f->lock,
+                             .journal = f->trial == NULL ? f->journal : NULL,
                              .stage = journal_stage(f->stages, what, 1, 0) };
   state_begin(&f->outside, ctx);
 }
