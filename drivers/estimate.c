@@ -71,7 +71,7 @@ static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 static double estimate_journal(const deck *d, const farm_trial *t)
 {
   if (t->what == NULL) return t->journal;
-  if (t->tried > 0) return t->journal * size_of(d)->stages;
+  if (t->journal > 0.0) return t->journal * size_of(d)->stages;
   return runs_of(d) * (size_of(d)->journal * points_of(d) + 8.0 * values_of(d));
 }
 

@@ -212,6 +212,12 @@ static const double watched = 1.0;
 static void test_dry_and_long(void **state)
 {
   (void)state;
+  write_text("path.nml", "&scene kind = 'hysteresis' /\n&pendulum damping = 0.5, "
+                         "drive_frequency = 0.667 /\n&hysteresis x = 1.6 /\n"
+                         "&sweep drive_amplitude_range = 0.5, 0.53, 5 /\n");
+  check_code(RUN("--dry-run", "-t", "1", "path.nml"), DONE);
+  check_says(out, "drive periods altogether"); /* of the path, which is not like other tasks */
+  check_says(out, "a journal of ");
   write_text("weak.nml", "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
                          "&sweep damping = 1e-5, 1e-4, 1e-3 /\n");
   check_code(RUN("--dry-run", "-t", "1", "weak.nml"), DONE);

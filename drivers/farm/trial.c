@@ -12,6 +12,12 @@
 /* Of a task's record in the journal, beside its data. */
 enum { ENTRY = sizeof(journal_entry) };
 
+/* What tasks that came to their end have taken. */
+typedef struct tally {
+  double bytes, changes;
+  pendres_cost cost;
+} tally;
+
 /* The tasks of a stage that are tried: those that the pool has done. Time is that of all threads:
    there are no others then. */
 typedef struct stage_trial {
@@ -19,8 +25,8 @@ typedef struct stage_trial {
   size_t count, cut;    /* that came to their end, and that the end of the trial cut short */
   size_t paths, known;  /* paths that came to their end, and those of which a share was done, too */
   double path_seconds;  /* of these, all of each */
-  double seconds, bytes, changes; /* seconds of both kinds, without paths */
-  pendres_cost cost;
+  double seconds;       /* of both kinds, without paths */
+  tally of_paths, of_others;
 } stage_trial;
 
 void farm_set_trial(farm *f, farm_trial *t)
@@ -93,14 +99,23 @@ static pendres_status try_task(stage_trial *s, size_t task)
   if (status == PENDRES_OK) {
     s->paths += (size_t)path;
     s->count += (size_t)!path;
-    s->bytes += (double)stored_bytes(&record);
-    s->changes += (double)changes_in(&record, c->stage->element);
-    s->cost.pendulum_periods += record.cost.pendulum_periods;
-    s->cost.settled_pendulums += record.cost.settled_pendulums;
+    tally *of = path ? &s->of_paths : &s->of_others;
+    of->bytes += (double)stored_bytes(&record);
+    of->changes += (double)changes_in(&record, c->stage->element);
+    of->cost.pendulum_periods += record.cost.pendulum_periods;
+    of->cost.settled_pendulums += record.cost.settled_pendulums;
     pool_finish(c, task, status, &record);
   }
   free(record.data);
   return status != PENDRES_OK ? status : c->status;
+}
+
+static void add(farm_trial *t, double times, const tally *of)
+{
+  t->journal += times * of->bytes;
+  t->changes += times * of->changes;
+  t->cost.pendulum_periods += times * of->cost.pendulum_periods;
+  t->cost.settled_pendulums += times * of->cost.settled_pendulums;
 }
 
 /* Extrapolate from the tasks that were tried to all of the stage. */
@@ -113,10 +128,8 @@ static void conclude(const stage_trial *s)
   /* A task that was cut short takes at least the time that it has taken so far. */
   t->seconds += s->path_seconds;
   t->seconds += tasks / fmax((double)(s->count + s->cut), 1.0) * s->seconds;
-  t->journal += all * s->bytes;
-  t->changes += all * s->changes;
-  t->cost.pendulum_periods += all * s->cost.pendulum_periods;
-  t->cost.settled_pendulums += all * s->cost.settled_pendulums;
+  add(t, 1.0, &s->of_paths);
+  add(t, all, &s->of_others);
   t->what = s->paths + s->count < stage->tasks ? stage->what : NULL;
   t->tried = s->known + s->count;
   t->cut = s->cut > 0;
