@@ -224,6 +224,12 @@ pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_profile *
     memcpy(best->v, s->lowest.v, sizeof best->v);
     status = pendres_fit_solve(p, iterations, best);
   }
+  s->begun = 0;
+  if (s->again == FIT_AGAIN) { /* better values each time: of the last ones nothing is known */
+    best->converged = best->determined = 0;
+    for (size_t k = 0; k < p->unknowns; k++) best->spread[k] = INFINITY;
+    return status;
+  }
   /* Where a solver stalls in a long valley this tells that it is at the lowest place. */
   best->converged |= followed && s->whole && s->lowest.along == 0.0;
   best->determined = 1;
@@ -231,6 +237,5 @@ pendres_status pendres_fit_profile(fit_problem *p, int iterations, fit_profile *
     best->determined &= isfinite(best->spread[k]) != 0;
     if (s->far[k] > 0.0) best->combination[s->by[k]].open = !isfinite(best->spread[k]);
   }
-  s->begun = 0;
   return status;
 }
