@@ -90,8 +90,8 @@ static void take_notes(const pendres_fit_call *c, const fit_problem *p, const fi
                        pendres_fit *fit)
 {
   const pendres_fit_summary *s = &fit->summary;
-  for (size_t c = 0; c < best->combinations && !best->determined; c++)
-    if (best->combination[c].open) note_open(p, best, &best->combination[c], fit);
+  for (size_t i = 0; i < best->combinations && !best->determined; i++)
+    if (best->combination[i].open) note_open(p, best, &best->combination[i], fit);
   for (size_t k = 0; k < p->unknowns; k++)
     if (best->at_bound[k])
       note(fit, "%s is at its bound: its error is that of a value held there",

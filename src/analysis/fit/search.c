@@ -4,6 +4,7 @@
  */
 #include "analysis/fit/search.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -98,7 +99,9 @@ static void pass_state(pendres_bytes *b, fit_search *s)
   pendres_bytes_pass(b, 1, sizeof p->m->active, &p->m->active);
   pendres_bytes_fit(b, (unsigned)s->at.stage <= FIT_CONCLUDING && s->at.next >= 0 &&
                        s->at.next <= s->starts && p->m->active <= p->m->stations &&
-                       s->profile.next <= p->unknowns &&
+                       p->m->usual_steps >= 0 && p->m->usual_steps <= INT_MAX / FIT_MORE_STEPS &&
+                       s->profile.next <= p->unknowns && s->profile.way >= -1 &&
+                       s->profile.way <= 1 &&
                        s->profile.count < FIT_PROFILE_PLACES);
   for (size_t k = 0; k < p->unknowns; k++)
     pendres_bytes_fit(b, s->profile.by[k] <= p->unknowns);
