@@ -47,7 +47,7 @@ static const struct {
   {"method", PENDRES_NAMES_METHOD, PENDRES_METHOD_COUNT,
    {"block_fixed", "block_adaptive", "single", "cvode_adams", "cvode_bdf", "naive"}},
   {"other", PENDRES_NAMES_OTHER, 0,
-   {"asymmetric", "periodic", "running", "chaotic", "unresolved", "escape"}},
+   {"asymmetric", "periodic", "running", "chaotic", "unresolved", "escape", "unstable"}},
   {"parameter", PENDRES_NAMES_PARAMETER, PENDRES_PARAMETER_COUNT,
    {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2",
     "a3", "a4", "a5", "drive_period", "temperature", "x", "v"}},
