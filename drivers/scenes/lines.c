@@ -235,13 +235,6 @@ static void judge(scene_lines *l)
       const size_t members = l->grid.options.ensemble.members;
       scene_failure_unsettled(l->run->deck, unresolved, members, "members",
                               points[i].weakest_multiplier, words);
-      /* Which is refused where there is a drive. */
-      const pendres_pendulum p = scene_lines_pendulum(l, i);
-      pendres_rotation r;
-      if (pendres_rotation_find(&p, &r, NULL) == PENDRES_OK)
-        snprintf(words, sizeof words, "%zu of %zu members are on no orbit of the drive's clock: a "
-                 "rotation is there, which without a drive has a period of its own",
-                 unresolved, members);
       scene_failure_mark(l->run, &l->points.failed[i], SCENE_FAILURE_UNRESOLVED, words);
     }
   }
