@@ -29,7 +29,7 @@ NAMES(scene_jump_names, pendres_name_get(PENDRES_NAMES_JUMP, value))
 NAMES(scene_cloud_names, pendres_name_get(PENDRES_NAMES_CLOUD_VERDICT, value))
 NAMES(scene_switching_names, pendres_name_get(PENDRES_NAMES_SWITCHING_VERDICT, value))
 
-/* All names but that of rotations without a lock, which only sweeps and maps tell. */
+/* All names but those of rotations without a lock and of rest that is unstable: few have these. */
 const char *scene_fate_names(int value)
 {
   return value < PENDRES_LABEL_QUASI_PERIODIC ? scene_motion_names(value) : NULL;

@@ -22,8 +22,8 @@
  * of free oscillations that the drive can sustain. Only the work of drive_amplitude counts, not
  * that of a torque or a parametric drive: without drive_amplitude there is no resonance. Members
  * that escape to infinity, or rest in an unstable state, are in no mean: it is that of the others.
- * Members without a known attractor, such as rotations that do not lock to the drive, have no loop
- * area: errors allow for them as if they could be on any state.
+ * Members without a known attractor have no loop area: errors allow for them as if they could be on
+ * any state.
  */
 #ifndef PENDRES_RESONANCE_H
 #define PENDRES_RESONANCE_H

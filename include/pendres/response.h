@@ -14,11 +14,12 @@
  *   closed       yes           yes         yes
  *   running      yes           no          no   (closes but for whole turns)
  *   chaotic      yes           yes         no   (has no well to be shifted to)
- *   chaotic with a drift: as running; unresolved: in none
+ *   chaotic with a drift, and rotations that do not close: as running; unresolved: in none
  *
  * A chaotic member contributes time averages over its attractor, per drive cycle: the work of the
  * drive (loop area, power) and half the peak to peak of the angle (amplitude); their errors, which
- * are statistical, are described in attractor.h. A mean that no member enters is NaN, such as the
+ * are statistical, are described in attractor.h. One on a rotation that does not close contributes
+ * the mean work. A mean that no member enters is NaN, such as the
  * loop and its phase lag in an ensemble of which all members are chaotic. Errors allow for the
  * share of unresolved members, for members whose state is uncertain, and for the sampling of an
  * area of starts.
