@@ -1,7 +1,7 @@
 # packages.mk -- what this needs of others, `make deps` and its like, and what others take of it,
 # `make sdist` and `make wheel`.
 
-.PHONY: deps deps-mpi deps-fuzz deps-plots deps-python sdist wheel
+.PHONY: deps deps-explorer deps-mpi deps-fuzz deps-plots deps-python sdist wheel
 
 sdist wheel:
 	@packaging/wheel.sh $@
@@ -14,6 +14,8 @@ MPI_PACKAGES := openmpi-bin libopenmpi-dev
 PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
 FUZZ_PACKAGES := clang libclang-rt-dev
 PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
+EXPLORER_PACKAGES := python3-venv chromium
+EXPLORER_MODULES := bokeh cffi h5netcdf h5py matplotlib numpy panel param playwright xarray
 
 deps:
 	@.ci/packages $(PACKAGES)
@@ -29,3 +31,8 @@ deps-fuzz:
 
 deps-python:
 	@.ci/packages $(PYTHON_PACKAGES)
+
+deps-explorer:
+	@.ci/packages $(EXPLORER_PACKAGES)
+	python3 -m venv $(BUILD)/explorer
+	$(BUILD)/explorer/bin/pip install --quiet $(EXPLORER_MODULES)
