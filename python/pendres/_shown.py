@@ -16,8 +16,11 @@ def told(value, error):
         return f"{value:.3g} (error unknown)"
     if error == 0:
         return f"{value:.12g}"
-    digits = int(np.clip(1 - np.floor(np.log10(error)), 0, 12))
-    return f"{value:.{digits}f} ± {error:.0e}"
+    places = 1 - int(np.floor(np.log10(error)))
+    if places > 12 and 0 < abs(value) < 1e-3:  # beyond what is written out
+        digits = int(np.clip(places + np.floor(np.log10(abs(value))), 0, 12))
+        return f"{value:.{digits}e} ± {error:.0e}"
+    return f"{value:.{min(max(places, 0), 12)}f} ± {error:.0e}"
 
 
 def word(kind, value):
