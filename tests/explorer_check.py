@@ -55,6 +55,7 @@ def check_numbers():
     assert {"sa strobes", "la strobes"} <= set(warm.layers)
     assert views.told(0.123456, 1e-3) == "0.1235 ± 1e-03" and views.told(np.nan, 1) == "–"
     assert "unknown" in views.told(1.0, np.nan)
+    assert views.told(1e-14, 1e-18) == "1.00000e-14 ± 1e-18"  # of a weak drive
 
 
 def check_scenes():
@@ -78,6 +79,9 @@ def check_scenes():
     except ValueError as why:
         assert "1 to 5 numbers" in str(why)
     assert settings.Settings.of_address({"damping": [b"x"], "v": [b"2"]}).v == 2
+    ranges = settings.Settings().scene("basins", (0.0, 2.56, -1.0, 1.56))[1]  # of what is seen
+    assert np.allclose((*ranges["x_range"], *ranges["v_range"]),
+                       (0.005, 2.555, 256, -0.995, 1.555, 256))
 
 
 def check_files():
@@ -89,7 +93,13 @@ def check_files():
         for form, head in (("svg", b"<?xml"), ("pdf", b"%PDF")):
             assert saved(found.words(name), picture, form).startswith(head)
     assert "regime" in found.names and found.at("regime", 0.7, 0.15) == {
-        "drive_frequency": 0.7, "damping": 0.15, "drive_amplitude": 0.2}
+        "drive_frequency": 0.7, "damping": 0.15, "drive_amplitude": 0.2, "torque": 0.0,
+        "parametric_amplitude": 0.0, "temperature": 0.0, "model": "pendulum"}
+    wells = results.Results(pendres.basins(
+        force=[-1.0, 0.0, 1.0], damping=0.2, drive_amplitude=0.1, drive_frequency=1.1, torque=0.05,
+        x_range=(-1.0, 1.0, 3), v_range=(-1.0, 1.0, 3))).at("label", -0.25, 0.5)  # v is across
+    chosen = settings.Settings(**wells)
+    assert chosen.force() == (-1, 0, 1) and (chosen.torque, chosen.x, chosen.v) == (0.05, 0.5, -0.25)
     colours = area_colours(["sa", "la", "periodic", "periodic", "escape"])
     assert len(set(colours)) == len(colours)
 

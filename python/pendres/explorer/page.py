@@ -87,25 +87,26 @@ class Page:
 
     def _events(self, name):
         if name in ("basins", "portrait", "noise"):
-            events = {"clicked": self._start}
+            events = {"clicked": lambda x, v: self._pick(x=x, v=v)}
         elif name == "response":
-            events = {"clicked": lambda x, _y: self._pick("drive_frequency", x)}
+            events = {"clicked": lambda x, _y: self._pick(drive_frequency=x)}
         elif name == "current":
-            events = {"clicked": lambda x, _y: self._pick("torque", x)}
+            events = {"clicked": lambda x, _y: self._pick(torque=x)}
         elif name == "diagram":
-            events = {"clicked": lambda x, _y: self._pick(self.settings.along, x)}
+            events = {"clicked": lambda x, _y: self._pick(**{self.settings.along: x})}
         else:
             events = {}
         if name == "basins":
             events["ranged"] = self._zoomed
         return events
 
-    def _pick(self, name, value):
-        low, high = self.settings.param[name].bounds
-        self.settings.param.update(**{name: min(max(round(value, 6), low), high)})
-
-    def _start(self, x, v):
-        self.settings.param.update(x=round(x, 6), v=round(v, 6))
+    def _pick(self, **found):
+        """Set knobs to what was clicked, as far as they go."""
+        for name, value in found.items():
+            if isinstance(value, float):
+                low, high = self.settings.param[name].bounds or (value, value)
+                found[name] = min(max(round(value, 6), low), high)
+        self.settings.param.update(**found)
 
     def _zoomed(self, seen):
         if None in seen or self.seen.get("basins") == seen:
@@ -209,7 +210,7 @@ class Page:
             return
         try:
             write = self.settings.deck if self.form.value == "deck" else self.settings.python
-            self.deck.value = write(self.which.value)
+            self.deck.value = write(self.which.value, self.seen.get(self.which.value))
         except (ValueError, TypeError, OSError) as why:
             self.deck.value = f"! {why}"
 
@@ -231,7 +232,7 @@ class Page:
         def draw(_event=None):
             name = choice.value
             plot = Plot(*self.results.words(name),
-                        clicked=lambda x, y: self.settings.param.update(**self.results.at(name, x, y)))
+                        clicked=lambda x, y: self._pick(**self.results.at(name, x, y)))
             picture = self.results.picture(name)
             plot.draw(picture)
             room[:] = [pn.pane.Bokeh(plot.figure, sizing_mode="stretch_width")]

@@ -3,7 +3,7 @@ point of it."""
 import numpy as np
 
 from .. import _files
-from .settings import KNOBS
+from .settings import ABSENT, KNOBS, Settings
 from .views import Picture
 
 
@@ -51,14 +51,16 @@ class Results:
         return Picture({}, (values, names, _ends(x), _ends(y)), rows, note)
 
     def at(self, name, x, y):
-        """The knobs at a place of a picture, as far as the file tells them."""
-        found = {knob: float(self.data[knob]) for knob in KNOBS
-                 if knob in self.data and self.data[knob].ndim == 0}
+        """The knobs at a place of a picture, as far as the file tells them, and its model."""
         dims = self.data[name].dims
-        for dim, value in zip(dims, (x,) if len(dims) == 1 else (y, x)):
-            if dim in KNOBS or dim in ("x", "v"):
-                found[dim] = float(value)
-        return {knob: value for knob, value in found.items() if np.isfinite(value)}
+        here = dict(zip(dims, (x,) if len(dims) == 1 else (y, x)))
+        given = {k: float(v) for k, v in self.data.variables.items()
+                 if v.ndim == 0 and v.dtype.kind == "f"} | here
+        found = {k: float(given[k]) for k in KNOBS if k in given}
+        found |= {k: float(here[k]) for k in ("x", "v") if k in here}
+        found = {k: value for k, value in found.items() if np.isfinite(value)}
+        found = {k: 0.0 for k in ABSENT if k not in self.data.variables} | found
+        return found | Settings.model_of([given.get(f"a{k}", 0.0) for k in range(1, 6)])
 
 
 def _axis(variable):

@@ -21,6 +21,7 @@ KNOBS = {  # name: lowest, highest, step
     "drive_frequency": (0.05, 3.0, 0.005), "torque": (-1.5, 1.5, 0.01),
     "parametric_amplitude": (0.0, 1.0, 0.01), "temperature": (0.0, 0.2, 0.001),
 }
+ABSENT = "torque", "parametric_amplitude", "temperature"  # from files where they are 0
 LONGEST = 1e6  # of anything typed; the library says what it cannot take
 
 
@@ -79,6 +80,15 @@ class Settings(param.Parameterized):
                 continue
         return found
 
+    @staticmethod
+    def model_of(coefficients):
+        """The settings for a force with these coefficients; all 0: the pendulum's."""
+        if not any(coefficients):
+            return {"model": "pendulum"}
+        most = max(k for k, a in enumerate(coefficients) if a) + 1
+        return {"model": "own polynomial",
+                "coefficients": ", ".join(f"{a:.12g}" for a in coefficients[:most])}
+
     def force(self):
         """The polynomial's coefficients, or None for the pendulum."""
         if self.model != "own polynomial":
@@ -106,14 +116,28 @@ class Settings(param.Parameterized):
         """The library's."""
         return _handles.pendulum(**(self.keywords() | other))
 
-    def scene(self, view):
-        """The kind of scene and the keywords that compute what a view shows."""
+    def window(self, seen=None):
+        """The starts that a picture of basins has: what is seen of it, or the turn, or the wells
+        and what moves in them."""
+        if seen and all(np.isfinite(seen)) and seen[1] > seen[0] and seen[3] > seen[2]:
+            return tuple(seen)
+        if not self.force():
+            return -np.pi / 2, 3 * np.pi / 2, -2.5, 2.5
+        a = self.force()
+        third = abs(a[2]) if len(a) > 2 and a[2] else abs(a[1]) if len(a) > 1 and a[1] else 1.0
+        reach = 2.2 * max(np.sqrt(abs(a[0]) / third), np.cbrt(self.drive_amplitude / third), 0.5)
+        return -reach, reach, -1.5 * reach, 1.5 * reach
+
+    def scene(self, view, seen=None):
+        """The kind of scene and the keywords that compute what a view shows, and is seen of it."""
         own, start = self.keywords(), {"x": self.x, "v": self.v}
         still = {k: own[k] for k in own if k != "temperature"}  # scenes without noise refuse it
         span = ["drive_frequency", self.lowest, self.highest, 101]
         if view == "basins":
-            return "basins", still | {"x_range": (self.x - 3, self.x + 3, 256),
-                                      "v_range": (-2.5, 2.5, 256)}
+            x0, x1, v0, v1 = map(float, self.window(seen))
+            x, v = (x1 - x0) / 512, (v1 - v0) / 512  # half a cell: starts are in their middles
+            return "basins", still | {"x_range": (x0 + x, x1 - x, 256),
+                                      "v_range": (v0 + v, v1 - v, 256)}
         if view == "diagram":
             return self._along("bifurcation_diagram", still | start,
                                [self.along, self.first, self.last, 301])
@@ -133,12 +157,12 @@ class Settings(param.Parameterized):
         keywords = {k: v for k, v in keywords.items() if k != name}
         return kind, keywords | {f"{name}_range": (float(first), float(last), count)}
 
-    def python(self, view):
+    def python(self, view, seen=None):
         """A call that computes what a view shows."""
-        kind, keywords = self.scene(view)
+        kind, keywords = self.scene(view, seen)
         given = ",\n    ".join(f"{name}={value!r}" for name, value in keywords.items())
         return f"import pendres\n\nfound = pendres.{kind}(\n    {given})\nprint(found)\n"
 
-    def deck(self, view):
+    def deck(self, view, seen=None):
         """The deck of the same scene."""
-        return _scenes.deck_of(*self.scene(view))
+        return _scenes.deck_of(*self.scene(view, seen))

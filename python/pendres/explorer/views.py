@@ -192,22 +192,9 @@ def _branch_layers(branch, layers):
 # ---- Basins --------------------------------------------------------------------------------------
 
 
-def window(settings, seen):
-    """The starts that a picture of basins has: what is seen of it, or the turn, or the wells and
-    what moves in them."""
-    if seen and all(np.isfinite(seen)) and seen[1] > seen[0] and seen[3] > seen[2]:
-        return tuple(seen)
-    if not settings.force():
-        return -np.pi / 2, 3 * np.pi / 2, -2.5, 2.5
-    a = settings.force()
-    third = abs(a[2]) if len(a) > 2 and a[2] else abs(a[1]) if len(a) > 1 and a[1] else 1.0
-    reach = 2.2 * max(np.sqrt(abs(a[0]) / third), np.cbrt(settings.drive_amplitude / third), 0.5)
-    return -reach, reach, -1.5 * reach, 1.5 * reach
-
-
 def basins(settings, seen, context):
     """Which start ends where, on finer and finer grids."""
-    x0, x1, v0, v1 = window(settings, seen)
+    x0, x1, v0, v1 = settings.window(seen)
     p = settings.pendulum(temperature=0.0)
     for n in GRIDS:
         cells = (np.arange(n) + 0.5) / n
