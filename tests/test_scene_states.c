@@ -212,6 +212,31 @@ static void rings_escape(void **state)
   pendres_store_free(store);
 }
 
+/* Upright pendulums rest there where nothing but their length is driven, and `other` has a name for
+   that. */
+static void upright_rest_is_named(void **state)
+{
+  size_t n = 0;
+  char *meanings = NULL;
+  (void)state;
+  scene_run_deck("&scene kind = 'phase_diagram' /\n"
+                 "&pendulum drive_amplitude = 0, damping = 0.3 /\n"
+                 "&sweep parametric_amplitude = 0, 0.4, drive_frequency = 1.6, 2 /\n"
+                 "&ensemble members = 5, x_first = -1.5707963267948966,\n"
+                 "  x_last = 4.71238898038469 /\n",
+                 1, "upright");
+  pendres_store *store = scene_open("upright");
+  check_ok(pendres_store_read_attribute_text(store, "", "other", "flag_meanings", &meanings));
+  assert_string_equal(meanings,
+                      "none asymmetric periodic running chaotic unresolved escape unstable");
+  double *other = scene_values(store, "other", &n);
+  assert_int_equal(n, 4);
+  for (size_t i = 0; i < n; i++) assert_true(other[i] == PENDRES_OTHER_UNSTABLE);
+  free(meanings);
+  free(other);
+  pendres_store_free(store);
+}
+
 /* A fractal boundary fills a grid; then the exponent is from random states, as in the library. */
 static void exponent_of_a_fractal_boundary(void **state)
 {
@@ -326,6 +351,7 @@ int main(void)
     cmocka_unit_test(basins_of_baker_and_gollub),
     cmocka_unit_test(wells_are_counted),
     cmocka_unit_test(rings_escape),
+    cmocka_unit_test(upright_rest_is_named),
     cmocka_unit_test(exponent_of_a_fractal_boundary),
     cmocka_unit_test(same_bytes_on_any_threads),
     cmocka_unit_test(refined_until_a_sample_is_clean),

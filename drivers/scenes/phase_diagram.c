@@ -20,7 +20,8 @@ static void describe(const deck *d, FILE *out)
 
 static const int8_t other_bits[] = {0, PENDRES_OTHER_ASYMMETRIC, PENDRES_OTHER_PERIODIC,
                                     PENDRES_OTHER_RUNNING, PENDRES_OTHER_CHAOTIC,
-                                    PENDRES_OTHER_UNRESOLVED, PENDRES_OTHER_ESCAPE};
+                                    PENDRES_OTHER_UNRESOLVED, PENDRES_OTHER_ESCAPE,
+                                    PENDRES_OTHER_UNSTABLE};
 
 static const char *others(int value)
 {
@@ -29,15 +30,25 @@ static const char *others(int value)
                                         : NULL;
 }
 
-/* Where nothing escapes. */
-static const char *others_that_stay(int value)
+/* Under a drive, which rest needs to be without, and where nothing escapes. */
+static const char *others_driven(int value)
 {
   return value + 1 < (int)sizeof other_bits ? others(value) : NULL;
 }
 
+static const char *others_that_stay(int value)
+{
+  return value + 2 < (int)sizeof other_bits ? others(value) : NULL;
+}
+
 static int stays(const deck *d)
 {
-  return !deck_leaves(d);
+  return !deck_may_rest(d) && !deck_leaves(d);
+}
+
+static int leaves(const deck *d)
+{
+  return !deck_may_rest(d) && deck_leaves(d);
 }
 
 #define OTHER(which, names_of)                                                                     \
@@ -52,7 +63,8 @@ static const scene_column columns[] = {
                "are known as attractors, by the branches, whether members reach them or not"),
    .names = scene_regime_names},
   OTHER(stays, others_that_stay),
-  OTHER(deck_leaves, others),
+  OTHER(leaves, others_driven),
+  OTHER(deck_may_rest, others),
   SCENE_COLUMN(pendres_phase_point, sa_fraction, NULL),
   SCENE_COLUMN(pendres_phase_point, la_fraction, NULL),
   SCENE_COLUMN(pendres_phase_point, mean_loop_area, NULL),

@@ -75,7 +75,8 @@ typedef enum pendres_other {
   PENDRES_OTHER_CHAOTIC = 8,    /**< a chaotic attractor */
   PENDRES_OTHER_UNRESOLVED = 16, /**< some member did not settle within its budget */
   PENDRES_OTHER_ESCAPE = 32,    /**< some member escapes to infinity */
-  PENDRES_OTHER_UNSTABLE = 64   /**< some member rests in an unstable state, without any drive */
+  PENDRES_OTHER_UNSTABLE = 64   /**< some member rests in an unstable state: only with a
+                                     drive_amplitude of 0 */
 } pendres_other;
 
 /** One point of the diagram. Amplitudes are in rad, the loop area is the work of the drive in one
