@@ -9,6 +9,7 @@
 
 #include <pendres/attractor.h>
 #include <pendres/lyapunov.h>
+#include <pendres/resonance.h>
 #include <pendres/response.h>
 #include <pendres/rotation.h>
 
@@ -137,10 +138,13 @@ static void members(void **state)
     .damping = 0.12, .drive_amplitude = 0.1, .drive_frequency = 1.2, .torque = 0.4};
   const pendres_ensemble e = {.members = 50, .x_first = -1.5, .x_last = 4.5};
   pendres_response r;
+  pendres_response_noise cold, warm;
   double work = 0.0, area = 0.0, known = 0.0;
   (void)state;
   pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
   assert_int_equal(pendres_response_find(ctx, 1, &p, &e, &r), PENDRES_OK);
+  assert_int_equal(pendres_response_noise_find(ctx, &r, 0.0, 64, 64, &cold), PENDRES_OK);
+  assert_int_equal(pendres_response_noise_find(ctx, &r, 1e-6, 64, 64, &warm), PENDRES_OK);
   pendres_context_free(ctx);
   assert_int_equal(r.unresolved, 0);
   assert_int_equal(r.states, 2);
@@ -148,7 +152,13 @@ static void members(void **state)
   for (size_t k = 0; k < r.states; k++) {
     const pendres_attractor *a = &r.state[k];
     area += (double)r.state_members[k] / 50.0 * a->orbit.loop_area;
-    if (a->label != PENDRES_LABEL_QUASI_PERIODIC) continue;
+    if (a->label != PENDRES_LABEL_QUASI_PERIODIC) {
+      /* No rotation is among those that noise is added to. */
+      check_near(cold.amplitude.value, a->orbit.first_harmonic_amplitude, 1e-12);
+      check_near(warm.amplitude.value, cold.amplitude.value, 5.0 * warm.amplitude.error);
+      check_near(warm.loop_area.value, a->orbit.loop_area, 5.0 * warm.loop_area.error);
+      continue;
+    }
     known++;
     check_near(a->orbit.loop_area, work, a->orbit.loop_area_error + 1e-9);
     /* What friction takes is the work of the drive and of the torque. */
@@ -157,6 +167,34 @@ static void members(void **state)
   }
   assert_true(known == 1.0);
   check_near(r.mean_loop_area, area, 1e-12);
+}
+
+/* Where some members rotate and others swing the largest area is found all the same: no frequency
+   of a few has a larger one. */
+static void resonance(void **state)
+{
+  enum { FEW = 9 };
+  pendres_pendulum p[FEW] = {{.damping = 0.12, .drive_amplitude = 0.1, .torque = 0.4}};
+  const pendres_ensemble e = {.members = 6, .x_first = -1.5, .x_last = 4.5};
+  pendres_resonance peak;
+  pendres_response r[FEW];
+  size_t turning = 0;
+  (void)state;
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
+  assert_int_equal(pendres_resonance_find_ensemble(ctx, &p[0], 0.8, 0.96, &e, &peak), PENDRES_OK);
+  for (int k = 0; k < FEW; k++) {
+    p[k] = p[0];
+    p[k].drive_frequency = 0.8 + 0.02 * k;
+  }
+  assert_int_equal(pendres_response_find(ctx, FEW, p, &e, r), PENDRES_OK);
+  pendres_context_free(ctx);
+  for (int k = 0; k < FEW; k++) {
+    for (size_t i = 0; i < r[k].states; i++)
+      turning += r[k].state[i].label == PENDRES_LABEL_QUASI_PERIODIC;
+    assert_true(r[k].mean_loop_area <=
+                peak.response.mean_loop_area + peak.response.mean_loop_area_error);
+  }
+  assert_true(turning > 1);
 }
 
 /* So slow that all pendulums are in one place most of the time; and hardly damped, so that none has
@@ -224,7 +262,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(beside_rest), cmocka_unit_test(by_averages),
-    cmocka_unit_test(without_lock), cmocka_unit_test(members),
+    cmocka_unit_test(without_lock), cmocka_unit_test(members), cmocka_unit_test(resonance),
     cmocka_unit_test(slow_or_weak),
     cmocka_unit_test(locks_and_ways),
   };

@@ -28,7 +28,7 @@ static const pendres_attractor *ending_state(const pendres_response *here,
          close to its fold, where it moves as a square root. */
       goes_on |= o->period == p->period && o->winding == p->winding && distance < orbit_another;
     }
-    if (!goes_on && isfinite(o->x)) return &here->state[i];
+    if (!goes_on && o->period > 0) return &here->state[i];
   }
   return NULL;
 }

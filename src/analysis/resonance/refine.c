@@ -36,7 +36,7 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < points[i].response.states; j++) {
       const pendres_orbit *o = &points[i].response.state[j].orbit;
-      if (isfinite(o->x))
+      if (o->period > 0)
         guess[k++] = (pendres_orbit_guess){.pendulum = o->pendulum,
                                            .x = o->x,
                                            .v = o->v,
@@ -48,7 +48,7 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     for (size_t j = 0; j < points[i].response.states; j++) {
       pendres_orbit *o = &points[i].response.state[j].orbit;
-      if (!isfinite(o->x)) continue;
+      if (o->period == 0) continue;
       if (outcome[k] != PENDRES_NOT_CONVERGED) *o = orbit[k];
       k++;
     }
@@ -96,7 +96,7 @@ pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_poin
   for (size_t j = 0; j < to->response.states; j++) {
     pendres_orbit *o = &to->response.state[j].orbit;
     const double step = omega - o->pendulum.drive_frequency;
-    if (!isfinite(o->x)) continue;
+    if (o->period == 0) continue;
     if (isfinite(o->frequency_derivative[0])) {
       o->x += step * o->frequency_derivative[0];
       o->v += step * o->frequency_derivative[1];
@@ -212,8 +212,7 @@ static double lag_error(const pendres_scan_point *at, const pendres_scan_point *
 {
   const pendres_response *r = &at->response;
   const pendres_orbit *o = &r->state[0].orbit, *b = &near->response.state[0].orbit;
-  if (r->states != 1 || r->unresolved + r->unlisted > 0 || !pendres_response_has_loop(r->state) ||
-      !isfinite(o->x))
+  if (r->states != 1 || r->unresolved + r->unlisted > 0 || !pendres_response_has_loop(r->state))
     return NAN;
   const double width = pendres_scan_frequency(near) - r->pendulum.drive_frequency;
   const double curvature = (b->loop_area_slope - o->loop_area_slope) / width;

@@ -17,13 +17,14 @@ typedef struct harmonic {
   double bias_c, bias_s, bias_cc, bias_ss;
 } harmonic;
 
-/* Count the members in a mean, and those among them that stay in a well and so have a loop. */
+/* Count the members in a mean, which are on closed orbits, and those among them that stay in a well
+   and so have a loop. */
 static void count_members(const pendres_response *r, double *all, double *loops)
 {
   *all = *loops = 0.0;
   for (size_t i = 0; i < r->states; i++) {
     const pendres_orbit *o = &r->state[i].orbit;
-    if (!isfinite(o->x)) continue;
+    if (o->period == 0) continue;
     *all += (double)r->state_members[i];
     if (o->winding == 0) *loops += (double)r->state_members[i];
   }
@@ -110,7 +111,7 @@ static void take_still(const pendres_response *r, double loops, pendres_response
   double c = 0.0, s = 0.0;
   for (size_t i = 0; i < r->states; i++) {
     const pendres_orbit *o = &r->state[i].orbit;
-    if (!isfinite(o->x) || o->winding != 0) continue;
+    if (o->period == 0 || o->winding != 0) continue;
     c += (double)r->state_members[i] / loops * o->cosine[0];
     s += (double)r->state_members[i] / loops * o->sine[0];
   }
@@ -133,7 +134,7 @@ static pendres_status add_states(pendres_context *ctx, const pendres_response *r
     const double members = (double)r->state_members[i];
     pendres_langevin_cloud cloud;
     pendres_langevin_bias bias;
-    if (!isfinite(o->x)) continue;
+    if (o->period == 0) continue;
     const double n = ceil(members / all * (double)q->trajectories);
     pendres_langevin_request own = *q;
     own.x = o->x;
