@@ -145,8 +145,8 @@ typedef struct pendres_response_noise {
  * `periods` drive periods each, after a time in which their start is forgotten; the steps are so
  * many that the bias stays below 1e-4 of loop area and first harmonic where the temperature is low.
  * At temperature 0 the response without noise is handed on as it is. Members that are chaotic, on
- * rotations that do not close, unresolved or unlisted are left out. The seed is the context's; the ids of trajectories follow
- * from the parameters.
+ * rotations that do not close, unresolved or unlisted are left out. The seed is the context's; the
+ * ids of trajectories follow from the parameters.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, those of the integration.
  */
