@@ -223,6 +223,7 @@ static void slow_or_weak(void **state)
     const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome[k].attractor);
     check_near(a->drift, told[k].rotation, a->drift_error + told[k].rotation_error);
     assert_true(a->orbit.loop_area_error < 1e-6);
+    assert_true(fabs(a->orbit.x - 0.25 * two_pi) <= 0.5 * two_pi); /* in well 0 */
     check_near(a->orbit.dissipation, a->orbit.loop_area + two_pi * p[k].torque * a->drift,
                a->orbit.dissipation_error + a->orbit.loop_area_error +
                  two_pi * p[k].torque * a->drift_error);

@@ -248,6 +248,9 @@ static pendres_status find_turns(pendres_context *ctx, const pendres_attractor_s
   if (!*found) return status;
   m->label = told.label;
   m->turns = (pendres_chaos_mean){told.rotation, told.rotation_error};
+  pendres_coordinates at = pendres_coordinates_in(&c->pendulum, m->x, m->v);
+  at.turns = 0;
+  pendres_coordinates_out(&c->pendulum, &at, &m->x, &m->v);
   return status;
 }
 
