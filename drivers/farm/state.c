@@ -16,6 +16,14 @@ static int due(void *arg, double done)
   return trial == NULL && s->journal != NULL && clock_wall() >= s->next;
 }
 
+/* States grow as the work does, first every half second, then by a tenth from one to the next. */
+double farm_states(double seconds)
+{
+  const double even = state_every / state_share; /* seconds */
+  if (seconds < even) return 0.5 * seconds / state_every;
+  return 1.0 / state_share * (1.0 - 0.5 * even / seconds);
+}
+
 void farm_tell_unkept(farm *f, pthread_mutex_t *lock, const char *words)
 {
   pthread_mutex_lock(lock);

@@ -14,6 +14,9 @@
 
 #include "farm/farm.h"
 
+/* How many times a record's size the states take in the journal of a path that takes so long. */
+double farm_states(double seconds);
+
 typedef struct farm_trial {
   double few, most;    /* processor seconds: after `few` no further task of a stage is begun, after
                           `most` everything ends, running tasks included */

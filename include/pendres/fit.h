@@ -219,7 +219,7 @@ pendres_status pendres_fit_data_check(const pendres_fit_data *data, const pendre
  * @return PENDRES_INVALID_ARGUMENT with a message (fewer data than unknowns, a value that is no
  *         number, an unknown that the data cannot have), PENDRES_NOT_CONVERGED, or failures of the
  *         integration. Thread safety: as for the context. It keeps states between starts
- *         (pendres_context_set_keep()).
+ *         and along what the data leave open (pendres_context_set_keep()).
  */
 pendres_status pendres_fit_find(pendres_context *ctx, const pendres_fit_data *data,
                                 const pendres_fit_model *model,
