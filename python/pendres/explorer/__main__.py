@@ -73,15 +73,19 @@ def main(given=None):
         style = pn.pane.HTML(f"<style>{DARK if found.dark else ''}</style>", height=0, margin=0)
         return pn.Column(style, found.view(), sizing_mode="stretch_width")
 
-    sockets, port = bind_sockets("127.0.0.1", options.port)
+    try:
+        sockets, port = bind_sockets("127.0.0.1", options.port)
+    except OSError as why:
+        sys.exit(f"port {options.port}: {why}")
     for socket in sockets:
         socket.close()
     token = secrets.token_urlsafe(24)
     address = f"http://127.0.0.1:{port}/?token={token}"
-    print(f"The explorer is at {address}\nCtrl-C ends it.", flush=True)
     server = pn.serve({"/": page}, address="127.0.0.1", port=port, show=False, start=False,
                       title="pendres explorer", auth_provider=_door(token),
                       websocket_origin=[f"127.0.0.1:{port}", f"localhost:{port}"], verbose=False)
+    # Not before the port is ours: who else has it would be told the token.
+    print(f"The explorer is at {address}\nCtrl-C ends it.", flush=True)
     if not options.no_browser:
         import webbrowser
         server.io_loop.add_callback(lambda: webbrowser.open(address))
