@@ -140,6 +140,11 @@ def numbers(page):
     return " ".join(page.locator("table.numbers").all_inner_texts())
 
 
+# How many points and images figures show.
+SHOWN = """() => [...Bokeh.documents[0].all_models].filter(m => m.type == "ColumnDataSource").map(
+  m => (m.get_column("x") || []).length).reduce((a, b) => a + b, 0)"""
+
+
 def frame(page, title):
     """Where on the screen the frame of a figure is."""
     return page.evaluate("""title => {
@@ -183,6 +188,7 @@ def check_browser(server, browser):
     box.fill("1, nonsense")
     box.press("Enter")
     wait(page, lambda: page.get_by_text("1 to 5 numbers are wanted").count() > 0)
+    wait(page, lambda: page.evaluate(SHOWN) == 1)  # the file's map
     page.locator("select").filter(has_text="own polynomial").first.select_option("pendulum")
     wait(page, lambda: "amplitude" in numbers(page))
 

@@ -66,6 +66,8 @@ class Plot:
             for its, ends in zip((self.figure.x_range, self.figure.y_range), picture.image[2:]):
                 if isinstance(its, Range1d) and (its.start, its.end) != ends:
                     its.update(start=ends[0], end=ends[1])
+        elif self._image is not None:
+            self._image.data = {name: [] for name in self._image.data}
         for name, source in self._sources.items():
             if name not in picture.layers and len(source.data["x"]):
                 source.data = {"x": [], "y": []}

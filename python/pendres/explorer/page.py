@@ -153,6 +153,8 @@ class Page:
         self.numbers[view].object = _table(told.rows, told.note)
 
     def _failed(self, view, why):
+        for name in ("trace", "portrait", "loop") if view == "motion" else (view,):
+            self.plots[name].draw(views.Picture({}))  # what is there is of other knobs
         self.numbers[view].object = _table([], why)
 
     def _panel(self, view):
