@@ -32,7 +32,7 @@ pendres_keeping pendres_keeping_begin(pendres_context *ctx, const char *name,
   head h;
   ctx->keep = (pendres_keep){.due = NULL};
   if (k.to.due == NULL || question.status != PENDRES_OK) {
-    k.to.due = NULL;
+    k.question.status = question.status;
     free(question.bytes);
     return k;
   }
