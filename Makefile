@@ -323,9 +323,11 @@ $(ACCURACY_PROGRAM): $(ACCURACY_OBJECTS) $(DRIVER) $(STATIC)
 accuracy: $(ACCURACY_PROGRAM) $(PROGRAM)
 	@$(RUN_ENVIRONMENT) $< $(ACCURACY)
 
-# What does not compile counts as failed, and the others still run.
+# What does not compile counts as failed, and the others still run. All is built before: make begins
+# what is ready, and scripts, which need all of it, would come last.
 check:
 	@rm -rf $(BUILD)/results; mkdir -p $(BUILD)/results
+	+@$(MAKE) --no-print-directory -k all || true
 	+@$(MAKE) --no-print-directory -k check-run || true
 	@tests/summary.sh $(BUILD)/results $(CHECKS)
 
