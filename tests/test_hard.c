@@ -8,11 +8,7 @@
 
 #include "validation/hard_cases.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-static const double scale = 0.01;
-#else
-static const double scale = 0.1;
-#endif
+static const double scale = CHECK_SHORT ? 0.01 : 0.1;
 
 /* Rows by the beginnings of their names where the naive way must do worse than ours. The energy's
    does in a hundredth of the time. */
