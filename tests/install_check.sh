@@ -63,7 +63,7 @@ quiet $MAKE uninstall DESTDIR= PREFIX="$blank"
 if [ -n "${RESONANCE:-}" ]; then
   tree="$scratch/a tree"
   mkdir -p "$tree/input" || exit 1
-  for entry in Makefile drivers src include tests plots validation; do ln -s "$top/$entry" "$tree"; done
+  for entry in Makefile drivers src include tests plots tools validation; do ln -s "$top/$entry" "$tree"; done
   ln -s "$RESONANCE" "$tree/resonance"
   cp input/f01.nml "$tree/input"
   cp input/f01.nml "$tree/input/workprec_left_out.nml"

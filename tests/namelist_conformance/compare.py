@@ -155,7 +155,7 @@ def build(folder):
     sources.append(os.path.join(TOP, 'src', 'analysis', 'sweeps', 'sweep.c'))  # what lists and ranges make of an axis
     # Which coefficients a force has, what its parameters are, and its units.
     sources += [os.path.join(TOP, 'src', 'model', f)
-                for f in ('model.c', 'parameter.c', 'units.c', 'units_table.c')]
+                for f in ('equation.c', 'model.c', 'parameter.c', 'quantity.c', 'units.c', 'units_table.c')]
     sources.append(os.path.join(TOP, 'src', 'base', 'names.c'))  # of what a fit may free
     subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),
                          '-I' + os.path.join(TOP, 'src'),

@@ -83,6 +83,12 @@ class Plot:
                 self._sources[name] = ColumnDataSource(data)
                 self._new_layer(name)
 
+    def move(self, name, x, y):
+        """Move a layer of one point; all else stays as it is."""
+        self.shown.layers[name] = np.array([x]), np.array([y])
+        if name in self._sources:
+            self._sources[name].data = {"x": [x], "y": [y]}
+
     def _new_layer(self, name):
         colour, dash, marker, size = STYLE[name]
         source, words = self._sources[name], {"legend_label": name}

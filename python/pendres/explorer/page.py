@@ -24,7 +24,7 @@ PLOTS = {  # figure: its title and axes
 TABS = ("basins", "diagram", "current", "noise")
 SLOW = ("current", "noise")  # told that it is on its way
 DEPENDS = {  # beside what all depend on: the oscillator
-    "motion": {"x", "v"}, "response": {"lowest", "highest"}, "basins": {"x", "v"},
+    "motion": {"x", "v"}, "response": {"lowest", "highest"}, "basins": set(),
     "diagram": {"x", "v", "along", "first", "last"}, "current": {"x", "v"}, "noise": set(),
 }
 OSCILLATOR = {"model", "coefficients", *KNOBS}
@@ -126,6 +126,8 @@ class Page:
         names = {event.name for event in events}
         if names & {"model", "coefficients"}:
             self.seen.clear()
+        if names & {"x", "v"} and self.plots["basins"].shown is not None:
+            self.plots["basins"].move("start", self.settings.x, self.settings.v)
         for view in ("motion", "response", self._open_tab()):
             matters = (OSCILLATOR | DEPENDS[view]) - INDEPENDENT.get(view, set())
             if names & matters:

@@ -18,9 +18,14 @@ class Results:
         if not self.names:
             raise ValueError(f"{path}: no variable of one or two dimensions")
 
+    def _variable(self, name):
+        """With x across, as basins are drawn."""
+        variable = self.data[name]
+        return variable.T if variable.dims == ("x", "v") else variable
+
     def words(self, name):
         """A title, and what its axes are called."""
-        variable = self.data[name]
+        variable = self._variable(name)
         its = _axis(variable)
         across = [_axis(self.data[d]) if d in self.data.coords else d for d in variable.dims]
         return (name, across[0], its) if variable.ndim == 1 else (name, across[1], across[0])
@@ -31,10 +36,12 @@ class Results:
 
     def picture(self, name):
         """A variable over its axes; with the largest of its errors."""
-        variable = self.data[name]
+        variable = self._variable(name)
         values = np.asarray(variable.values, dtype=float)
-        error = self.data.get(name + "_error")
-        note = variable.attrs.get("long_name", name) + "; " + f"{int(np.count_nonzero(~np.isfinite(values)))} of {values.size} values are missing"
+        error = self._variable(name + "_error") if name + "_error" in self.data else None
+        missing = int(np.count_nonzero(~np.isfinite(values)))
+        note = (f"{variable.attrs.get('long_name', name)}; {missing} of {values.size} values are "
+                "missing")
         rows = [(f"{what}", float(f(values)), float("nan") if error is None else float(
             np.asarray(error.values).ravel()[getattr(np, "nanarg" + what)(values)]))
             for what, f in (("min", np.nanmin), ("max", np.nanmax)) if np.isfinite(values).any()]
@@ -52,7 +59,7 @@ class Results:
 
     def at(self, name, x, y):
         """The knobs at a place of a picture, as far as the file tells them, and its model."""
-        dims = self.data[name].dims
+        dims = self._variable(name).dims
         here = dict(zip(dims, (x,) if len(dims) == 1 else (y, x)))
         given = {k: float(v) for k, v in self.data.variables.items()
                  if v.ndim == 0 and v.dtype.kind == "f"} | here
