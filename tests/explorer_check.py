@@ -97,7 +97,7 @@ def check_files():
         "parametric_amplitude": 0.0, "temperature": 0.0, "model": "pendulum"}
     wells = results.Results(pendres.basins(
         force=[-1.0, 0.0, 1.0], damping=0.2, drive_amplitude=0.1, drive_frequency=1.1, torque=0.05,
-        x_range=(-1.0, 1.0, 3), v_range=(-1.0, 1.0, 3))).at("label", -0.25, 0.5)  # v is across
+        x_range=(-1.0, 1.0, 3), v_range=(-1.0, 1.0, 3))).at("label", 0.5, -0.25)
     chosen = settings.Settings(**wells)
     assert chosen.force() == (-1, 0, 1) and (chosen.torque, chosen.x, chosen.v) == (0.05, 0.5, -0.25)
     colours = area_colours(["sa", "la", "periodic", "periodic", "escape"])

@@ -12,11 +12,12 @@ class Newest:
     as something newer is asked for; its results are not shown.
 
     show(result) and fail(sentence) are called through `deliver`, which takes them to the thread of
-    the page.
+    the page. What takes long `wait`s some seconds, so that what is quick has the processor first.
     """
 
-    def __init__(self, deliver, show, fail):
+    def __init__(self, deliver, show, fail, wait=0.0):
         self._deliver, self._show, self._fail = deliver, show, fail
+        self._wait = wait
         self._wanted = None            # what nobody works on yet
         self._ended = False
         self._change = threading.Condition()
@@ -46,6 +47,8 @@ class Newest:
                 if self._ended:
                     return
                 steps, self._wanted = self._wanted, None
+                if self._wait and self._change.wait_for(self._stale, self._wait):
+                    continue
             try:
                 for result in steps(context):
                     if self._stale():

@@ -56,7 +56,8 @@ class Page:
         self.numbers = {name: pn.pane.HTML("", sizing_mode="stretch_width", min_width=280)
                         for name in views.VIEWS}
         self.workers = {name: Newest(self._deliver, lambda found, name=name: self._show(name, found),
-                                     lambda why, name=name: self._failed(name, why))
+                                     lambda why, name=name: self._failed(name, why),
+                                     wait=0.2 if name in TABS else 0.0)
                         for name in views.VIEWS}
         self.tabs = pn.Tabs(*((name, self._panel(name)) for name in TABS),
                             sizing_mode="stretch_width",
