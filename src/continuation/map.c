@@ -116,7 +116,7 @@ pendres_status pendres_map_steps(pendres_context *ctx, pendres_force force,
   const double speed = pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
   /* A large orbit's resonance is as narrow as its damping: what the steps add must be less. */
   const pendres_map map = {.force = force};
-  const double large = pendres_arc_large(&map, u), decay = 2.0 * pendres_equation_fading(&p);
+  const double large = pendres_arc_large(&map, u), decay = pendres_equation_shrinking(&p);
   if (large > 1.0 && decay > 0.0) tolerance = fmin(tolerance, map_undamped * large * decay);
   const pendres_status status = pendres_steps_choose(ctx, &p, speed, tolerance, steps);
   *steps += *steps % 2;

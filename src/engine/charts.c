@@ -152,14 +152,6 @@ pendres_status pendres_charts_of(pendres_context *ctx, const pendres_pendulum *p
 
 /* ---- making a chart ---- */
 
-static int after_one(void *arg, size_t index, const pendres_strobe_lane *lane)
-{
-  (void)arg;
-  (void)index;
-  (void)lane;
-  return 1;
-}
-
 static double distance_of(const pendres_charts *c, const place *at)
 {
   double distance = INFINITY;
@@ -191,7 +183,7 @@ static pendres_status integrate(pendres_context *ctx, const pendres_charts *c, c
   if (status == PENDRES_TOLERANCE_UNREACHABLE) return PENDRES_OK;
   for (int i = 0; i < PLACES; i++) lanes[i].steps = steps;
   const pendres_uncounted work = pendres_uncounted_begin(ctx);
-  if (status == PENDRES_OK) status = pendres_strobe_run(ctx, PLACES, lanes, after_one, NULL);
+  if (status == PENDRES_OK) status = pendres_strobe_run_until(ctx, PLACES, lanes, 1);
   pendres_uncounted_end(ctx, &work);
   *known = status == PENDRES_OK;
   return status;

@@ -132,11 +132,8 @@ void pendres_uncounted_end(pendres_context *ctx, const pendres_uncounted *work)
   pendres_cost now;
   pendres_context_cost(ctx, &now);
   ctx->most_slopes = work->most_slopes;
-  ctx->cost.pendulum_periods -= now.pendulum_periods - work->before.pendulum_periods;
-  ctx->cost.rhs_evaluations -= now.rhs_evaluations - work->before.rhs_evaluations;
-  ctx->cost.steps -= now.steps - work->before.steps;
-  ctx->cost.newton_steps -= now.newton_steps - work->before.newton_steps;
-  ctx->cost.settled_pendulums -= now.settled_pendulums - work->before.settled_pendulums;
+  pendres_cost_add(&now, -1.0, &work->before);
+  pendres_cost_add(&ctx->cost, -1.0, &now);
 }
 
 void pendres_context_cost_reset(pendres_context *ctx)

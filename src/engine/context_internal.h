@@ -44,6 +44,16 @@ struct pendres_context {
   pendres_keep keep;      /* keep.h */
 };
 
+/* Add a cost so many times, -1 to take it back: whole numbers, whose sums are exact. */
+static inline void pendres_cost_add(pendres_cost *sum, double times, const pendres_cost *one)
+{
+  sum->pendulum_periods += times * one->pendulum_periods;
+  sum->rhs_evaluations += times * one->rhs_evaluations;
+  sum->steps += times * one->steps;
+  sum->newton_steps += times * one->newton_steps;
+  sum->settled_pendulums += times * one->settled_pendulums;
+}
+
 /* The body of a public function that computes with a context; see guard.h. */
 #define PENDRES_CONTEXT_CALL(ctx, call) \
   PENDRES_GUARD_CALL((ctx) != NULL ? &(ctx)->guard : NULL, call)

@@ -14,17 +14,6 @@ typedef struct head {
   pendres_cost cost; /* so far */
 } head;
 
-static pendres_cost spent(const pendres_keeping *k)
-{
-  pendres_cost now;
-  const pendres_cost *old = &k->before;
-  pendres_context_cost(k->ctx, &now);
-  return (pendres_cost){now.pendulum_periods - old->pendulum_periods,
-                        now.rhs_evaluations - old->rhs_evaluations, now.steps - old->steps,
-                        now.newton_steps - old->newton_steps,
-                        now.settled_pendulums - old->settled_pendulums};
-}
-
 pendres_keeping pendres_keeping_begin(pendres_context *ctx, const char *name,
                                       pendres_bytes question)
 {
@@ -75,13 +64,8 @@ int pendres_keeping_found(pendres_keeping *k)
 void pendres_keeping_taken(pendres_keeping *k)
 {
   head h;
-  pendres_cost *c = &k->ctx->cost;
   memcpy(&h, k->to.state, sizeof h);
-  c->pendulum_periods += h.cost.pendulum_periods;
-  c->rhs_evaluations += h.cost.rhs_evaluations;
-  c->steps += h.cost.steps;
-  c->newton_steps += h.cost.newton_steps;
-  c->settled_pendulums += h.cost.settled_pendulums;
+  pendres_cost_add(&k->ctx->cost, 1.0, &h.cost);
 }
 
 int pendres_keeping_due(pendres_keeping *k, double done)
@@ -99,7 +83,8 @@ pendres_bytes *pendres_keeping_write(pendres_keeping *k)
   head h;
   k->state = (pendres_bytes){.reads = 0};
   memcpy(&h, k->question.bytes, sizeof h);
-  h.cost = spent(k);
+  pendres_context_cost(k->ctx, &h.cost);
+  pendres_cost_add(&h.cost, -1.0, &k->before);
   pendres_bytes_pass(&k->state, 1, sizeof h, &h);
   pendres_bytes_pass(&k->state, 1, k->question.size - sizeof h, k->question.bytes + sizeof h);
   return &k->state;

@@ -47,6 +47,18 @@ pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe
   return pendres_strobe_run_some(ctx, n, NULL, lanes, visit, arg);
 }
 
+static int at_period(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  (void)index;
+  return lane->period >= *(const long *)arg;
+}
+
+pendres_status pendres_strobe_run_until(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                        long period)
+{
+  return pendres_strobe_run(ctx, n, lanes, at_period, &period);
+}
+
 static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
 {
   return job->n > 0 ? pendres_method_of(ctx)->run(ctx, job) : PENDRES_OK;

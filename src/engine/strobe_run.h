@@ -19,6 +19,10 @@
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);
 
+/* Run them to the end of that period. */
+pendres_status pendres_strobe_run_until(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                        long period);
+
 /* Run only those n of these lanes whose numbers are in `which`. */
 pendres_status pendres_strobe_run_some(pendres_context *ctx, size_t n, const size_t *which,
                                        pendres_strobe_lane *lanes, pendres_strobe_visit *visit,

@@ -74,11 +74,7 @@ static void account(const pendres_context *mate, pendres_cost *to)
 {
   pendres_cost cost;
   pendres_context_cost(mate, &cost);
-  to->pendulum_periods += cost.pendulum_periods;
-  to->rhs_evaluations += cost.rhs_evaluations;
-  to->steps += cost.steps;
-  to->newton_steps += cost.newton_steps;
-  to->settled_pendulums += cost.settled_pendulums;
+  pendres_cost_add(to, 1.0, &cost);
 }
 
 /* One of the threads. */

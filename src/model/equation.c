@@ -25,9 +25,14 @@ double pendres_pendulum_decay_rate(const pendres_pendulum *p)
   return p != NULL ? p->damping : NAN;
 }
 
+double pendres_equation_shrinking(const pendres_pendulum *p)
+{
+  return pendres_pendulum_decay_rate(p) * two_pi / p->drive_frequency;
+}
+
 double pendres_equation_fading(const pendres_pendulum *p)
 {
-  return 0.5 * pendres_pendulum_decay_rate(p) * two_pi / p->drive_frequency;
+  return 0.5 * pendres_equation_shrinking(p);
 }
 
 pendres_pendulum pendres_equation_reversed(const pendres_pendulum *p)

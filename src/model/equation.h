@@ -45,8 +45,11 @@ const char *pendres_equation_undamped(const pendres_pendulum *p);
 /* The speed at which friction balances a push; infinite if none does, NaN if there is neither. */
 double pendres_equation_speed(const pendres_pendulum *p, double push);
 
-/* By what power of e motions come together in a drive period: half of what
-   pendres_pendulum_decay_rate() says of their energy. */
+/* By what power of e motions lose their energy, and areas shrink, in a drive period, as
+   pendres_pendulum_decay_rate() says. */
+double pendres_equation_shrinking(const pendres_pendulum *p);
+
+/* By what power of e motions come together in a drive period: half of that. */
 double pendres_equation_fading(const pendres_pendulum *p);
 
 /* The equation backwards in time: of (y, -w). */

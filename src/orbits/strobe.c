@@ -19,12 +19,6 @@
 #include "model/model.h"
 #include "orbits/numbers.h"
 
-static int after_all_periods(void *arg, size_t index, const pendres_strobe_lane *lane)
-{
-  (void)index;
-  return lane->period >= *(const long *)arg;
-}
-
 static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                             const double *x, const double *v, long periods)
 {
@@ -277,7 +271,7 @@ static pendres_status strobe_advance(pendres_context *ctx, size_t n,
   if (status == PENDRES_OK && error != NULL) {
     status = run_with_errors(ctx, n, periods, lanes, error);
   } else if (status == PENDRES_OK) {
-    status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
+    status = pendres_strobe_run_until(ctx, n, lanes, periods);
     if (status == PENDRES_OK) status = check_ends(ctx, n, lanes);
   }
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)

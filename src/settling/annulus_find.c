@@ -25,20 +25,6 @@ enum { NODES = PENDRES_ANNULUS_NODES };
 
 /* ---- lanes ---- */
 
-static int stop(void *arg, size_t i, const pendres_strobe_lane *lane)
-{
-  const long *until = arg;
-  (void)i;
-  return lane->period >= *until;
-}
-
-/* Advance n lanes to the end of that period. */
-static pendres_status advance(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                              long period)
-{
-  return pendres_strobe_run(ctx, n, lanes, stop, &period);
-}
-
 static pendres_status load(pendres_context *ctx, const pendres_attractor_set *c, double y, double w,
                            pendres_strobe_lane *lane)
 {
@@ -56,7 +42,7 @@ static double node(int k)
 /* Periods in which what lies beside the curve fades. */
 static long fading(const pendres_attractor_set *c)
 {
-  const double contracts = 2.0 * pendres_equation_fading(&c->pendulum);
+  const double contracts = pendres_equation_shrinking(&c->pendulum);
   return (long)fmin(ceil(exponent_forgets / contracts) + 1.0, settle_last_most);
 }
 
@@ -134,7 +120,7 @@ static pendres_status find_curve(pendres_context *ctx, const pendres_attractor_s
   for (int k = 0; k < NODES && status == PENDRES_OK; k++)
     status = load(ctx, c, node(k), suspect->w, &lanes[k]);
   for (long strobe = 0; strobe < strobes && status == PENDRES_OK; strobe++) {
-    status = advance(ctx, NODES, lanes, settled + strobe);
+    status = pendres_strobe_run_until(ctx, NODES, lanes, settled + strobe);
     for (int k = 0; k < NODES && status == PENDRES_OK; k++)
       if (way * lanes[k].turns > 0 &&
           pendres_attractor_set_ellipse(c, lanes[k].y, lanes[k].w) == NULL &&
@@ -182,7 +168,7 @@ static pendres_status comes_in(pendres_context *ctx, const pendres_attractor_set
     status = load(ctx, c, node(k), a->centre[k] + off, &lanes[k]);
   const long most = 2 * fading(c) < ANNULUS_RETURNS ? 2 * fading(c) : ANNULUS_RETURNS;
   for (long period = 1; period <= most && !*in && status == PENDRES_OK; period *= 2) {
-    status = advance(ctx, NODES, lanes, period);
+    status = pendres_strobe_run_until(ctx, NODES, lanes, period);
     if (status == PENDRES_OK) *in = inside(a, lanes);
   }
   return pendres_room_close(&room, status);

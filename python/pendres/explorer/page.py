@@ -38,7 +38,7 @@ p.note { margin: 2px 0; font-size: 12px; }
 """
 DARK_TAB = ".bk-tab.bk-active { color: #e0e0e0 !important; background: #2a3137 !important; }"
 DARK = "body { background: #15191c; color: #e0e0e0; }"
-COPY = "navigator.clipboard.writeText(text.value.replace(/&#10;/g, '\\n'))"
+COPY = "navigator.clipboard.writeText(text.value)"
 
 
 class Page:
@@ -119,6 +119,7 @@ class Page:
                 return  # it is what is there already
             self.seen["basins"] = seen
             self._ask("basins")
+            self._text()  # the window is in it
 
     def _open_tab(self):
         return TABS[self.tabs.active]
@@ -133,16 +134,16 @@ class Page:
             matters = (OSCILLATOR | DEPENDS[view]) - INDEPENDENT.get(view, set())
             if names & matters:
                 self._ask(view)
+        self._tell_address()
+        self._text()
 
     def _ask(self, view):
         chosen = self.settings.copy()
-        self._tell_address()
         seen = self.seen.get(view)
         function = views.VIEWS[view]
         if view in SLOW:
             self.numbers[view].object = _table([], "computing ...")
         self.workers[view].ask(lambda context: function(chosen, seen, context))
-        self._text()
 
     # ---- What is shown ------------------------------------------------------------------------
 

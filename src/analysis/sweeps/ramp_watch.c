@@ -42,7 +42,7 @@ static double own_time(const pendres_ramp *r, const pendres_hysteresis_point *p)
   if (pendres_settled_closed(&p->attractor) && driven(r)) return o->period;
   if (isfinite(turn)) return driven(r) ? fmax(1.0, turn) : turn;
   const double decay = -o->period / log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
-  const double free = 0.5 / pendres_equation_fading(&o->pendulum);
+  const double free = 1.0 / pendres_equation_shrinking(&o->pendulum);
   return driven(r) ? 1.0 : decay > 0.0 && isfinite(decay) ? decay : free;
 }
 

@@ -269,7 +269,7 @@ pendres_status pendres_rotation_reached(pendres_context *ctx, const pendres_pend
   /* Without a drive any clock will do: this one ticks about once an oscillation. */
   pendres_pendulum q = *p;
   q.drive_frequency = 1.0;
-  const long most = TABLE_WATCHED + (long)(0.5 * TABLE_WATCHED / pendres_equation_fading(&q));
+  const long most = TABLE_WATCHED + (long)(TABLE_WATCHED / pendres_equation_shrinking(&q));
   for (long k = 0; k < most && !*reached; k++) {
     const double before = passed(p, x);
     const pendres_status status = pendres_strobe_advance(ctx, 1, &q, &x, &v, 1, NULL);

@@ -44,7 +44,7 @@ static long transient_of(const job *j, const pendres_strobe_lane *lane)
   const pendres_pendulum *p = lane->pendulum;
   if (j->transient > 0) return j->transient;
   /* Across the curve of a rotation distances shrink as areas do; to exp(-25), 1e-11, here. */
-  const double forgets = 0.5 / pendres_equation_fading(p);
+  const double forgets = 1.0 / pendres_equation_shrinking(p);
   if (j->care == PENDRES_CARE_CLOSE) return EXPONENT_TURNING + (long)(exponent_forgets * forgets);
   return (long)fmax(WARM_UP, fmin(longest_transient(lane), exponent_forgets_all * forgets));
 }
@@ -55,8 +55,7 @@ static int forgets_start(const job *j, const pendres_strobe_lane *lane)
 {
   const pendres_pendulum *p = lane->pendulum;
   return j->transient > 0 ||
-         0.5 * exponent_forgets_all / pendres_equation_fading(p) <=
-           longest_transient(lane);
+         exponent_forgets_all / pendres_equation_shrinking(p) <= longest_transient(lane);
 }
 
 static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
