@@ -3,60 +3,22 @@
  * keeps, ends, and gives the bytes and the costs of one that was not; damaged states do no harm.
  */
 #include "fit_fixture.h"
-#include "context_fixture.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "keep_fixture.h"
 
 #include <pendres/pendres.h>
 
-enum { SWEEP = 60, DECAY = 240, MOST_BYTES = 1 << 16 };
-
-/* What a fit keeps, and when it is killed: at so many states that it has put. */
-typedef struct keeper {
-  unsigned char state[MOST_BYTES];
-  size_t size;
-  int puts, most;
-} keeper;
-
-static int always(void *arg, double done)
-{
-  (void)arg;
-  assert_true(done > 0.0 && done < 1.0);
-  return 1;
-}
-
-static void put(void *arg, const void *state, size_t size)
-{
-  keeper *k = arg;
-  assert_true(size <= MOST_BYTES);
-  memcpy(k->state, state, size);
-  k->size = size;
-  k->puts++;
-}
-
-static int killed(void *arg)
-{
-  const keeper *k = arg;
-  return k->puts >= k->most;
-}
+enum { SWEEP = 60, DECAY = 240 };
 
 /* In a process of its own, as it were: a context that knows nothing of the others. */
 static pendres_status fit_anew(const pendres_fit_data *data, const pendres_fit_model *model,
                                keeper *k, pendres_fit **out, pendres_cost *cost)
 {
-  static unsigned char before[MOST_BYTES];
   pendres_context *ctx = context_with(NULL);
-  memcpy(before, k->state, k->size);
-  const pendres_keep keep = {always, put, k->size > 0 ? before : NULL, k->size, k};
-  k->puts = 0;
-  if (k->most > 0) {
-    pendres_context_set_keep(ctx, &keep);
-    pendres_context_set_interrupt(ctx, killed, k);
-  }
+  if (k != NULL) keeper_begin(k, ctx);
   const pendres_status status = pendres_fit_find(ctx, data, model, NULL, out);
   pendres_context_cost(ctx, cost);
   pendres_context_free(ctx);
+  if (k != NULL) keeper_end(k);
   return status;
 }
 
@@ -80,15 +42,13 @@ static void check_same(const pendres_fit *a, const pendres_fit *b, size_t unknow
 /* Killed at every second state, and once more with a byte of the first one changed. */
 static void check_kept(const pendres_fit_data *data, const pendres_fit_model *model, int least)
 {
-  static keeper k;
+  keeper k = {.most = 2};
   pendres_fit *whole = NULL, *kept = NULL;
   pendres_cost cost, now;
   pendres_status status = PENDRES_INTERRUPTED;
   int jobs = 0;
-  k = (keeper){.most = 0};
-  const pendres_status right = fit_anew(data, model, &k, &whole, &cost);
+  const pendres_status right = fit_anew(data, model, NULL, &whole, &cost);
   assert_non_null(whole);
-  k.most = 2;
   for (; status == PENDRES_INTERRUPTED && jobs < 200; jobs++)
     status = fit_anew(data, model, &k, &kept, &now);
   assert_int_equal(status, right);
@@ -96,6 +56,7 @@ static void check_kept(const pendres_fit_data *data, const pendres_fit_model *mo
   check_same(whole, kept, model->unknowns);
   assert_true(now.rhs_evaluations == cost.rhs_evaluations);
   pendres_fit_free(kept);
+  free(k.state);
   k = (keeper){.most = 1};
   assert_int_equal(fit_anew(data, model, &k, &kept, &now), PENDRES_INTERRUPTED);
   k.size--; /* one that was torn */
@@ -104,6 +65,7 @@ static void check_kept(const pendres_fit_data *data, const pendres_fit_model *mo
   check_same(whole, kept, model->unknowns);
   pendres_fit_free(kept);
   pendres_fit_free(whole);
+  free(k.state);
 }
 
 /* The linear response, without errors of the data: all starts are followed. */

@@ -3,44 +3,11 @@
  * they keep, end, and give the bytes and the costs of one that was not; states that are damaged do
  * no harm.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include <pendres/attractor.h>
 #include <pendres/cascade.h>
 #include <pendres/hysteresis.h>
 
-#include "context_fixture.h"
-
-/* What a computation keeps, and when it is killed: at so many states that it has put. */
-typedef struct keeper {
-  unsigned char *state;
-  size_t size;
-  int puts, most;
-} keeper;
-
-static int always(void *arg, double done)
-{
-  (void)arg;
-  assert_true(done > 0.0 && done < 1.0);
-  return 1;
-}
-
-static void put(void *arg, const void *state, size_t size)
-{
-  keeper *k = arg;
-  k->state = realloc(k->state, size);
-  assert_non_null(k->state);
-  memcpy(k->state, state, size);
-  k->size = size;
-  k->puts++;
-}
-
-static int killed(void *arg)
-{
-  const keeper *k = arg;
-  return k->puts >= k->most;
-}
+#include "keep_fixture.h"
 
 /* A question, and the bytes of its answer. */
 typedef struct question {
@@ -106,16 +73,10 @@ static pendres_status ask(pendres_context *ctx, const question *q, answer *a)
 static pendres_status ask_anew(const question *q, keeper *k, answer *a)
 {
   pendres_context *ctx = context_with(NULL);
-  const pendres_keep keep = {always, put, k->state, k->size, k};
-  unsigned char *old = k->state;
-  k->state = NULL;
-  k->puts = 0;
-  pendres_context_set_keep(ctx, &keep);
-  pendres_context_set_interrupt(ctx, killed, k);
+  keeper_begin(k, ctx);
   const pendres_status status = ask(ctx, q, a);
   pendres_context_free(ctx);
-  if (k->state == NULL) k->state = old;
-  else free(old);
+  keeper_end(k);
   return status;
 }
 
@@ -215,15 +176,9 @@ static void cascade(void **state)
   (void)state;
   check_ok(pendres_cascade_find(ctx, &start, PENDRES_DRIVE_AMPLITUDE, 1.09, &whole));
   for (; status == PENDRES_INTERRUPTED && jobs < 20; jobs++) {
-    const pendres_keep keep = {always, put, k.state, k.size, &k};
-    unsigned char *old = k.state;
-    k.state = NULL;
-    k.puts = 0;
-    pendres_context_set_keep(ctx, &keep);
-    pendres_context_set_interrupt(ctx, killed, &k);
+    keeper_begin(&k, ctx);
     status = pendres_cascade_find(ctx, &start, PENDRES_DRIVE_AMPLITUDE, 1.09, &kept);
-    if (k.state == NULL) k.state = old;
-    else free(old);
+    keeper_end(&k);
   }
   check_ok(status);
   assert_true(jobs > 5);
