@@ -34,7 +34,7 @@
 # instruction sets).
 #
 # Conventions:
-# - All of src makes the library. src/*/kernels*.c are compiled once for each instruction set, with
+# - All of src makes the library. kernels*.c are compiled once for each instruction set, with
 #   PENDRES_KERNELS set to its name; the program chooses when it runs. Nothing else is compiled
 #   for more than the baseline, so what was built here runs anywhere.
 # - Everything is hidden unless a public header says otherwise: each header in include/pendres
@@ -173,7 +173,7 @@ LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
 
 # ---- Sources and products --------------------------------------------------------------------
 
-KERNEL_SOURCES := $(wildcard src/*/kernels*.c)
+KERNEL_SOURCES := $(wildcard src/*/kernels*.c src/*/*/kernels*.c)
 LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c src/*/*/*.c))
 # One of these is the program's: drivers/farm/ranks.h.
 RANKS := $(if $(filter-out 0,$(MPI)),mpi,serial)

@@ -25,11 +25,11 @@
 #include "oracle/reference.h"
 #include <pendres/strobe.h>
 
-#include "engine/compat.h"
+#include "engine/sundials/compat.h"
 #include "figures.h"
 #include "engine/block.h"
-#include "engine/kernels.h"
-#include "engine/tables.h"
+#include "engine/kernels/kernels.h"
+#include "engine/kernels/tables.h"
 
 enum { MEMBERS = 200, PERIODS = 100, SINGLES = 20, BARE_STAGES = PENDRES_TABLES_MOST_STAGES };
 

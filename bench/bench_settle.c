@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #include "figures.h"
-#include "engine/kernels.h"
+#include "engine/kernels/kernels.h"
 #include "scenes/scene.h"
 
 enum { LANES = 512, PERIODS = 4, REPEATS = 60, MOST_KEYS = 5 };

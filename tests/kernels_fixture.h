@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/kernels.h"
-#include "engine/lanes.h"
+#include "engine/kernels/kernels.h"
+#include "engine/sundials/lanes.h"
 
 enum { MOST_LANES = 96, VECTORS = 6, TANGENTS = 5, SIZE = PENDRES_ROWS_ALL * MOST_LANES };
 

@@ -26,9 +26,13 @@ layers()
 src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions.h base/numbers.h base/mix.h base/sine.h base/sized.h
   base/student.h
   model/equation.h model/forces.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
-  engine/accuracy.h engine/block.h engine/chain.h engine/charts.h engine/context_internal.h engine/door.h engine/keep.h engine/coordinates.h engine/kernels_force.h
-  engine/rank.h engine/room.h
-  engine/steps.h engine/strobe_run.h engine/tables.h engine/team.h
+  engine/kernels/coordinates.h engine/kernels/kernels.h engine/kernels/kernels_chart.h
+  engine/kernels/kernels_float.h engine/kernels/kernels_force.h engine/kernels/kernels_split.h
+  engine/kernels/rank.h engine/kernels/tables.h
+  engine/sundials/compat.h engine/sundials/flow_table.h engine/sundials/lanes.h
+  engine/sundials/lanes_replay.h engine/sundials/lanes_shape.h engine/sundials/lanes_tape.h
+  engine/accuracy.h engine/block.h engine/chain.h engine/charts.h engine/context_internal.h
+  engine/door.h engine/keep.h engine/room.h engine/steps.h engine/strobe_run.h engine/threads.h
   orbits/free_force.h orbits/label.h orbits/linear.h orbits/mean.h orbits/numbers.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h orbits/orbit_same.h
   orbits/orbit_reading.h orbits/orbit_series.h orbits/orbit_span.h orbits/orbit_table.h orbits/strobe_noise.h
@@ -36,9 +40,11 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   settling/exponents/carried.h settling/exponents/growth.h settling/exponents/lyapunov_move.h
   settling/exponents/numbers.h settling/exponents/unstable.h
   settling/trapping/annulus.h settling/trapping/escape.h settling/trapping/trapping_ellipse.h
-  noise/langevin_internal.h noise/noise_common.h continuation/equations.h continuation/parameter.h
-  continuation/part.h continuation/follow.h continuation/numbers.h
-  continuation/sets.h continuation/units.h
+  noise/langevin_internal.h noise/noise_common.h
+  continuation/curve/crossing.h continuation/curve/curve.h continuation/curve/equations.h
+  continuation/curve/follow.h continuation/curve/map.h continuation/curve/numbers.h
+  continuation/numbers.h continuation/parameter.h continuation/part.h continuation/sets.h
+  continuation/units.h
   analysis/resonance/response_parts.h'
 drivers_doors='system/apart.h system/bytes.h system/clock.h system/ending.h system/file.h system/grow.h system/text.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h scenes/scene.h scenes/outer.h
@@ -110,11 +116,10 @@ only()
 set -f
 only 'hdf5|hdf5_hl\.h|H5F|H5D|H5S' 'src/store/*'
 only 'H5public\.h' 'src/store/*' src/base/version.c
-only 'arkode/|cvode/|cvodes/' 'src/engine/block*' 'src/engine/flow*' 'src/engine/method_*' src/engine/compat.h
+only 'arkode/|cvode/|cvodes/' 'src/engine/block*' 'src/engine/sundials/*' 'src/engine/method_*'
 only 'nvector/|sunmatrix/|sunlinsol/|sunnonlinsol/' 'src/engine/method_*'
-only 'sundials/' src/engine/compat.h 'src/engine/block*' 'src/engine/flow*' 'src/engine/lanes*' 'src/engine/method_*' \
-  src/base/version.c
-only '.*compat\.h' 'src/engine/block*' 'src/engine/flow*' 'src/engine/method_*' src/engine/context.c
+only 'sundials/' 'src/engine/block*' 'src/engine/sundials/*' 'src/engine/method_*' src/base/version.c
+only '.*compat\.h' 'src/engine/block*' 'src/engine/sundials/*' 'src/engine/method_*' src/engine/context.c
 only 'gsl/' 'src/*' validation/benchmark.c 'drivers/system/ending.c'
 only 'mpi\.h' 'drivers/farm/*_mpi.c'
 only 'omp\.h' 'drivers/*'

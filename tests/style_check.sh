@@ -8,7 +8,7 @@ files=$(ls src/*/*.[ch] src/*/*/*.[ch] include/pendres/*.h drivers/*.[ch] driver
   validation/*.[ch] tests/*.[ch] tests/accuracy/*.[ch] bench/*.[ch] examples/*.c 2>/dev/null)
 # Data, which nobody reads from top to bottom: coefficients of Butcher tables as they were
 # published, and numbers that tests/make_golden.c has printed.
-data='src/engine/tables.c tests/golden.h'
+data='src/engine/kernels/tables.c tests/golden.h'
 
 # Functions that may have more parameters, and how many.
 more='

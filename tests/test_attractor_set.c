@@ -7,7 +7,7 @@
 
 #include <pendres/pendres.h>
 
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "settling/attractor_set.h"
 #include "orbits/orbit_same.h"
 

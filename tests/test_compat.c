@@ -1,4 +1,4 @@
-/* test_compat.c -- SUNDIALS 6.4 to 7.x behind one interface; see src/engine/compat.h. */
+/* test_compat.c -- SUNDIALS 6.4 to 7.x behind one interface; see src/engine/sundials/compat.h. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L /* dup2, fileno */
 #endif
@@ -9,7 +9,7 @@
 #include <nvector/nvector_serial.h>
 
 #include "check.h"
-#include "engine/compat.h"
+#include "engine/sundials/compat.h"
 
 static int refuse; /* the right-hand side fails on purpose */
 

@@ -11,7 +11,7 @@
 #include <pendres/free.h>
 #include <pendres/strobe.h>
 
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 
 static const pendres_pendulum fig7 = {
   .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78539816339744830962};

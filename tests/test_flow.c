@@ -10,7 +10,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/block.h"
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
 

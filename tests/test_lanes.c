@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/compat.h"
+#include "engine/sundials/compat.h"
 #include "base/sine.h"
-#include "engine/lanes.h"
-#include "engine/lanes_tape.h"
+#include "engine/sundials/lanes.h"
+#include "engine/sundials/lanes_tape.h"
 
 enum { MOST = 208, ROWS = PENDRES_ROWS_STATE };
 

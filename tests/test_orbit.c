@@ -9,7 +9,7 @@
 #include <pendres/pendres.h>
 #include "oracle/reference.h"
 
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 #include "golden.h"
 
 static const double two_pi = 6.28318530717958647693;

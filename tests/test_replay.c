@@ -11,7 +11,7 @@
 #include <pendres/pendres.h>
 
 #include "engine/context_internal.h"
-#include "engine/lanes_replay.h"
+#include "engine/sundials/lanes_replay.h"
 #include "engine/strobe_run.h"
 
 enum { LANES = 11, PERIODS = 5 };

@@ -7,7 +7,7 @@
 #include <pendres/pendres.h>
 #include "oracle/reference.h"
 
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 #include "run.h"
 #include "validation/benchmark.h"
 

@@ -15,8 +15,8 @@
 
 #include <string.h>
 
-#include "engine/flow_table.h"
-#include "engine/tables.h"
+#include "engine/sundials/flow_table.h"
+#include "engine/kernels/tables.h"
 
 enum { MOST_ORDER = 10, MOST_TREES = 1300, STAGES = PENDRES_TABLES_MOST_STAGES };
 

@@ -286,15 +286,15 @@ static void work(pool *c, int thread)
 }
 
 /* A thread beside the calling one. */
-typedef struct hand {
+typedef struct helper {
   pool *pool;
   int number;
   pthread_t thread;
-} hand;
+} helper;
 
-static void *hand_work(void *arg)
+static void *run_helper(void *arg)
 {
-  const hand *h = arg;
+  const helper *h = arg;
   pthread_mutex_lock(&h->pool->lock); /* until it is known how many there are */
   const int needed = h->number < h->pool->hired;
   pthread_mutex_unlock(&h->pool->lock);
@@ -306,25 +306,25 @@ static void *hand_work(void *arg)
  * Work with `threads` threads, or with fewer if not all can be started: the results are the
  * same. Usually memory is exhausted: half of the threads then end, and leave theirs to the others.
  */
-static void work_together(pool *c, int threads, hand *hands)
+static void run_together(pool *c, int threads, helper *helpers)
 {
   int started = 1, error = 0;
   pthread_mutex_lock(&c->lock);
   while (started < threads && error == 0) {
-    hands[started] = (hand){ .pool = c, .number = started };
-    error = farm_start_thread(&hands[started].thread, hand_work, &hands[started]);
+    helpers[started] = (helper){ .pool = c, .number = started };
+    error = farm_start_thread(&helpers[started].thread, run_helper, &helpers[started]);
     if (error == 0) started++;
   }
   c->hired = error == 0 ? started : (started + 1) / 2;
   pthread_mutex_unlock(&c->lock);
-  for (int i = c->hired; i < started; i++) (void)pthread_join(hands[i].thread, NULL);
+  for (int i = c->hired; i < started; i++) (void)pthread_join(helpers[i].thread, NULL);
   if (error != 0) {
     progress_note(c->farm->options.progress, "going on with %d of %d threads: %s", c->hired,
                   threads, strerror(error));
     c->farm->short_of = c->hired;
   }
   work(c, 0);
-  for (int i = 1; i < c->hired; i++) (void)pthread_join(hands[i].thread, NULL);
+  for (int i = 1; i < c->hired; i++) (void)pthread_join(helpers[i].thread, NULL);
 }
 
 /* What is in the journal already, and what is left to other shards. */
@@ -415,9 +415,9 @@ pendres_status farm_run(farm *f, const farm_stage *of)
   f->message[0] = '\0';
   if (stage->tasks == 0) return PENDRES_OK;
   if (f->trial != NULL) return trial_run(f, stage);
-  hand *hands = calloc((size_t)threads, sizeof *hands);
-  if (hands == NULL || pool_create(&c, f, stage, threads) != PENDRES_OK) {
-    free(hands);
+  helper *helpers = calloc((size_t)threads, sizeof *helpers);
+  if (helpers == NULL || pool_create(&c, f, stage, threads) != PENDRES_OK) {
+    free(helpers);
     snprintf(f->message, sizeof f->message, "out of memory for %zu %s", stage->tasks, stage->what);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -427,14 +427,14 @@ pendres_status farm_run(farm *f, const farm_stage *of)
     status = dispatch_begin(&c);
     if (status == PENDRES_OK) {
       collect_ready(&c);
-      work_together(&c, threads, hands);
+      run_together(&c, threads, helpers);
       dispatch_end(&c);
       status = outcome(&c);
     }
     progress_end(f->options.progress);
   }
   pool_free(&c);
-  free(hands);
+  free(helpers);
   f->stages++;
   return status;
 }

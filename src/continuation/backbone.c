@@ -12,13 +12,13 @@
 #include <string.h>
 
 #include "base/angles.h"
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 #include "continuation/numbers.h"
 #include "continuation/units.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_table.h"
 #include "orbits/free_force.h"

@@ -1,5 +1,5 @@
 /* bifurcations.c -- curves of bifurcations in two parameters; see continuation.h. */
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 
 #include <math.h>
 #include <string.h>

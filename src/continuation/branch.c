@@ -6,8 +6,8 @@
 
 #include "base/grow.h"
 #include "base/sized.h"
-#include "continuation/crossing.h"
-#include "continuation/curve.h"
+#include "continuation/curve/crossing.h"
+#include "continuation/curve/curve.h"
 #include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"

@@ -8,7 +8,7 @@
 
 #include <pendres/continuation.h>
 
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 
 /* What is wrong with options and starts, a static sentence; NULL if nothing is. */
 const char *pendres_branch_refuses(const pendres_branch_options *options, size_t n,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/angles.h"
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 #include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/sets.h"

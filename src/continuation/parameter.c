@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "continuation/map.h"
+#include "continuation/curve/map.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 

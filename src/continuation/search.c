@@ -1,9 +1,9 @@
 /* search.c -- the fold or the cusp that a curve leads to; see continuation.h and follow.h. */
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 
 #include <math.h>
 
-#include "continuation/crossing.h"
+#include "continuation/curve/crossing.h"
 #include "continuation/numbers.h"
 #include "continuation/parameter.h"
 #include "continuation/units.h"

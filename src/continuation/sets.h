@@ -10,7 +10,7 @@
 #define PENDRES_SETS_H
 
 #include "base/bytes.h"
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 
 /* 0 where two bifurcations are of one family: none lies on a curve of another family. Otherwise
    below 0 where the curves of the first one's family cost more, as those of long orbits do; an

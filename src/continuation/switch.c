@@ -11,7 +11,7 @@
 #include "continuation/units.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 
 /* Correct a node of a kind of orbits to where they meet the plane across its tangent; *error
    becomes that of the parameter. */

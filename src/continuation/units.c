@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 
 typedef void convert(const pendres_scales *scales, const pendres_dimensions *d, size_t n,
                      void *records);

@@ -4,7 +4,7 @@
 #ifndef PENDRES_CONTINUATION_UNITS_H
 #define PENDRES_CONTINUATION_UNITS_H
 
-#include "continuation/curve.h"
+#include "continuation/curve/curve.h"
 #include "engine/door.h"
 
 /* Bifurcations in canonical units, each of its own parameter, until the door is closed. */

@@ -13,11 +13,11 @@
 #include "base/angles.h"
 #include "base/grow.h"
 #include "base/instructions.h"
-#include "engine/compat.h"
+#include "engine/sundials/compat.h"
 #include "engine/block_internal.h"
-#include "engine/flow_table.h"
-#include "engine/lanes_tape.h"
-#include "engine/tables.h"
+#include "engine/sundials/flow_table.h"
+#include "engine/sundials/lanes_tape.h"
+#include "engine/kernels/tables.h"
 
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
 {

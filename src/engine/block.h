@@ -14,7 +14,7 @@
 #define PENDRES_BLOCK_H
 
 #include "engine/context_internal.h"
-#include "engine/kernels.h"
+#include "engine/kernels/kernels.h"
 
 /* Rows of a kind of block. */
 size_t pendres_flow_kind_rows(pendres_flow_kind kind);

@@ -11,7 +11,7 @@
 #include "base/instructions.h"
 #include "base/sine.h"
 #include "engine/block_internal.h"
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 #include "model/model.h"
 
 /* ---- single precision ---- */

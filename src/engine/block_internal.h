@@ -9,12 +9,12 @@
 
 #include <stddef.h>
 
-#include "engine/kernels_float.h"
-#include "engine/kernels_split.h"
-#include "engine/lanes.h"
-#include "engine/lanes_replay.h"
-#include "engine/lanes_shape.h"
-#include "engine/tables.h"
+#include "engine/kernels/kernels_float.h"
+#include "engine/kernels/kernels_split.h"
+#include "engine/sundials/lanes.h"
+#include "engine/sundials/lanes_replay.h"
+#include "engine/sundials/lanes_shape.h"
+#include "engine/kernels/tables.h"
 
 /* Arrays of coefficients, an entry a lane. */
 enum {

@@ -6,7 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/numbers.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 
 /* Some of the periods, whose starts are noted. */
 typedef struct part {
@@ -129,5 +129,5 @@ pendres_status pendres_chain_run(pendres_context *ctx, const pendres_chain *c)
   const size_t threads = (size_t)ctx->options.threads;
   const double work = (double)c->n * c->periods * c->steps;
   if (threads == 1 || c->n < 2 || work < chain_worth_threads) return run_all(ctx, c);
-  return pendres_team_run(ctx, c->n, (c->n + threads - 1) / threads, run_some, (void *)c);
+  return pendres_threads_run(ctx, c->n, (c->n + threads - 1) / threads, run_some, (void *)c);
 }

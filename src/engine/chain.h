@@ -10,8 +10,8 @@
 #define PENDRES_CHAIN_H
 
 #include "engine/block.h"
-#include "engine/kernels.h"
-#include "engine/lanes_shape.h"
+#include "engine/kernels/kernels.h"
+#include "engine/sundials/lanes_shape.h"
 
 /* A pendulum at the start of its first period. */
 typedef struct pendres_chain_start {

@@ -7,7 +7,7 @@
 #ifndef PENDRES_CHART_H
 #define PENDRES_CHART_H
 
-#include "engine/kernels_chart.h"
+#include "engine/kernels/kernels_chart.h"
 
 enum {
   PENDRES_CHART_CHECKED = 4, /* places a coordinate at which the interpolation is checked: ten

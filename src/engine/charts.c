@@ -8,7 +8,7 @@
 #include "base/grow.h"
 #include "engine/chart.h"
 #include "engine/context_internal.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/numbers.h"
 #include "engine/steps.h"
 #include "model/equation.h"

@@ -11,10 +11,10 @@
 #include "engine/accuracy.h"
 #include "engine/block.h"
 #include "engine/charts.h"
-#include "engine/compat.h"
+#include "engine/sundials/compat.h"
 #include "engine/numbers.h"
 #include "engine/steps.h"
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 
 /* NULL if the options are valid, otherwise what is wrong. */
 static const char *resolve(pendres_options *o)
@@ -77,8 +77,8 @@ const char *pendres_options_check(const pendres_options *options)
 void pendres_context_free(pendres_context *ctx)
 {
   if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
-  for (int i = 0; i < ctx->mates; i++) pendres_context_free(ctx->mate[i]);
-  free(ctx->mate);
+  for (int i = 0; i < ctx->workers; i++) pendres_context_free(ctx->worker[i]);
+  free(ctx->worker);
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_block_free(ctx->blocks[i]);
   pendres_steps_memo_free(ctx->steps);
   pendres_charts_memo_free(ctx->charts);

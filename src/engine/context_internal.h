@@ -33,8 +33,8 @@ struct pendres_context {
   int canonical;       /* a door (door.h) is open: all is in canonical units */
   void *sun;           /* a SUNContext, for the blocks */
   pendres_block *blocks[PENDRES_FLOW_KINDS];
-  pendres_context **mate; /* of the threads of a team (team.h), kept from one call to the next */
-  int mates;
+  pendres_context **worker; /* of a call's threads (threads.h), kept from one call to the next */
+  int workers;
   struct pendres_steps_memo *steps;
   struct pendres_charts_memo *charts; /* NULL: none so far */
   pendres_cost cost;

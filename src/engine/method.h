@@ -10,7 +10,7 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-#include "engine/kernels.h"
+#include "engine/kernels/kernels.h"
 
 /* One pendulum that is being integrated. y is kept within half a turn of zero; whole turns are
    counted. */

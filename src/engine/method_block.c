@@ -1,8 +1,8 @@
 /* method_block.c -- blocks on ARKODE, whose lanes are retired and refilled at the strobe. */
 #include "engine/block.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/method.h"
-#include "engine/rank.h"
+#include "engine/kernels/rank.h"
 #include "engine/room.h"
 
 typedef struct filling {

@@ -9,7 +9,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "base/numbers.h"
-#include "engine/compat.h"
+#include "engine/sundials/compat.h"
 #include "engine/method_one.h"
 #include "model/equation.h"
 #include "model/model.h"

@@ -9,9 +9,9 @@
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 
-#include "engine/compat.h"
+#include "engine/sundials/compat.h"
 #include "engine/method_one.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 
 static int slope(sunrealtype t, N_Vector state, N_Vector out, void *arg)
 {

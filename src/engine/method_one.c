@@ -7,8 +7,8 @@
 #include <nvector/nvector_serial.h>
 
 #include "base/angles.h"
-#include "engine/compat.h"
-#include "engine/coordinates.h"
+#include "engine/sundials/compat.h"
+#include "engine/kernels/coordinates.h"
 #include "model/model.h"
 
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one)

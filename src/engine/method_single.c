@@ -2,8 +2,8 @@
 #include <arkode/arkode_erkstep.h>
 
 #include "base/numbers.h"
-#include "engine/compat.h"
-#include "engine/flow_table.h"
+#include "engine/sundials/compat.h"
+#include "engine/sundials/flow_table.h"
 #include "engine/method_one.h"
 
 /* See block.c on ERKStep before SUNDIALS 6.7. */

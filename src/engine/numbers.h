@@ -12,15 +12,7 @@
 enum {
   LANES_USUAL = 512, /* of a block, unless asked: more is hardly faster */
   LANES_MOST = 4096,
-  PARTS_MOST_THREADS = 4096, /* more than any machine has processors */
-  /*
-   * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
-   * vectors of a state than the kernels keep in registers at once. Measured; twice or half as many
-   * cost a few per cent.
-   */
-  LANES_OF_STATES = 80,
-  LANES_OF_TANGENTS = 48,
-  LANES_OF_MORE = 24
+  PARTS_MOST_THREADS = 4096 /* more than any machine has processors */
 };
 
 /* A chain of derivatives is divided among threads where it has more steps than this, some two

@@ -1,7 +1,7 @@
 /*
  * parts.c -- work on several threads, each with a context of its own; see <pendres/parts.h>.
  *
- * A call with a context that lasts as long as the work does, which a team does (engine/team.h).
+ * A call on several threads (engine/threads.h) with a context that lasts as long as the work does.
  */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <pendres/parts.h>
@@ -11,7 +11,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/numbers.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 
 enum { PARTS_EACH = 4096 };
 
@@ -79,7 +79,7 @@ pendres_status pendres_parts_run(const pendres_parts *how,
     say(message, size, pendres_status_message(status));
     return status;
   }
-  status = pendres_team_run(ctx, how->n, how->each > 0 ? how->each : PARTS_EACH, part, &j);
+  status = pendres_threads_run(ctx, how->n, how->each > 0 ? how->each : PARTS_EACH, part, &j);
   if (status != PENDRES_OK) say(message, size, pendres_context_message(ctx));
   pendres_context_free(ctx);
   return status;

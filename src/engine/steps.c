@@ -11,7 +11,7 @@
 #include "engine/context_internal.h"
 #include "engine/block.h"
 #include "engine/numbers.h"
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 #include "model/equation.h"
 
 int pendres_steps_rung(int n)

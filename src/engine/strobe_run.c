@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "engine/context_internal.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 
 #define PLACE(value, name) [value] = &pendres_method_##name,
 static const pendres_method_functions *const methods[PENDRES_METHOD_COUNT] = {

@@ -12,7 +12,7 @@
 #include <Random123/philox.h>
 
 #include "base/instructions.h"
-#include "engine/kernels_force.h"
+#include "engine/kernels/kernels_force.h"
 
 #if defined(__AVX2__)
 #include <immintrin.h>

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/model.h"
 #include "noise/noise_common.h"
 

@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 #include "base/angles.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/equation.h"
 #include "model/model.h"
 #include "model/units.h"

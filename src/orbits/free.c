@@ -16,7 +16,7 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 #include "engine/door.h"
 #include "engine/strobe_run.h"
 #include "orbits/numbers.h"

@@ -11,7 +11,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"

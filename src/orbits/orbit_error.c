@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/equation.h"
 #include "model/model.h"
 #include "orbits/numbers.h"

@@ -8,10 +8,10 @@
 #include "base/grow.h"
 #include "engine/chain.h"
 #include "engine/context_internal.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "engine/room.h"
 #include "engine/block.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/model.h"
 #include "orbits/numbers.h"
 #include "orbits/strobe_noise.h"
@@ -320,7 +320,7 @@ size_t pendres_newton_each(const pendres_context *ctx, size_t n, const pendres_n
 {
   double steps = 0.0;
   for (size_t i = 0; i < n; i++) steps += (double)c[i].steps * c[i].guess->period;
-  return steps > newton_worth_threads ? pendres_team_share(ctx, n) : n;
+  return steps > newton_worth_threads ? pendres_threads_share(ctx, n) : n;
 }
 
 /* One step of Newton's method for some candidates, in the order in which they share blocks. */
@@ -363,7 +363,7 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_n
   pendres_newton_order(n, c);
   while (active > 0) {
     const pendres_status status =
-      pendres_team_run(ctx, active, pendres_newton_each(ctx, active, c), improve_some, c);
+      pendres_threads_run(ctx, active, pendres_newton_each(ctx, active, c), improve_some, c);
     if (status != PENDRES_OK) return status;
     active = bring_forward(active, c);
   }

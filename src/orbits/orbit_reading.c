@@ -6,7 +6,7 @@
 
 #include "base/grow.h"
 #include "engine/context_internal.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "orbits/orbit_table.h"
 
 /* Memory for samples and what measuring them takes. */
@@ -85,5 +85,5 @@ pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_read
 {
   reading of = {.reader = reader, .c = c};
   pendres_newton_order(n, c);
-  return pendres_team_run(ctx, n, pendres_newton_each(ctx, n, c), read_some, &of);
+  return pendres_threads_run(ctx, n, pendres_newton_each(ctx, n, c), read_some, &of);
 }

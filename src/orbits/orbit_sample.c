@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/room.h"
 #include "model/model.h"
 #include "orbits/orbit_error.h"

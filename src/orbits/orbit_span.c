@@ -5,8 +5,8 @@
 
 #include "base/angles.h"
 #include "engine/block.h"
-#include "engine/coordinates.h"
-#include "engine/rank.h"
+#include "engine/kernels/coordinates.h"
+#include "engine/kernels/rank.h"
 #include "engine/room.h"
 
 double pendres_turning_angle(double spacing, double y0, double w0, double y1, double w1)

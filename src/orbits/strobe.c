@@ -11,7 +11,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/steps.h"
 #include "model/equation.h"
 #include "orbits/strobe_noise.h"

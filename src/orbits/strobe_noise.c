@@ -6,7 +6,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/steps.h"
-#include "engine/tables.h"
+#include "engine/kernels/tables.h"
 #include "orbits/numbers.h"
 
 /*

@@ -15,7 +15,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/block.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"

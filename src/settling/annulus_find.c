@@ -11,7 +11,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/room.h"
 #include "engine/steps.h"
 #include "model/equation.h"

@@ -11,7 +11,7 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "settling/settle.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/equation.h"
 #include "model/model.h"
 #include "settling/numbers.h"

@@ -10,7 +10,7 @@
 #include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/model.h"
 #include "orbits/label.h"
 #include "orbits/orbit_same.h"

@@ -11,7 +11,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/equation.h"
 #include "model/model.h"
 #include "settling/numbers.h"

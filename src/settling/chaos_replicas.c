@@ -12,9 +12,9 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/block.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/steps.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "model/equation.h"
 #include "model/model.h"
 
@@ -250,9 +250,9 @@ pendres_status pendres_replicas_advance(pendres_context *ctx, const pendres_attr
   pendres_status status =
     pendres_steps_choose(ctx, &c->pendulum, fastest, pendres_accuracy_in_chaos(ctx), &of.steps);
   of.steps += of.steps % 2; /* for tangents with steps twice as long */
-  const size_t share = pendres_team_share(ctx, n), block = (size_t)ctx->options.block_lanes;
+  const size_t share = pendres_threads_share(ctx, n), block = (size_t)ctx->options.block_lanes;
   if (status == PENDRES_OK)
-    status = pendres_team_run(ctx, n, share < block ? share : block, advance_some, &of);
+    status = pendres_threads_run(ctx, n, share < block ? share : block, advance_some, &of);
   if (trace != NULL) trace->filled += periods;
   return status;
 }

@@ -11,7 +11,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/steps.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "model/model.h"
 #include "settling/trapping/escape.h"
 #include "settling/numbers.h"
@@ -316,7 +316,7 @@ static pendres_status run_some(pendres_context *ctx, size_t first, size_t count,
 static pendres_status integrate(pendres_context *ctx, size_t n, const size_t *which,
                                 pendres_strobe_lane *lanes, pendres_strobe_visit *visit, void *arg)
 {
-  const size_t share = pendres_team_share(ctx, n);
+  const size_t share = pendres_threads_share(ctx, n);
   if (n <= share) return pendres_strobe_run_some(ctx, n, which, lanes, visit, arg);
   const size_t parts = (n + share - 1) / share;
   pendres_room room = pendres_room_open(ctx, "pendulums");
@@ -325,7 +325,8 @@ static pendres_status integrate(pendres_context *ctx, size_t n, const size_t *wh
   for (size_t part = 0, at = 0; part < parts; part++)
     for (size_t k = part; k < n; k += parts) dealt[at++] = which[k];
   running r = {.lanes = lanes, .which = dealt, .visit = visit, .arg = arg};
-  return pendres_room_close(&room, pendres_team_run(ctx, n, (n + parts - 1) / parts, run_some, &r));
+  return pendres_room_close(&room,
+                            pendres_threads_run(ctx, n, (n + parts - 1) / parts, run_some, &r));
 }
 
 /* Runs of lanes that take turns between charts and the integrator. */

@@ -15,14 +15,14 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/block.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/door.h"
 #include "engine/room.h"
 #include "model/equation.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 
 /* A boundary that grows; the public part comes first. */
 typedef struct growing {
@@ -180,7 +180,8 @@ static pendres_status find_distances(pendres_context *ctx, const pendres_boundar
   qsort(order, n, sizeof *order, by_generation);
   measuring m = {.seed = seed, .forward = pendres_equation_reversed(&seed->backward),
                  .curve = curve, .order = order};
-  return pendres_room_close(&room, pendres_team_run(ctx, n, BOUNDARY_TOGETHER, measure_some, &m));
+  return pendres_room_close(&room,
+                            pendres_threads_run(ctx, n, BOUNDARY_TOGETHER, measure_some, &m));
 }
 
 /* ---- into the window ---- */

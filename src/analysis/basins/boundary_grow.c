@@ -10,9 +10,9 @@
 #include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/strobe_run.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "model/equation.h"
 #include "model/model.h"
 
@@ -442,7 +442,7 @@ pendres_status pendres_boundary_grow(pendres_context *ctx, const pendres_boundar
 {
   sides s = {.seed = seed, .options = o, .own = {{.complete = 1}, {.complete = 1}}};
   if (seed->backward.force != PENDRES_FORCE_PENDULUM) curve->complete = 0;
-  pendres_status status = pendres_team_run(ctx, 2, 1, grow_some, &s);
+  pendres_status status = pendres_threads_run(ctx, 2, 1, grow_some, &s);
   if (status == PENDRES_OK) status = join(ctx, &s.own[0], curve);
   if (status == PENDRES_OK && curve->count + s.most[1] < o->most_points) {
     status = join(ctx, &s.own[1], curve);

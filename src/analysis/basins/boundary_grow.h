@@ -8,7 +8,7 @@
 
 #include <pendres/boundary.h>
 
-#include "continuation/equations.h"
+#include "continuation/curve/equations.h"
 
 /*
  * The local manifold at a saddle, going back in time: z(a) = z* + a e + c a^2 f, with a = side *

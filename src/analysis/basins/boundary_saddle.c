@@ -7,7 +7,7 @@
 #include "engine/door.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
-#include "continuation/follow.h"
+#include "continuation/curve/follow.h"
 #include "continuation/numbers.h"
 
 static double frequency_of(const pendres_curve_node *node)

@@ -14,7 +14,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "settling/settle.h"
 
 /* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */
@@ -116,7 +116,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
 {
   a->begin = out->states;
   a->each = 1 + 2 * (size_t)out->scales;
-  const pendres_status status = pendres_team_run(ctx, count, SAMPLE_TOGETHER, settle_part, a);
+  const pendres_status status = pendres_threads_run(ctx, count, SAMPLE_TOGETHER, settle_part, a);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
     const pendres_outcome *own = &a->outcome[i * a->each];

@@ -9,7 +9,7 @@
 #include "analysis/chaos/numbers.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "model/equation.h"
 
 enum {
@@ -193,7 +193,7 @@ static pendres_status measure(pendres_context *ctx, survey *s, double resolution
     out->dimension = out->dimension_error = 0.0;
     return PENDRES_OK;
   }
-  const pendres_status status = pendres_team_run(ctx, BATCHES * BATCHES, 1, count_some, s);
+  const pendres_status status = pendres_threads_run(ctx, BATCHES * BATCHES, 1, count_some, s);
   if (status == PENDRES_OK) judge(s, resolution, out);
   return status;
 }

@@ -10,7 +10,7 @@
 #include <pendres/fit.h>
 
 #include "analysis/fit/numbers.h"
-#include "continuation/follow.h"
+#include "continuation/curve/follow.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
 

@@ -15,7 +15,7 @@
 #include "orbits/orbit_measure.h"
 #include "analysis/resonance/response_parts.h"
 #include "settling/settle.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 
 /* An ensemble's members by attractor; attractors without members count for nothing. */
 typedef struct parted {

@@ -10,7 +10,7 @@
 #include "base/angles.h"
 #include "continuation/parameter.h"
 #include "engine/context_internal.h"
-#include "engine/team.h"
+#include "engine/threads.h"
 #include "model/model.h"
 #include "orbits/orbit_table.h"
 #include "orbits/orbit_span.h"
@@ -171,9 +171,9 @@ static pendres_status average_part(pendres_context *ctx, size_t part, size_t cou
 static pendres_status settle_by_averages(pendres_context *ctx, averages *of)
 {
   if (of->n == 0) return PENDRES_OK;
-  const size_t share = pendres_team_share(ctx, of->n);
+  const size_t share = pendres_threads_share(ctx, of->n);
   of->parts = (of->n + share - 1) / share;
-  return pendres_team_run(ctx, of->parts, 1, average_part, of);
+  return pendres_threads_run(ctx, of->parts, 1, average_part, of);
 }
 
 static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const size_t *which,

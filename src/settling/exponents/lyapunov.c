@@ -10,7 +10,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/door.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "model/equation.h"
 #include "orbits/orbit_table.h"
 #include "settling/exponents/carried.h"

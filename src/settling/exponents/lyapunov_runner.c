@@ -7,8 +7,8 @@
 #include "settling/exponents/numbers.h"
 #include "engine/block.h"
 #include "engine/context_internal.h"
-#include "engine/coordinates.h"
-#include "engine/rank.h"
+#include "engine/kernels/coordinates.h"
+#include "engine/kernels/rank.h"
 #include "model/model.h"
 #include "settling/trapping/escape.h"
 

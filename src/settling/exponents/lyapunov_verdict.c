@@ -8,7 +8,7 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
 #include "model/equation.h"

@@ -6,7 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/room.h"
-#include "engine/coordinates.h"
+#include "engine/kernels/coordinates.h"
 #include "engine/steps.h"
 #include "model/model.h"
 #include "settling/trapping/numbers.h"
