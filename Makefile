@@ -39,7 +39,7 @@
 #   for more than the baseline, so what was built here runs anywhere.
 # - Everything is hidden unless a public header says otherwise: each header in include/pendres
 #   has `#pragma GCC visibility push(default)` after its includes and `pop` at its end.
-# - drivers/*.c and drivers/*/*.c except main.c make libdriver.a, and so do validation/*.c and
+# - What is below drivers but main.c makes libdriver.a, and so do validation/*.c and
 #   tests/oracle/*.c, what the program is measured against. They see the public headers alone.
 # - tests/test_NAME.c are programs of their own, tests/NAME_check.sh scripts; both count.
 #   They run at the top of the tree, with RESONANCE naming the program to try.
@@ -178,7 +178,7 @@ LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c src/*/*/*
 # One of these is the program's: drivers/farm/ranks.h.
 RANKS := $(if $(filter-out 0,$(MPI)),mpi,serial)
 OTHER_RANKS := $(filter-out %_$(RANKS).c,$(wildcard drivers/farm/ranks_*.c))
-DRIVER_SOURCES := $(filter-out drivers/main.c $(OTHER_RANKS),$(wildcard drivers/*.c drivers/*/*.c)) \
+DRIVER_SOURCES := $(filter-out drivers/main.c $(OTHER_RANKS),$(wildcard drivers/*.c drivers/*/*.c drivers/*/*/*.c)) \
                   $(wildcard validation/*.c tests/oracle/*.c)
 HEADERS := $(wildcard include/pendres/*.h)
 OBJ := $(BUILD)/obj
@@ -228,7 +228,8 @@ $(BUILD)/flags: ;
 # refused.
 ifneq ($(BUILDING),)
 SOURCES_SUM := $(shell cat $(sort $(HEADERS) $(wildcard src/*/*.[ch] src/*/*/*.[ch] \
-                 drivers/*.[ch] drivers/*/*.[ch] validation/*.[ch] tests/oracle/*.[ch])) | cksum)
+                 drivers/*.[ch] drivers/*/*.[ch] drivers/*/*/*.[ch] validation/*.[ch] \
+                 tests/oracle/*.[ch])) | cksum)
 ifneq ($(SOURCES_SUM),$(strip $(file <$(BUILD)/sources)))
 $(file >$(BUILD)/sources,$(SOURCES_SUM))
 endif

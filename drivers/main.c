@@ -10,7 +10,7 @@
 
 #include "farm/ranks.h"
 #include "pages.h"
-#include "scenes/failed.h"
+#include "results/failed.h"
 #include "scenes/outer.h"
 #include "run.h"
 #include "shard.h"

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "deck/namelist.h"
+#include "deck/namelist/namelist.h"
 
 /* The one value of the one name of the one group. */
 static inline const namelist_value *only_value(const namelist *nl)

@@ -4,7 +4,7 @@
 # lines or 6 parameters. `make style`.
 set -u
 export LC_ALL=C.UTF-8
-files=$(ls src/*/*.[ch] src/*/*/*.[ch] include/pendres/*.h drivers/*.[ch] drivers/*/*.[ch] \
+files=$(ls src/*/*.[ch] src/*/*/*.[ch] include/pendres/*.h drivers/*.[ch] drivers/*/*.[ch] drivers/*/*/*.[ch] \
   validation/*.[ch] tests/*.[ch] tests/accuracy/*.[ch] bench/*.[ch] examples/*.c 2>/dev/null)
 # Data, which nobody reads from top to bottom: coefficients of Butcher tables as they were
 # published, and numbers that tests/make_golden.c has printed.
@@ -66,7 +66,7 @@ functions()
 }
 
 found=$(
-  functions $(ls src/*/*.[ch] src/*/*/*.[ch] include/pendres/*.h drivers/*.[ch] drivers/*/*.[ch] \
+  functions $(ls src/*/*.[ch] src/*/*/*.[ch] include/pendres/*.h drivers/*.[ch] drivers/*/*.[ch] drivers/*/*/*.[ch] \
     validation/*.[ch])
   {
     grep -nHE '^.{101,}' $files | sed -E 's/^([^:]*:[0-9]*):.*/\1: over 100 columns/'

@@ -14,7 +14,7 @@
 #include "farm/farm.h"
 #include "farm/journal.h"
 #include "farm/trial.h"
-#include "scenes/failed.h"
+#include "results/failed.h"
 
 enum { TASKS = 20, ENDLESS = 12 };
 

@@ -7,7 +7,7 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 
 #include "deck_fixture.h"
-#include "deck/si.h"
+#include "deck/si/si.h"
 #include "deck/table.h"
 
 static const double rounding = 8 * 1.2e-16;

@@ -4,8 +4,8 @@
  */
 #include "scene_fixture.h"
 
-#include "scenes/columns.h"
-#include "scenes/failed.h"
+#include "results/columns.h"
+#include "results/failed.h"
 
 /* Codes of a variable. */
 static void get_codes(const char *file, const char *name, int *codes, size_t n)

@@ -6,8 +6,8 @@
 
 #include <pendres/pendres.h>
 
-#include "scenes/basins.h"
-#include "scenes/failed.h"
+#include "scenes/basins/basins.h"
+#include "results/failed.h"
 
 /* Clouds alone, as scenes/basins.c asks for them. */
 static pendres_status run_clouds(scene_run *run)

@@ -6,7 +6,7 @@
 
 #include <pendres/free.h>
 
-#include "scenes/failed.h"
+#include "results/failed.h"
 #include "scenes/peak.h"
 
 /* Asked for the `limit`-th time, the farm is told to stop. */

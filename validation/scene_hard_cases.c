@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/columns.h"
+#include "results/columns.h"
+#include "scenes/scene.h"
 #include "system/grow.h"
 #include "validation/hard_cases.h"
 

@@ -18,7 +18,7 @@
 #include <pendres/parameter.h>
 #include <pendres/status.h>
 
-#include "deck/namelist.h"
+#include "deck/namelist/namelist.h"
 
 /*
  * Kinds of scenes, a row each: the name in decks, what is computed, in words for --list, and

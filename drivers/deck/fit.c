@@ -2,7 +2,7 @@
  * fit.c -- entries of &fit, such as 'damping 0.01 0.1' and 'a3 1e14 1e12 N/m^3', what makes SI of
  * the quantities of a fit, and whether all of it agrees. See deck.h.
  */
-#include "deck/si.h"
+#include "deck/si/si.h"
 #include "deck/table.h"
 
 #include <math.h>

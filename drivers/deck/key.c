@@ -1,5 +1,5 @@
 /* key.c -- the values of one key: type, range, choice, default; see table.h. */
-#include "deck/namelist_lex.h"
+#include "deck/namelist/lex.h"
 #include "deck/table.h"
 
 #include <math.h>

@@ -5,8 +5,8 @@
  * All follows from the scales that a deck has in &units (scales.c), which are at most those of
  * time, length, mass or current. A model's unit of time is 1/(2 pi natural_frequency).
  */
-#include "deck/namelist_lex.h"
-#include "deck/si.h"
+#include "deck/namelist/lex.h"
+#include "deck/si/si.h"
 #include "deck/table.h"
 
 #include <math.h>

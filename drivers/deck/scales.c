@@ -6,7 +6,7 @@
  * the resolved deck has natural_frequency, length and mass or critical_current alone, from which
  * the same conversions follow to the last bit.
  */
-#include "deck/si.h"
+#include "deck/si/si.h"
 #include "deck/table.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  * (insertions, deletions, replacements and swaps of neighbours), and the symbols of the
  * literature for what decks spell out.
  */
-#include "deck/namelist_lex.h"
+#include "deck/namelist/lex.h"
 #include "deck/table.h"
 
 #include <string.h>

@@ -7,8 +7,8 @@
 #ifndef SCENE_ALONG_H
 #define SCENE_ALONG_H
 
-#include "scenes/columns.h"
-#include "scenes/failed.h"
+#include "results/columns.h"
+#include "results/failed.h"
 #include "scenes/points.h"
 
 /*

@@ -44,14 +44,6 @@ enum { LINES_RUNS_A_POINT = 5 };
 /* A damping at which a thousand exponents take some seconds. */
 static const double usual_damping = 0.2;
 
-/* Where a weakly damped pendulum is driven no harder than this, in its units, hardly any start is
-   in chaos, and the library's charts of the strobe map save nine tenths of the steps: 64 states
-   took 17 s at most at a damping of 1e-6, and six minutes at a drive of 0.2. */
-static const double charted_drive = 0.02, charted_share = 0.1;
-
-/* A drive of so many natural frequencies is rather a slip: mHz for MHz. */
-static const double far_above = 1e4;
-
 /* The spacing of branches that are not written: it may be sparse. */
 static const double lines_sparse = 0.1;
 

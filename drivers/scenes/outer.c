@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/columns.h"
-#include "scenes/failed.h"
-#include "scenes/tape.h"
+#include "results/columns.h"
+#include "results/failed.h"
+#include "results/tape.h"
 
 typedef struct outer {
   const deck *whole;

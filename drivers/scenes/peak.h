@@ -6,7 +6,7 @@
 #ifndef SCENE_PEAK_H
 #define SCENE_PEAK_H
 
-#include "scenes/columns.h"
+#include "results/columns.h"
 
 typedef struct scene_peak {
   double at;     /* the line's parameter, */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/columns.h"
+#include "results/columns.h"
 #include "system/grow.h"
 
 /* Of a point that has failed, behind the records of a task's points. */

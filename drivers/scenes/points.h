@@ -9,9 +9,10 @@
 #ifndef POINTS_H
 #define POINTS_H
 
-#include "scenes/columns.h"
-#include "scenes/failed.h"
+#include "results/columns.h"
+#include "results/failed.h"
 #include "scenes/numbers.h"
+#include "scenes/scene.h"
 
 enum {
   SCENE_MESSAGE = sizeof((farm_record *)0)->message

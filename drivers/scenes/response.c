@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/columns.h"
+#include "results/columns.h"
 #include "scenes/numbers.h"
 #include "scenes/peak.h"
 #include "scenes/points.h"

@@ -8,7 +8,7 @@
  */
 #include <math.h>
 
-#include "scenes/columns.h"
+#include "results/columns.h"
 #include "scenes/points.h"
 
 static const double level = 0.95; /* of confidence intervals */

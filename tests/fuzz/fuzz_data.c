@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "scenes/fit_data.h"
+#include "scenes/fit/data.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -5,7 +5,7 @@
 #include "fuzz/fuzz.h"
 
 #include "deck/deck.h"
-#include "deck/namelist.h"
+#include "deck/namelist/namelist.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

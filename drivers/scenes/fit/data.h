@@ -1,0 +1,74 @@
+/* data.h -- what the parts of the scene fit share: its data, their units, and its results. */
+#ifndef SCENE_FIT_DATA_H
+#define SCENE_FIT_DATA_H
+
+#include <string.h>
+
+#include <pendres/fit.h>
+#include <pendres/names.h>
+
+#include "scenes/scene.h"
+
+/* What a file holds: data for the library, and whether they have standard errors. */
+typedef struct fit_data {
+  pendres_fit_data of;
+  pendres_fit_datum *datum; /* [of.n], in the run's room: a line's observables in their order */
+  size_t *line;             /* [of.n] from where they are */
+  char path[DECK_PATH];
+} fit_data;
+
+enum { FIT_MOST = PENDRES_FIT_QUANTITY_COUNT };
+
+typedef struct fit_work {
+  scene_run *run;
+  const deck *d;
+  fit_data data;
+  pendres_pendulum model;
+  size_t n, free; /* unknowns, of which the first ones are free */
+  pendres_fit_unknown unknown[FIT_MOST];
+  pendres_fit *fit;
+} fit_work;
+
+/* The variables of a file of results, open as `fd`, that a fit may need, as lines of text with a
+   line of names, to be freed. It is read apart, since a damaged one may crash its reader. Returns
+   as bytes_text() does; NULL with PENDRES_OK: the run has failed, and why is on record. */
+pendres_status fit_store_text(scene_run *run, const char *path, int fd, char **text,
+                              size_t *length);
+
+/* Read the deck's file; what is wrong is the run's failure: file, line, and what to do. */
+void fit_data_read(scene_run *run, fit_data *out);
+
+/* Whether the data are over time. */
+static inline int fit_is_decay(const deck *d)
+{
+  return strcmp(d->data.axis, "time") == 0;
+}
+
+/* Whether they are mean velocities, of rest and rotations without a drive. */
+static inline int fit_is_rotation(const deck *d)
+{
+  return d->data.observables.count > 0 &&
+         strcmp(d->data.observables.name[0], "mean_velocity") == 0;
+}
+
+/* Whether an observable is a value of the axis itself. */
+static inline int fit_is_place(pendres_fit_observable o)
+{
+  return o == PENDRES_FIT_JUMP || o == PENDRES_FIT_RESONANCE;
+}
+
+/* Standard error of unknown number i. */
+double fit_error(const fit_work *w, size_t i);
+
+/* Bring data from SI into the model's units, where &units tell these. */
+void fit_units_take(fit_work *w);
+/* What makes SI of a parameter of the data, the axis or the other one, or of their time; 0: &units
+   do not tell. */
+int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out);
+/* Mark what the file holds in units of the data. */
+void fit_units_mark(const fit_work *w);
+
+/* Write the results. */
+void fit_write(const fit_work *w);
+
+#endif
