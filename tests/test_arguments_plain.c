@@ -233,6 +233,8 @@ static void sweeps(void **state)
   INVALID(pendres_ensemble_check(NULL, NULL));
   const pendres_ensemble nobody = pendres_ensemble_default();
   assert_int_equal(nobody.members, 200);
+  const pendres_pendulum none = { .force = PENDRES_FORCE_COUNT };
+  assert_true(pendres_ensemble_of(&none).x_last == nobody.x_last);
   pendres_response_average(NULL);
   pendres_response r = { .states = SIZE_MAX };
   pendres_response_average(&r);

@@ -208,6 +208,36 @@ static void ensemble_is_half_open(void **state)
   check_near(member_x(&e, 200), 4.71238898038468985769, 1e-15);
 }
 
+/* A spring k that is driven by F0 swings by F0/(damping sqrt(k)) at most, which a search by powers
+   of two and four halvings meets to 1/16; starts lie up to twice as far, in whatever units. */
+static void starts_span_the_response(void **state)
+{
+  (void)state;
+  const pendres_ensemble paper = pendres_ensemble_default();
+  pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 0.02, .drive_frequency = 1.0};
+  pendres_ensemble e = pendres_ensemble_of(&p);
+  assert_memory_equal(&e, &paper, sizeof e);
+  e = pendres_ensemble_of(NULL);
+  assert_memory_equal(&e, &paper, sizeof e);
+  p.force = PENDRES_FORCE_POLYNOMIAL;
+  p.force_coefficients[0] = 4.0;
+  e = pendres_ensemble_of(&p);
+  assert_true(e.members == 200 && e.x_first == -e.x_last && e.v == 0.0);
+  assert_true(e.x_last <= 0.2 * (1.0 + 1e-12) && e.x_last > 0.2 * 15.0 / 16.0);
+  const double one = e.x_last;
+  p.drive_amplitude *= 0x1p-20;
+  assert_true(pendres_ensemble_of(&p).x_last == one * 0x1p-20);
+  /* Without a drive the force's own length: where k x is k3 x^3. */
+  p.drive_amplitude = 0.0;
+  p.force_coefficients[2] = 16.0;
+  assert_true(pendres_ensemble_of(&p).x_last == 1.0);
+  /* Two wells at +-1, which starts up to sqrt(2) span. */
+  p.drive_amplitude = 0.3;
+  p.force_coefficients[0] = -1.0;
+  p.force_coefficients[2] = 1.0;
+  assert_true(pendres_ensemble_of(&p).x_last >= sqrt(2.0));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -221,6 +251,7 @@ int main(void)
     cmocka_unit_test(every_quantity_has_its_place),
     cmocka_unit_test(sweeps_that_are_wrong),
     cmocka_unit_test(ensemble_is_half_open),
+    cmocka_unit_test(starts_span_the_response),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

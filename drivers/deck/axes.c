@@ -127,13 +127,28 @@ double deck_axis_largest(const deck_axis *a)
   return most;
 }
 
-pendres_units deck_pendulum_units(const deck *d)
+/* With the largest value of each axis. */
+static pendres_pendulum largest(const deck *d)
 {
   pendres_pendulum p = d->pendulum;
   for (int i = 0; i < DECK_AXIS_TEMPERATURE; i++)
     if (d->axis[i].count > 0)
       pendres_parameter_set(parameters[i], deck_axis_largest(&d->axis[i]), &p);
+  return p;
+}
+
+pendres_units deck_pendulum_units(const deck *d)
+{
+  const pendres_pendulum p = largest(d);
   return pendres_units_of(&p);
+}
+
+pendres_ensemble deck_starts(const deck *d)
+{
+  pendres_pendulum p = largest(d);
+  const deck_axis *damping = &d->axis[DECK_AXIS_DAMPING];
+  if (damping->count > 0) p.damping = damping->value[0];
+  return pendres_ensemble_of(&p);
 }
 
 int deck_may_rest(const deck *d)

@@ -17,6 +17,7 @@
 
 #include <pendres/parameter.h>
 #include <pendres/status.h>
+#include <pendres/sweep.h>
 
 #include "deck/namelist/namelist.h"
 
@@ -311,6 +312,9 @@ pendres_pendulum deck_pendulum(const deck *d);
 /** The canonical units of a deck's pendulums (pendres_units_of); of parameters that are swept the
  *  value of the largest size decides. */
 pendres_units deck_pendulum_units(const deck *d);
+
+/** Starts that the responses of all of them span, as pendres_ensemble_of() says. */
+pendres_ensemble deck_starts(const deck *d);
 
 /** Does the deck ask for noise: a temperature above 0? */
 int deck_has_noise(const deck *d);

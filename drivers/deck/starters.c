@@ -12,8 +12,8 @@ static const deck_starter starters[] = {
     "           damping = 'Q 5000' /\n"
     "&sweep     drive_amplitude = '100 pN', '300 pN'\n"
     "           drive_frequency_range = '1.199 MHz', '1.206 MHz', 141 /\n"
-    "! Starts whose states are looked for: about as far from rest as it swings.\n"
-    "&ensemble  members = 8, x_first = '-200 nm', x_last = '200 nm' /\n" },
+    "! Starts whose states are looked for, about as far from rest as it swings.\n"
+    "&ensemble  members = 8 /\n" },
   { "junction", "a Josephson junction in SI: current and voltage, up and down",
     "&scene      kind = 'hysteresis', title = 'A junction of 10 uA' /\n"
     "&units      critical_current = '10 uA', resistance = '10 ohm', capacitance = '0.5 pF' /\n"

@@ -263,8 +263,9 @@ const deck_key deck_table[] = {
          "contain the sampling") },
   { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = -PENDRES_PI / 2,
-    IS(POSITION, "initial positions lie above this one, which a line leaves out; the default is in "
-         "the pendulum's unit of length, as that of 'x_last' and others") },
+    IS(POSITION, "initial positions lie above this one, which a line leaves out; the default is "
+         "that of angles: under other forces starts lie up to twice as far from rest as the drive "
+         "can carry them") },
   { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = 3 * PENDRES_PI / 2,
     IS(POSITION, "initial positions go up to this one, equally spaced") },

@@ -15,12 +15,21 @@ static void bring(const deck_builder *b, const char *group, const char *name, do
   for (int i = 0; i < count; i++) value[i] *= unit;
 }
 
+/* Where starts lie is given, or follows the response. */
+static void bring_starts(const deck_builder *b)
+{
+  const pendres_ensemble e = deck_starts(b->d);
+  deck *d = b->d;
+  if (!deck_in_scene(b, "ensemble", "members")) return;
+  if (!deck_is_there(deck_given_of(b, "ensemble", "x_first"))) d->ensemble.x_first = e.x_first;
+  if (!deck_is_there(deck_given_of(b, "ensemble", "x_last"))) d->ensemble.x_last = e.x_last;
+}
+
 void deck_bring_defaults(deck_builder *b)
 {
   deck *d = b->d;
   const pendres_units u = deck_pendulum_units(d);
-  bring(b, "ensemble", "x_first", u.length, &d->ensemble.x_first, 1);
-  bring(b, "ensemble", "x_last", u.length, &d->ensemble.x_last, 1);
+  bring_starts(b);
   bring(b, "lyapunov_map", "x", u.length, &d->orbit.x, 1);
   bring(b, "sweep", "drive_frequency_range", 1.0 / u.time, d->search, 2);
   bring(b, "sweep", "resonance_range", 1.0 / u.time, d->search, 2);

@@ -65,7 +65,8 @@ typedef struct pendres_resonance {
 
 /**
  * The resonance of pendulums with p's damping and drive amplitude for frequencies in [lowest,
- * highest] (p's own frequency is not read), with the paper's ensemble of 200.
+ * highest] (p's own frequency is not read), with the starts of pendres_ensemble_of(), the paper's
+ * 200 of a pendulum.
  *
  * PENDRES_NOT_FOUND: the mean loop area is largest at an end of the range (message says which), or
  * zero throughout, as without a drive. On failure all numbers of *out are NaN.

@@ -105,6 +105,14 @@ typedef struct pendres_ensemble {
 pendres_ensemble pendres_ensemble_default(void);
 
 /**
+ * The starts of 200 members at rest that the response of p spans: of an angle the paper's. Of
+ * another force they are about x = 0, up to twice as far as drive and torque can carry it, or than
+ * the length at which its terms are equal if that is less or a parametric drive acts. The paper's
+ * if p is NULL or has no valid force. For several pendulums take the least damped and most driven.
+ */
+pendres_ensemble pendres_ensemble_of(const pendres_pendulum *p);
+
+/**
  * Check an ensemble: members, finite starts, rows that fit, ascending bounds of a rectangle.
  * Otherwise PENDRES_INVALID_ARGUMENT, and *why (may be NULL) is a static sentence.
  */

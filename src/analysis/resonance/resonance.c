@@ -240,8 +240,6 @@ pendres_status pendres_resonance_find_many(pendres_context *ctx, size_t n,
 pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
                                       double lowest, double highest, pendres_resonance *out)
 {
-  const pendres_scales scales = {pendres_units_of(p), 1.0, 1.0};
-  pendres_ensemble e = pendres_ensemble_default();
-  pendres_units_out(&scales, &pendres_dim_ensemble, 1, &e);
+  const pendres_ensemble e = pendres_ensemble_of(p);
   return pendres_resonance_find_ensemble(ctx, p, lowest, highest, &e, out);
 }

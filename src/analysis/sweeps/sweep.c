@@ -8,7 +8,9 @@
 
 #include "base/angles.h"
 #include "base/mix.h"
+#include "model/model.h"
 #include "model/parameter.h"
+#include "model/units.h"
 
 /* The rounding error of the values of a range: three operations, and that of a decimal itself. */
 static double rounding_of(const pendres_range *range)
@@ -149,6 +151,24 @@ pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index
 pendres_ensemble pendres_ensemble_default(void)
 {
   return (pendres_ensemble){.members = 200, .x_first = -half_pi, .x_last = 3.0 * half_pi};
+}
+
+/* Twice what a drive reaches on average, so that both sides of a state are tried. */
+pendres_ensemble pendres_ensemble_of(const pendres_pendulum *p)
+{
+  pendres_ensemble e = pendres_ensemble_default();
+  const pendres_model *model = p != NULL ? pendres_model_of(p->force) : NULL;
+  if (model == NULL || model->angle) return e;
+  const pendres_scales scales = {pendres_units_of(p), 1.0, 1.0};
+  pendres_pendulum own = *p;
+  pendres_units_in(&scales, &pendres_dim_pendulum, 1, &own);
+  const int pumped = own.parametric_amplitude != 0.0;
+  const int moved = own.drive_amplitude != 0.0 || own.torque != 0.0;
+  e.x_last = 2.0 * (pumped || !moved ? pendres_model_scale(&own)
+                                     : pendres_model_units_of(&own).length);
+  e.x_first = -e.x_last;
+  pendres_units_out(&scales, &pendres_dim_ensemble, 1, &e);
+  return e;
 }
 
 pendres_status pendres_ensemble_check(const pendres_ensemble *e, const char **why)
