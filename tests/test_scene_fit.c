@@ -353,13 +353,8 @@ static void bad_data(void **state)
   check_told("0.8 0.1\n0.9 -0.2\n", "error = 0.01", "data.txt:2: amplitudes and rms are not");
   check_told("0.8 -41\n0.9 -22\n", "", "10^(dB/20)");
   check_told("0.8 -0.1\n0.9 -0.2\n", "observable = 'loop_area'", "data.txt:1: a loop area");
-  check_told("f,\"S21 (dB)\"\n0.8,11\n0.9,32\n", "columns = '1', '2'", "data.txt:1: column 'S21");
   check_told("0.8 10\n0.9 80\n", phase, "data.txt:1: a phase_lag is in rad");
   check_told("0.8 1\n0.9 -179.5\n", phase, "data.txt:2: a phase_lag is in rad");
-  check_told("w; Phase [\xc2\xb0]\n0.8; 1\n0.9; 2\n",
-             "columns = '1', '2', observable = 'phase_lag'", "in degrees");
-  check_told("w phase_deg\n0.8 1\n0.9 2\n", "columns = '1', '2', observable = 'phase_lag'",
-             "multiply it by pi/180");
   check_told("0.8 0.1\n-0.9 0.2\n", "", "data.txt:2: the swept parameter must be positive");
   check_told("0.8 0.1\n0.9 0.2\n", "columns = 'phase=2', '1'", "'phase' is no role");
   check_told("0.8,0.1,0\n0.9,0.2,0.1\n", "columns = '1', '2', 'error=3'", "must be above 0");

@@ -255,6 +255,9 @@ typedef struct deck {
   struct {                  /* of the scene fit: a file of text, and what is in it */
     char file[DECK_PATH];
     deck_names columns;     /* in words of the user: "3", "volts", "direction=4" */
+    deck_names units;       /* of these, in their order */
+    char format[DECK_NAME], decimal[DECK_NAME];
+    double loss;            /* of drives in dBm, in dB */
     char axis[DECK_NAME];   /* name of a parameter */
     deck_names observables;
     char direction[DECK_NAME];
@@ -369,6 +372,15 @@ typedef struct deck_fit_value {
 } deck_fit_value;
 int deck_fit_entry(const deck *d, const char *text, const char *form, deck_fit_value *out,
                    char why[DECK_FIT_WHY]);
+
+/** A unit of a column of data: SI of one, or of what 0 dB are where `decibel` is set. `of`: the SI
+ *  units that it must fit, "" those of a number; NULL: any. 0: it is no unit, -1: it does not
+ *  fit. */
+typedef struct deck_column_unit {
+  double factor;
+  int decibel, milliwatt; /* milliwatt: of a power at 50 ohm, in dBm */
+} deck_column_unit;
+int deck_column_unit_read(const char *text, const char *of, deck_column_unit *out);
 
 /** The same in a unit with the prefix in which a number of that size in SI is easiest to read. */
 deck_si deck_si_prefixed(const deck_si *si, double value);

@@ -156,6 +156,11 @@ void deck_check_fit(deck_builder *b)
 {
   const deck *d = b->d;
   if (d->kind != DECK_FIT) return;
+  deck_column_unit unit;
+  for (size_t i = 0; i < d->data.units.count; i++)
+    if (!deck_column_unit_read(d->data.units.name[i], NULL, &unit))
+      deck_complain(b, deck_given_of(b, "data", "units"), "units", "'units': '%s' is no unit; '1' "
+                    "is that of a number", d->data.units.name[i]);
   check_entries(b, "fixed", &d->fit.fixed, "NAME VALUE");
   check_entries(b, "bounds", &d->fit.bounds, "NAME LOW HIGH");
   check_entries(b, "prior", &d->fit.prior, "NAME MEAN ERROR");

@@ -164,7 +164,7 @@ static int apply_names(deck_builder *b, const deck_key *key, const namelist_arra
       const int choice = read_choice(b, key, v, &wrong);
       if (choice >= 0) strcpy(name, key->choices[choice]);
     }
-    for (size_t k = 0; !wrong && k < names->count; k++) {
+    for (size_t k = 0; !wrong && !key->repeats && k < names->count; k++) {
       if (strcmp(names->name[k], name) != 0) continue;
       complain(b, v, key->name, "names this one twice");
       wrong = 1;

@@ -243,6 +243,7 @@ void deck_free(deck *d)
   free(d->methods.name);
   free(d->data.columns.name);
   free(d->data.observables.name);
+  free(d->data.units.name);
   free(d->fit.free.name);
   free(d->fit.fixed.name);
   free(d->fit.bounds.name);

@@ -123,6 +123,8 @@ static const char *const observables[] = {
 #undef OBSERVABLE_NAME
   NULL
 };
+static const char *const formats[] = { "any", "text", "labone", "nanonis", "analyser", NULL };
+static const char *const decimals[] = { "point", "comma", NULL };
 #define FOLLOWED "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2", "a3", \
                  "a4", "a5"
 static const char *const swept[] = { "drive_frequency", FOLLOWED, "time", NULL };
@@ -348,53 +350,7 @@ const deck_key deck_table[] = {
     SAYS(NULL, "drive periods of an average; 0: 512. What is not decided then is followed for "
          "longer") },
 
-  { STRING("data", "file", data.file), NEEDED_IN(FIT), EXAMPLE("'fit.csv'"),
-    SAYS(NULL, "text file of the data, one datum on each line: numbers with commas, semicolons, "
-         "tabs or blanks between them; a line of names may come first; # and ! begin comments. The "
-         "path is from the deck's folder. Or a file of results, whose variables are the columns") },
-  { CHOICES("data", "columns", data.columns), IN(FIT),
-    SAYS(NULL, "columns of the file by name or number: the axis, the observables, then their "
-         "standard errors (all or none), then the direction (1, -1, up, down); ROLE=COLUMN says "
-         "what a column is in any place, as 'drive_amplitude=4' for a parameter that differs "
-         "between sweeps. Without it the names in the file's first line are taken for roles: those "
-         "of axis and observables, OBSERVABLE_error, direction, and names of parameters") },
-  { CHOICE("data", "axis", data.axis), IN(FIT), .choices = swept, .text = "drive_frequency",
-    SAYS(NULL, "parameter that was swept; 'time': the data are a free decay, without drive") },
-  { CHOICES("data", "observable", data.observables), IN(FIT), .choices = observables,
-    EXAMPLE("'amplitude'"),
-    SAYS(NULL, "what was measured, in the order of the columns; without it 'amplitude', of data "
-         "over time 'displacement'") },
-  { CHOICE("data", "direction", data.direction), IN(FIT), .choices = directions, .text = "file",
-    SAYS(NULL, "which way the axis went where no column says it: as the lines of the file do, or "
-         "up or down throughout") },
-  { REAL("data", "error", data.error), IN(FIT), NOT_NEGATIVE, .number = 0,
-    SAYS("unit of the data", "standard error of each datum where no column has it") },
-  { REAL("data", "relative_error", data.relative_error), IN(FIT), NOT_NEGATIVE, .number = 0,
-    IS(NUMBER, "standard error as a share of the datum, added to 'error' in squares; without "
-         "either, errors follow from the scatter about the fit") },
-
-  { CHOICES("fit", "free", fit.free), NEEDED_IN(FIT), .choices = quantities,
-    EXAMPLE("'damping', 'drive_amplitude', 'frequency_scale'"),
-    SAYS(NULL, "quantities that are sought: parameters, whose values in &pendulum are guesses, and "
-         "scales of the instrument (docs/fit.md). What has no guess is guessed from the data") },
-  { CHOICES("fit", "fixed", fit.fixed), IN(FIT),
-    SAYS(NULL, "quantities with other values than &pendulum has, as 'amplitude_scale 0.2'; without "
-         "it scales are 1, offset and backgrounds 0") },
-  { CHOICES("fit", "bounds", fit.bounds), IN(FIT),
-    SAYS(NULL, "bounds of what is free, as 'damping 0.01 0.1' or, with &units, 'damping 1 9 kHz'")},
-  { CHOICES("fit", "prior", fit.prior), IN(FIT),
-    SAYS(NULL, "what is known of free quantities beside the data, a mean and its standard error, "
-         "as 'a3 -0.16 0.01'") },
-  { REAL("fit", "huber", fit.huber), IN(FIT), NOT_NEGATIVE, .number = 0,
-    IS(NUMBER, "standard errors beyond which a residual counts by its size instead of its square, "
-         "against outliers; 0: none does") },
-  { REAL("fit", "jump_error", fit.jump_error), IN(FIT), NOT_NEGATIVE, .number = 0,
-    SAYS("unit of the data", "standard error of the axis at which jumps were seen, beside the "
-         "spacing of the data: noise makes states jump early") },
-  { INTEGER("fit", "starts", fit.starts), IN(FIT), RANGE(1, 100), .number = 20,
-    SAYS(NULL, "most guesses that are tried, until one fits well") },
-  { INTEGER("fit", "iterations", fit.iterations), IN(FIT), RANGE(1, 10000), .number = 60,
-    SAYS(NULL, "most steps from each guess") },
+#include "deck/table_fit.h"
 
   { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0,
     SAYS(NULL, "integrate only starts near a boundary of basins, fill the others in, and check a "

@@ -68,6 +68,7 @@ typedef struct deck_key {
   double number2;              /* second default of DECK_BOUNDS */
   const char *text;            /* default of a string; NULL: "" */
   const char *const *choices;  /* NULL-terminated */
+  int repeats;                 /* nonzero: a name may stand more than once */
   deck_when when;
   pendres_kind kind;           /* of its numbers */
   const char *unit;            /* where it does not follow from the kind, see deck_key_unit */

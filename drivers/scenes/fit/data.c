@@ -1,86 +1,39 @@
 /*
- * data.c -- data of a fit from a text file; see data.h.
+ * data.c -- data of a fit from a file; see data.h.
  *
- * A line is a datum: cells between commas, semicolons or tabs, or else blanks. A first line with a
- * cell that is no number names the columns. What the columns are is told by the deck, or by these
- * names.
+ * A line of a table is a datum of each observable. What the columns are is told by the deck, or by
+ * their names; what they are in by units of the deck, or by the file.
  */
-#define _POSIX_C_SOURCE 200809L /* strdup */
 #include "scenes/fit/data.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
+#include "scenes/fit/text.h"
 #include "scenes/numbers.h"
 #include "system/bytes.h"
 #include "system/file.h"
 
-enum { MOST_COLUMNS = 64, CELL = 128, NONE = -1 };
+enum { NONE = -1, OBSERVABLES = PENDRES_FIT_OBSERVABLE_COUNT };
 
 /* A file while it is read. */
 typedef struct reader {
+  fit_text text;
   scene_run *run;
   const deck *d;
   fit_data *out;
-  char separator;                 /* ' ': blanks */
-  size_t names, line;
-  char name[MOST_COLUMNS][CELL];  /* of columns, "" where the file has none */
   /* Columns of what is needed, from 0 on. */
-  int axis, direction, other, observable[PENDRES_FIT_OBSERVABLE_COUNT];
-  int error[PENDRES_FIT_OBSERVABLE_COUNT];
+  int axis, direction, other, observable[OBSERVABLES], error[OBSERVABLES];
   size_t observables, room;
   int gaps; /* some lines have not all of them */
-  pendres_fit_observable kind[PENDRES_FIT_OBSERVABLE_COUNT];
+  pendres_fit_observable kind[OBSERVABLES];
+  deck_column_unit unit[FIT_COLUMNS];
 } reader;
 
 #define FAIL(r, ...) (void)scene_fail((r)->run, PENDRES_INVALID_ARGUMENT, __VA_ARGS__)
-
-/* ---- lines and cells ----------------------------------------------------------------------- */
-
-/* The cells of a line, in place; their number. */
-static size_t split(char *text, char separator, char *cell[MOST_COLUMNS])
-{
-  size_t n = 0;
-  char *at = text;
-  while (n < MOST_COLUMNS) {
-    at += strspn(at, separator == '\t' ? " \r" : " \t\r");
-    if (separator == ' ' && *at == '\0') break;
-    char *end = at + strcspn(at, separator == ' ' ? " \t" : (char[]){separator, '\0'});
-    const int last = *end == '\0';
-    *end = '\0';
-    for (char *tail = end; tail > at && strchr(" \t\r", tail[-1]) != NULL;) *--tail = '\0';
-    /* Names may stand in quotes. */
-    const size_t length = strlen(at);
-    if (length > 1 && at[0] == '"' && at[length - 1] == '"') {
-      at[length - 1] = '\0';
-      at++;
-    }
-    cell[n++] = at;
-    if (last) break;
-    at = end + 1;
-  }
-  return n;
-}
-
-static int number_of(const char *cell, double *out)
-{
-  char *end;
-  *out = strtod(cell, &end);
-  return end != cell && *end == '\0';
-}
-
-/* What separates cells of a line. */
-static char separator_of(const char *line)
-{
-  static const char known[] = ";\t,";
-  for (size_t i = 0; known[i] != '\0'; i++)
-    if (strchr(line, known[i]) != NULL) return known[i];
-  return ' ';
-}
 
 /* ---- columns ------------------------------------------------------------------------------- */
 
@@ -89,16 +42,19 @@ static int column_of(const reader *r, const char *word)
 {
   double number;
   char list[300] = "";
-  for (size_t i = 0; i < r->names; i++)
-    if (r->name[i][0] != '\0' && strcmp(r->name[i], word) == 0) return (int)i;
-  if (number_of(word, &number) && number == floor(number) && number >= 1.0 &&
-      number <= (double)r->names)
+  for (size_t i = 0; i < r->text.columns; i++)
+    if (r->text.name[i][0] != '\0' &&
+        (strcmp(r->text.name[i], word) == 0 || strcmp(r->text.plain[i], word) == 0))
+      return (int)i;
+  if (fit_text_number(&r->text, word, &number) && number == floor(number) && number >= 1.0 &&
+      number <= (double)r->text.columns)
     return (int)number - 1;
-  for (size_t i = 0; i < r->names; i++)
+  for (size_t i = 0; i < r->text.columns; i++)
     snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i > 0 ? ", " : "",
-             r->name[i][0] != '\0' ? r->name[i] : "(no name)");
+             r->text.name[i][0] != '\0' ? r->text.name[i] : "(no name)");
   FAIL(r, "%s:%zu: there is no column '%.60s' among the %zu that the file has (%s): give names "
-       "or numbers from 1 on in data.columns", r->out->path, r->line, word, r->names, list);
+       "or numbers from 1 on in data.columns", r->out->path, r->text.line, word, r->text.columns,
+       list);
   return NONE;
 }
 
@@ -171,7 +127,7 @@ static void take_in_order(reader *r, size_t n, const int *column)
 static void take_told(reader *r)
 {
   const deck_names *told = &r->d->data.columns;
-  int column[MOST_COLUMNS];
+  int column[FIT_COLUMNS];
   size_t n = 0;
   for (size_t i = 0; i < told->count && scene_going(r->run); i++) {
     char word[DECK_NAME];
@@ -184,56 +140,121 @@ static void take_told(reader *r)
       FAIL(r, "data.columns: '%s' is no role: roles are axis, the observables, these with _error, "
            "direction, and a parameter", word);
     /* A name that is a role in itself says more than its place. */
-    if (equals == NULL && !(r->name[at][0] != '\0' && (strcmp(r->name[at], "direction") == 0) &&
-                            take_role(r, r->name[at], at)) &&
-        n < MOST_COLUMNS)
+    const int says = equals == NULL && strcmp(r->text.plain[at], "direction") == 0 &&
+                     take_role(r, "direction", at);
+    if (equals == NULL && !says &&
+        n < FIT_COLUMNS)
       column[n++] = at;
   }
   if (scene_going(r->run)) take_in_order(r, n, column);
 }
 
-/* Whether one of some words, between blanks, stands in a name: letters and what is no ASCII. */
-static int has_word(const char *name, const char *words)
+/* ---- units --------------------------------------------------------------------------------- */
+
+/* Take a column's unit: what makes SI of it, if that is known; `of`: the SI unit of what it is,
+   NULL: whatever it tells. */
+static void take_unit(reader *r, int column, const char *of, const char *what)
 {
-  for (const char *at = name; *at != '\0';) {
-    char word[CELL + 2] = " ";
-    size_t n = 1;
-    for (; n < CELL && (isalpha((unsigned char)*at) || (unsigned char)*at > 127); at++)
-      word[n++] = (char)tolower((unsigned char)*at);
-    word[n] = ' ';
-    if (n > 1 && strstr(words, word) != NULL) return 1;
-    at += n == 1;
-  }
-  return 0;
+  const char *unit = r->text.unit[column];
+  if (unit[0] == '\0' || !scene_going(r->run)) return;
+  const int fits = deck_column_unit_read(unit, of, &r->unit[column]);
+  if (fits <= 0)
+    FAIL(r, "%s:%zu: column %d is in '%.40s', and is to be the %s%s%s: tell its unit in data.units",
+         r->out->path, r->text.line, column + 1, unit, what, of == NULL ? "" : ", in ",
+         of == NULL ? "" : of[0] == '\0' ? "numbers without a unit" : of);
 }
 
-/* Columns whose names say that they are in what no observable is in. */
-static void check_units(const reader *r)
+/* The SI unit of data; NULL: any. */
+static const char *unit_of_observable(const reader *r, pendres_fit_observable o, deck_si *si)
 {
-  for (size_t i = 0; i < r->observables && scene_going(r->run); i++) {
-    const char *name = r->name[r->observable[i]];
-    const int phase = r->kind[i] == PENDRES_FIT_PHASE_LAG;
-    if (phase && has_word(name, " deg degree degrees \xc2\xb0 "))
-      FAIL(r, "%s:%zu: column '%.60s' is in degrees, and a phase_lag is in rad: multiply it by "
-           "pi/180 and name it anew", r->out->path, r->line, name);
-    if (!phase && has_word(name, " db dbm dbv dbu "))
-      FAIL(r, "%s:%zu: column '%.60s' is in dB, and %s is not: make it 10^(dB/20) and name it anew",
-           r->out->path, r->line, name,
-           pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]));
+  if (o == PENDRES_FIT_PHASE_LAG) return "rad";
+  return fit_units_of_observable(r->d, o, si) ? si->units : NULL;
+}
+
+static const char *unit_of_parameter(const reader *r, pendres_parameter p, deck_si *si)
+{
+  if (fit_units_of_data(r->d, p, si)) return si->units;
+  return p == PENDRES_DRIVE_FREQUENCY ? "Hz" : p == PENDRES_PARAMETER_COUNT ? "s" : NULL;
+}
+
+/* Units that the deck tells, in the order of its columns, or else of the file's. */
+static void take_told_units(reader *r)
+{
+  const deck_names *told = &r->d->data.units, *columns = &r->d->data.columns;
+  if (told->count > (columns->count > 0 ? columns->count : r->text.columns))
+    FAIL(r, "data.units has %zu units for %zu columns", told->count,
+         columns->count > 0 ? columns->count : r->text.columns);
+  for (size_t i = 0; i < told->count && scene_going(r->run); i++) {
+    const char *name = columns->count > 0 ? columns->name[i] : "";
+    const char *equals = strchr(name, '=');
+    const int at = *name == '\0' ? (int)i : column_of(r, equals != NULL ? equals + 1 : name);
+    if (at != NONE) snprintf(r->text.unit[at], FIT_CELL, "%s", told->name[i]);
   }
 }
 
-static void find_columns(reader *r)
+static void take_units(reader *r)
 {
-  if (r->d->data.columns.count > 0) {
-    take_told(r);
-  } else {
-    int named = 0;
-    for (size_t i = 0; i < r->names; i++)
-      named += r->name[i][0] != '\0' && take_role(r, r->name[i], (int)i);
-    const int first[MOST_COLUMNS] = {0, 1, 2, 3};
-    if (named == 0) take_in_order(r, r->names < 4 ? r->names : 4, first);
+  deck_si si;
+  const pendres_parameter axis = r->out->of.axis, other = r->out->of.other;
+  take_told_units(r);
+  for (int i = 0; i < FIT_COLUMNS; i++) r->unit[i] = (deck_column_unit){ .factor = 1.0 };
+  if (r->axis != NONE) take_unit(r, r->axis, unit_of_parameter(r, axis, &si), r->d->data.axis);
+  if (r->other != NONE)
+    take_unit(r, r->other, unit_of_parameter(r, other, &si), pendres_parameter_of(other)->name);
+  for (size_t i = 0; i < r->observables; i++) {
+    const char *of = fit_is_place(r->kind[i]) ? unit_of_parameter(r, axis, &si)
+                                              : unit_of_observable(r, r->kind[i], &si);
+    const char *name = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
+    const int at = r->observable[i], error = r->error[i];
+    take_unit(r, at, of, name);
+    if (error != NONE && r->text.unit[error][0] == '\0') r->unit[error] = r->unit[at];
+    else if (error != NONE) take_unit(r, error, of, "standard error");
+    const int logarithms = r->unit[at].decibel || (error != NONE && r->unit[error].decibel);
+    if (logarithms && r->kind[i] == PENDRES_FIT_LOOP_AREA)
+      FAIL(r, "%s:%zu: a loop_area is an energy, and dB are taken for those of amplitudes: make it "
+           "10^(dB/10)", r->out->path, r->text.line);
+    if (logarithms && scene_going(r->run) && error != NONE && !r->unit[at].decibel)
+      FAIL(r, "%s:%zu: the standard error is in dB, and the %s is not: tell both in data.units",
+           r->out->path, r->text.line, name);
   }
+}
+
+/* A number of a column in SI; of drives in dBm what arrives. */
+static double in_si(const reader *r, int column, double x)
+{
+  const deck_column_unit *u = &r->unit[column];
+  if (!u->decibel) return x * u->factor;
+  const int drive = column == r->other || column == r->axis;
+  return u->factor * pow(10.0, (x - (drive && u->milliwatt ? r->d->data.loss : 0.0)) / 20.0);
+}
+
+/* The same of a standard error in that unit, of what `value` is in SI. */
+static double error_in_si(const deck_column_unit *u, double error, double value)
+{
+  return u->decibel ? error * fabs(value) * log(10.0) / 20.0 : error * u->factor;
+}
+
+/* What the names in the file say, or without such the order of the columns. */
+static void take_names(reader *r)
+{
+  const reader before = *r;
+  const int first[4] = {0, 1, 2, 3};
+  int named = 0, whole = 1;
+  for (size_t i = 0; i < r->text.columns; i++)
+    named += r->text.name[i][0] != '\0' && take_role(r, r->text.plain[i], (int)i);
+  for (size_t i = 0; i < r->observables; i++) whole &= r->observable[i] != NONE;
+  whole &= r->axis != NONE || are_places(r);
+  if (named > 0 && (whole || !r->text.whispered)) return;
+  *r = before;
+  take_in_order(r, r->text.columns < 4 ? r->text.columns : 4, first);
+}
+
+/* What the columns are, before the first data. */
+static void find_columns(void *to)
+{
+  reader *r = to;
+  if (r->d->data.columns.count > 0) take_told(r);
+  else take_names(r);
   if (!scene_going(r->run)) return;
   const char *missing = r->axis == NONE && !are_places(r) ? r->d->data.axis : NULL;
   for (size_t i = 0; i < r->observables; i++)
@@ -241,26 +262,8 @@ static void find_columns(reader *r)
       missing = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
   if (missing != NULL)
     FAIL(r, "%s:%zu: no column of '%s' is known: name it in the first line, or tell the columns in "
-         "data.columns", r->out->path, r->line, missing);
-  else check_units(r);
-}
-
-/* The first line that is no comment: names, or the first data. Returns whether it has names. */
-static int read_head(reader *r, char *line)
-{
-  char *cell[MOST_COLUMNS];
-  double unused;
-  int names = 0;
-  r->separator = separator_of(line);
-  r->names = split(line, r->separator, cell);
-  for (size_t i = 0; i < r->names; i++) {
-    const int word = !number_of(cell[i], &unused);
-    names |= word && strcmp(cell[i], "up") != 0 && strcmp(cell[i], "down") != 0;
-  }
-  for (size_t i = 0; i < r->names && names; i++)
-    snprintf(r->name[i], CELL, "%.*s", CELL - 1, cell[i]);
-  find_columns(r);
-  return names;
+         "data.columns", r->out->path, r->text.line, missing);
+  else take_units(r);
 }
 
 /* ---- data ---------------------------------------------------------------------------------- */
@@ -272,25 +275,26 @@ static double read_number(const reader *r, size_t n, char *const *cell, int colu
   if (!scene_going(r->run)) return NAN;
   if (column >= (int)n)
     FAIL(r, "%s:%zu: the line has %zu columns, and column %d is to be the %s: complete or remove "
-         "the line", r->out->path, r->line, n, column + 1, what);
-  else if (!number_of(cell[column], &x))
-    FAIL(r, "%s:%zu: '%.60s' in column %d is no number, and is to be the %s%s", r->out->path,
-         r->line, cell[column], column + 1, what,
-         strchr(cell[column], ',') != NULL ? ": decimals have a point" : ": correct or remove it");
+         "the line", r->out->path, r->text.line, n, column + 1, what);
+  else if (!fit_text_number(&r->text, cell[column], &x))
+    FAIL(r, "%s:%zu: '%.60s' in column %d is no number, and is to be the %s: %s", r->out->path,
+         r->text.line, cell[column], column + 1, what,
+         strchr(cell[column], ',') != NULL && !r->text.comma
+           ? "decimals have a point, or else tell data.decimal" : "correct or remove it");
   else if (!isfinite(x))
     FAIL(r, "%s:%zu: the %s in column %d is not finite: remove the line, or make it a comment "
-         "by #", r->out->path, r->line, what, column + 1);
+         "by #", r->out->path, r->text.line, what, column + 1);
   return x;
 }
 
 static int read_direction(const reader *r, size_t n, char *const *cell)
 {
   if (r->direction == NONE) return 0;
-  if (r->direction < (int)n && strcmp(cell[r->direction], "up") == 0) return 1;
-  if (r->direction < (int)n && strcmp(cell[r->direction], "down") == 0) return -1;
+  if (r->direction < (int)n && strcasecmp(cell[r->direction], "up") == 0) return 1;
+  if (r->direction < (int)n && strcasecmp(cell[r->direction], "down") == 0) return -1;
   const double x = read_number(r, n, cell, r->direction, "direction (1, -1, up or down)");
   if (scene_going(r->run) && x == 0.0)
-    FAIL(r, "%s:%zu: a direction is 1 or up, -1 or down, not 0", r->out->path, r->line);
+    FAIL(r, "%s:%zu: a direction is 1 or up, -1 or down, not 0", r->out->path, r->text.line);
   return x > 0.0 ? 1 : -1;
 }
 
@@ -312,39 +316,56 @@ static int make_room(reader *r)
   return 1;
 }
 
-/* Of several observables some may not have been measured: a cell is empty then, or '-'. */
+/* Of several observables some may not have been measured: a cell is empty then, or '-', or no
+   number; the latter also of one where an instrument wrote the file. */
 static int is_empty(reader *r, size_t n, char *const *cell, int column)
 {
-  const int empty = r->observables > 1 && column < (int)n &&
-                    (cell[column][0] == '\0' || strcmp(cell[column], "-") == 0);
+  double x;
+  if (column >= (int)n) return 0;
+  const int number = fit_text_number(&r->text, cell[column], &x);
+  const int none = cell[column][0] == '\0' || strcmp(cell[column], "-") == 0;
+  const int empty = (r->observables > 1 && none) ||
+                    (number && isnan(x) && (r->observables > 1 || r->text.gaps));
   r->gaps |= empty;
   return empty;
 }
 
-static void read_line(reader *r, char *line)
+/* The datum of observable number i in a line. */
+static void read_datum(reader *r, size_t n, char *const *cell, size_t i, pendres_fit_datum *one)
 {
   const deck *d = r->d;
-  char *cell[MOST_COLUMNS];
-  const size_t n = split(line, r->separator, cell);
+  const int at = r->observable[i], error = r->error[i];
+  const double x = read_number(r, n, cell, at, pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE,
+                                                                (int)r->kind[i]));
+  one->observable = r->kind[i];
+  one->observed = in_si(r, at, x);
+  one->error = error != NONE
+                 ? error_in_si(&r->unit[error], read_number(r, n, cell, error, "standard error"),
+                               one->observed)
+                 : hypot(error_in_si(&r->unit[at], d->data.error, one->observed),
+                         d->data.relative_error * one->observed);
+  if (one->observable == PENDRES_FIT_PHASE_LAG && r->text.unit[at][0] != '\0')
+    one->observed = remainder(one->observed, 2.0 * PENDRES_PI);
+  if (error != NONE && scene_going(r->run) && !(one->error > 0.0))
+    FAIL(r, "%s:%zu: the standard error must be above 0: give all data one, or leave the column "
+         "out", r->out->path, r->text.line);
+}
+
+static void read_line(void *to, size_t n, char *const *cell)
+{
+  reader *r = to;
   pendres_fit_datum one = {.axis = 0.0};
-  if (r->axis != NONE) one.axis = read_number(r, n, cell, r->axis, "axis");
+  if (r->axis != NONE) one.axis = in_si(r, r->axis, read_number(r, n, cell, r->axis, "axis"));
   one.direction = read_direction(r, n, cell);
-  if (r->other != NONE) one.other = read_number(r, n, cell, r->other, "parameter of the sweep");
+  if (r->other != NONE)
+    one.other = in_si(r, r->other, read_number(r, n, cell, r->other, "parameter of the sweep"));
   const double axis = one.axis;
   for (size_t i = 0; i < r->observables && scene_going(r->run); i++) {
     if (is_empty(r, n, cell, r->observable[i])) continue;
-    one.observable = r->kind[i];
-    one.observed = read_number(r, n, cell, r->observable[i],
-                               pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]));
-    one.error = r->error[i] != NONE
-                  ? read_number(r, n, cell, r->error[i], "standard error")
-                  : hypot(d->data.error, d->data.relative_error * one.observed);
+    read_datum(r, n, cell, i, &one);
     one.axis = fit_is_place(one.observable) ? one.observed : axis;
-    if (r->error[i] != NONE && scene_going(r->run) && !(one.error > 0.0))
-      FAIL(r, "%s:%zu: the standard error must be above 0: give all data one, or leave the column "
-           "out", r->out->path, r->line);
     if (!scene_going(r->run) || !make_room(r)) continue;
-    r->out->line[r->out->of.n] = r->line;
+    r->out->line[r->out->of.n] = r->text.line;
     r->out->datum[r->out->of.n++] = one;
   }
 }
@@ -421,47 +442,12 @@ static char *read_text(reader *r, size_t *length)
   return text;
 }
 
-/* A line without its end. */
-static void take_line(reader *r, char *line, int *head)
-{
-  char *from = r->line == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0 ? line + 3 : line;
-  from[strcspn(from, "#!")] = '\0';
-  if (from[strspn(from, " \t\r")] == '\0') return;
-  if (!*head) {
-    char *copy = strdup(from);
-    if (copy == NULL) (void)scene_fail(r->run, PENDRES_OUT_OF_MEMORY, "out of memory for data");
-    *head = 1;
-    const int names = copy != NULL && read_head(r, copy);
-    free(copy);
-    if (names) return;
-  }
-  if (scene_going(r->run)) read_line(r, from);
-}
-
-static void read_lines(reader *r, char *text, size_t length)
-{
-  int head = 0;
-  char *const end = text + length;
-  for (char *line = text, *next; line < end && scene_going(r->run); line = next) {
-    char *stop = memchr(line, '\n', (size_t)(end - line));
-    if (stop == NULL) stop = end;
-    next = stop + 1;
-    *stop = '\0';
-    r->line++;
-    if (line + strlen(line) == stop) take_line(r, line, &head);
-    else FAIL(r, "%s:%zu: a zero byte: data are read as text", r->out->path, r->line);
-  }
-}
-
 void fit_data_read(scene_run *run, fit_data *out)
 {
   const deck *d = run->deck;
   reader r = {.run = run, .d = d, .out = out, .axis = NONE, .direction = NONE, .other = NONE};
-  *out = (fit_data){.of = {.axis = PENDRES_PARAMETER_COUNT, .other = PENDRES_PARAMETER_COUNT}};
-  for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++)
-    if (strcmp(pendres_parameter_of((pendres_parameter)k)->name, d->data.axis) == 0)
-      out->of.axis = (pendres_parameter)k;
-  for (int k = 0; k < PENDRES_FIT_OBSERVABLE_COUNT; k++) r.observable[k] = r.error[k] = NONE;
+  *out = (fit_data){.of = {.axis = fit_axis(d), .other = PENDRES_PARAMETER_COUNT}};
+  for (int k = 0; k < OBSERVABLES; k++) r.observable[k] = r.error[k] = NONE;
   for (size_t i = 0; i < d->data.observables.count; i++)
     r.kind[r.observables++] = (pendres_fit_observable)pendres_name_find(
       PENDRES_NAMES_FIT_OBSERVABLE, d->data.observables.name[i]);
@@ -469,11 +455,15 @@ void fit_data_read(scene_run *run, fit_data *out)
     r.kind[r.observables++] = fit_is_decay(d) ? PENDRES_FIT_DISPLACEMENT : PENDRES_FIT_AMPLITUDE;
   size_t length = 0;
   char *text = read_text(&r, &length);
-  if (text != NULL) read_lines(&r, text, length);
+  r.text = (fit_text){.run = run, .path = out->path, .format = d->data.format, .to = &r,
+                      .comma = strcmp(d->data.decimal, "comma") == 0, .head = find_columns,
+                      .row = read_line};
+  if (text != NULL) fit_text_read(&r.text, text, length);
   free(text);
   if (scene_going(run) && out->of.n == 0)
     FAIL(&r, "%s: there are no data in the file", out->path);
   if (!scene_going(run)) return;
+  out->axis_factor = r.axis != NONE ? r.unit[r.axis].factor : r.unit[r.observable[0]].factor;
   set_directions(&r);
   out->of.datum = out->datum;
 }

@@ -15,6 +15,7 @@ typedef struct fit_data {
   pendres_fit_datum *datum; /* [of.n], in the run's room: a line's observables in their order */
   size_t *line;             /* [of.n] from where they are */
   char path[DECK_PATH];
+  double axis_factor; /* SI of one of the axis in the file, where that tells its unit */
 } fit_data;
 
 enum { FIT_MOST = PENDRES_FIT_QUANTITY_COUNT };
@@ -51,6 +52,13 @@ static inline int fit_is_rotation(const deck *d)
          strcmp(d->data.observables.name[0], "mean_velocity") == 0;
 }
 
+/* The parameter that was swept; PENDRES_PARAMETER_COUNT: time. */
+static inline pendres_parameter fit_axis(const deck *d)
+{
+  if (fit_is_decay(d)) return PENDRES_PARAMETER_COUNT;
+  return (pendres_parameter)pendres_name_find(PENDRES_NAMES_PARAMETER, d->data.axis);
+}
+
 /* Whether an observable is a value of the axis itself. */
 static inline int fit_is_place(pendres_fit_observable o)
 {
@@ -62,9 +70,10 @@ double fit_error(const fit_work *w, size_t i);
 
 /* Bring data from SI into the model's units, where &units tell these. */
 void fit_units_take(fit_work *w);
-/* What makes SI of a parameter of the data, the axis or the other one, or of their time; 0: &units
-   do not tell. */
-int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out);
+/* What makes SI of a parameter of the data, the axis or the other one, or of their time; and of an
+   observable; 0: &units do not tell. */
+int fit_units_of_data(const deck *d, pendres_parameter p, deck_si *out);
+int fit_units_of_observable(const deck *d, pendres_fit_observable o, deck_si *out);
 /* Mark what the file holds in units of the data. */
 void fit_units_mark(const fit_work *w);
 

@@ -142,7 +142,7 @@ static void print_jump(FILE *out, const fit_work *w, const pendres_fit_jump *j)
           j->value, j->value_error);
   if (!isnan(j->measured[0]) && !isnan(j->measured[1]))
     fprintf(out, ", the data between %.10g and %.10g", j->measured[0], j->measured[1]);
-  const int known = fit_units_of_data(w, w->data.of.axis, &si);
+  const int known = fit_units_of_data(w->d, w->data.of.axis, &si);
   fprintf(out, "%s\n", in_si(&si, known, j->value, j->value_error, text));
 }
 
@@ -167,9 +167,9 @@ static void find_fit(fit_work *w)
   pendres_context *ctx = scene_context(w->run);
   if (ctx == NULL) return;
   deck_si si;
-  const double axis = fit_units_of_data(w, w->data.of.axis, &si) ? si.factor : 1.0;
+  const double axis = fit_units_of_data(w->d, w->data.of.axis, &si) ? si.factor : 1.0;
   const pendres_fit_options options = {.huber = d->fit.huber,
-                                       .jump_error = d->fit.jump_error / axis,
+                                       .jump_error = d->fit.jump_error * w->data.axis_factor / axis,
                                        .starts = (int)d->fit.starts,
                                        .iterations = (int)d->fit.iterations};
   const pendres_fit_model model = {.pendulum = w->model, .unknowns = w->n, .unknown = w->unknown};

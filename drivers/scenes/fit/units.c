@@ -12,21 +12,21 @@
 
 /* ---- which unit ---------------------------------------------------------------------------- */
 
-int fit_units_of_data(const fit_work *w, pendres_parameter p, deck_si *out)
+int fit_units_of_data(const deck *d, pendres_parameter p, deck_si *out)
 {
   if (p == PENDRES_PARAMETER_COUNT)
-    return fit_is_decay(w->d) && deck_si_of_kind(w->d, PENDRES_KIND_TIME, out);
-  if (p == PENDRES_DRIVE_AMPLITUDE && deck_fit_has(w->d, "drive_scale")) return 0;
-  if (p == PENDRES_TORQUE && deck_fit_has(w->d, "torque_scale")) return 0;
-  return deck_si_of_kind(w->d, pendres_parameter_of(p)->kind, out);
+    return fit_is_decay(d) && deck_si_of_kind(d, PENDRES_KIND_TIME, out);
+  if (p == PENDRES_DRIVE_AMPLITUDE && deck_fit_has(d, "drive_scale")) return 0;
+  if (p == PENDRES_TORQUE && deck_fit_has(d, "torque_scale")) return 0;
+  return deck_si_of_kind(d, pendres_parameter_of(p)->kind, out);
 }
 
-static int units_of_observable(const fit_work *w, pendres_fit_observable o, deck_si *out)
+int fit_units_of_observable(const deck *d, pendres_fit_observable o, deck_si *out)
 {
-  if (fit_is_place(o)) return fit_units_of_data(w, w->data.of.axis, out);
+  if (fit_is_place(o)) return fit_units_of_data(d, fit_axis(d), out);
   const int is_reading = o != PENDRES_FIT_PHASE_LAG && o != PENDRES_FIT_LOOP_AREA;
-  return is_reading ? deck_fit_si(w->d, "offset", out)
-                    : deck_si_of(w->d, pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)o), out);
+  return is_reading ? deck_fit_si(d, "offset", out)
+                    : deck_si_of(d, pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)o), out);
 }
 
 /* ---- data ---------------------------------------------------------------------------------- */
@@ -39,12 +39,12 @@ static double factor_of(int known, const deck_si *si)
 void fit_units_take(fit_work *w)
 {
   deck_si si;
-  const double axis = factor_of(fit_units_of_data(w, w->data.of.axis, &si), &si);
+  const double axis = factor_of(fit_units_of_data(w->d, w->data.of.axis, &si), &si);
   const int two = w->data.of.other != PENDRES_PARAMETER_COUNT;
-  const double other = factor_of(two && fit_units_of_data(w, w->data.of.other, &si), &si);
+  const double other = factor_of(two && fit_units_of_data(w->d, w->data.of.other, &si), &si);
   for (size_t i = 0; i < w->data.of.n; i++) {
     pendres_fit_datum *d = &w->data.datum[i];
-    const double unit = factor_of(units_of_observable(w, d->observable, &si), &si);
+    const double unit = factor_of(fit_units_of_observable(w->d, d->observable, &si), &si);
     d->axis /= axis;
     d->other /= other;
     d->observed /= unit;
@@ -64,13 +64,13 @@ void fit_units_mark(const fit_work *w)
                                          "modelled_error", "residual", "residual_error", NULL };
   const char *const *const names[] = { of_axis, of_other, of_data };
   deck_si si[3], next;
-  int known[3] = { fit_units_of_data(w, w->data.of.axis, &si[0]),
+  int known[3] = { fit_units_of_data(w->d, w->data.of.axis, &si[0]),
                    w->data.of.other != PENDRES_PARAMETER_COUNT &&
-                     fit_units_of_data(w, w->data.of.other, &si[1]),
-                   units_of_observable(w, w->data.datum[0].observable, &si[2]) };
+                     fit_units_of_data(w->d, w->data.of.other, &si[1]),
+                   fit_units_of_observable(w->d, w->data.datum[0].observable, &si[2]) };
   /* Several observables stand in one variable, which has a unit only if all have the same. */
   for (size_t i = 1; i < w->data.of.n && known[2]; i++)
-    known[2] = units_of_observable(w, w->data.datum[i].observable, &next) &&
+    known[2] = fit_units_of_observable(w->d, w->data.datum[i].observable, &next) &&
                strcmp(next.units, si[2].units) == 0;
   for (int k = 0; k < 3; k++)
     for (int i = 0; known[k] && names[k][i] != NULL; i++)

@@ -1,0 +1,163 @@
+/*
+ * test_fit_data.c -- data of fits as instruments write them: units of columns, what stands around a
+ * table, and how numbers are written. Values follow from the definitions of the units.
+ */
+#include "scene_fixture.h"
+
+#include <math.h>
+
+#include "scenes/fit/data.h"
+
+enum { MOST = 12 };
+
+/* What a file of data holds: axis, observed, error and other parameter of its data. */
+typedef struct told {
+  size_t n;
+  double axis[MOST], observed[MOST], error[MOST], other[MOST];
+  int direction[MOST];
+} told;
+
+/* Read a file with this text by a deck with these keys of &data, and groups; or NULL, and `words`
+   are in what the failure says. */
+static void read_data(const char *name, const char *text, const char *keys, const char *words,
+                      told *out)
+{
+  char path[100], lines[1200];
+  deck d;
+  namelist_errors errors = {0};
+  scene_run run = {.deck = &d};
+  fit_data data;
+  snprintf(path, sizeof path, "%s/%s", scene_folder, name);
+  FILE *f = fopen(path, "w");
+  assert_non_null(f);
+  assert_true(fputs(text, f) >= 0);
+  assert_int_equal(fclose(f), 0);
+  snprintf(lines, sizeof lines, "&scene kind = 'fit' /\n&fit free = 'damping' /\n"
+           "&pendulum drive_amplitude = 0.1 /\n&data file = '%s' %s /\n", path, keys);
+  if (deck_read_memory("test.nml", lines, strlen(lines), &d, &errors) != PENDRES_OK)
+    fail_msg("%s: %s", keys, errors.count > 0 ? errors.item[0].text : "");
+  fit_data_read(&run, &data);
+  if (words != NULL) {
+    if (strstr(run.message, words) == NULL) fail_msg("'%s' has no '%s'", run.message, words);
+  } else {
+    if (run.status != PENDRES_OK) fail_msg("%s", run.message);
+    assert_true(data.of.n <= MOST);
+    *out = (told){.n = data.of.n};
+    for (size_t i = 0; i < data.of.n; i++) {
+      out->axis[i] = data.datum[i].axis;
+      out->observed[i] = data.datum[i].observed;
+      out->error[i] = data.datum[i].error;
+      out->other[i] = data.datum[i].other;
+      out->direction[i] = data.datum[i].direction;
+    }
+  }
+  scene_room_end(&run.room);
+  deck_free(&d);
+  namelist_errors_free(&errors);
+}
+
+static void check_exact(double value, double right)
+{
+  check_near(value, right, 4e-15 * fabs(right));
+}
+
+/* GHz, dB with their errors, dBm behind a loss, degrees of many turns: told by the deck, by names,
+   by a line of units, and by the comment in front of the data. */
+static void units(void **state)
+{
+  (void)state;
+  static const char *const texts[] = {
+    "f a e p\n4.5 -20 0.1 -30\n4.6 -14 0.1 -30\n",
+    "f (GHz), a [dB], e, p_dBm\n4.5, -20, 0.1, -30\n4.6, -14, 0.1, -30\n",
+    "f;a;e;p\n(GHz);(dB);(dB);dBm\n4.5;-20;0.1;-30\n4.6;-14;0.1;-30\n",
+    "% made today\n% f (GHz)\ta (DB)\te\tp/dBm\n4.5\t-20\t0.1\t-30\n4.6\t-14\t0.1\t-30\n"};
+  static const char columns[] = "columns = 'f', 'a', 'e', 'drive_amplitude=4', loss = 40";
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+    char keys[200];
+    told t;
+    snprintf(keys, sizeof keys, "%s%s", columns,
+             k == 0 ? ", units = 'GHz', 'dB', 'dB', 'dBm'" : "");
+    read_data("units.txt", texts[k], keys, NULL, &t);
+    assert_int_equal(t.n, 2);
+    check_exact(t.axis[0], 4.5e9);
+    check_exact(t.observed[0], 0.1);
+    check_exact(t.observed[1], pow(10.0, -0.7));
+    check_exact(t.error[0], 0.1 * 0.1 * log(10.0) / 20.0);
+    check_exact(t.other[0], sqrt(50.0 * 1e-3 * 1e-7)); /* volts of 1e-10 W at 50 ohm */
+  }
+}
+
+static void angles(void **state)
+{
+  (void)state;
+  static const double right[] = {0.5 * PENDRES_PI, -0.5 * PENDRES_PI, 0.1 * PENDRES_PI};
+  told t;
+  read_data("angles.txt", "f (rad/s), \"phase (deg)\", e (mrad)\n1, 90, 2\n2, 270, 2\n3, -702, 2\n",
+            "columns = '1', '2', '3', observable = 'phase_lag'", NULL, &t);
+  for (int i = 0; i < 3; i++) {
+    check_near(t.observed[i], right[i], 4e-15);
+    check_exact(t.error[i], 2e-3);
+    check_exact(t.axis[i], (i + 1) / (2.0 * PENDRES_PI));
+  }
+}
+
+/* Decimal commas, exponents by D, thousands in quotes, other letters of up and down, numbers that
+   are none, and tables within marks. */
+static void numbers(void **state)
+{
+  (void)state;
+  static const char named[] = "columns = 'f', 'a', 'direction=way'";
+  static const struct { const char *text, *keys; } same[] = {
+    {"f;a;way\n1200,5;0,25;Up\n1300;2,5D-1;DOWN\n", "decimal = 'comma'"},
+    {"f,a,way\n\"1,200.5\",0.25,1\n\"1,300\",2.5d-1,-1\n", ""},
+    {"Date\tnever\nf\t9\n\n[DATA]\nf\ta\tway\n1200.5\t0.25\tup\n1250\tNaN\tup\n1300\t.25\tdown\n",
+     ""},
+    {"!CSV A.01.01\n!kept\nBEGIN CH1_DATA\nf(Hz),a,way\n1200.5,0.25,up\n1300,0.25,down\nEND\n"
+     "more\n", ""},
+    {"%, x\nf a way\n1200.5 .25 up\n1250 nan up\n1300 .25 down\n", "format = 'labone'"}};
+  for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
+    char keys[200];
+    told t;
+    snprintf(keys, sizeof keys, "%s %s", named, same[k].keys);
+    read_data("numbers.txt", same[k].text, keys, NULL, &t);
+    assert_int_equal(t.n, 2);
+    for (int i = 0; i < 2; i++) {
+      check_exact(t.axis[i], i == 0 ? 1200.5 : 1300.0);
+      check_exact(t.observed[i], 0.25);
+      assert_int_equal(t.direction[i], i == 0 ? 1 : -1);
+    }
+  }
+}
+
+static void refused(void **state)
+{
+  (void)state;
+  static const char two[] = "columns = '1', '2'",
+                    phase[] = "columns = '1', '2', observable = 'phase_lag'";
+  static const struct { const char *text, *keys, *words; } bad[] = {
+    {"f (V), a\n1, 2\n", two, "is in 'V', and is to be the drive_frequency, in Hz"},
+    {"f (1/s), a\n1, 2\n", two, "in Hz"},
+    {"f, a (dB)\n1, 2\n", phase, "is in 'dB', and is to be the phase_lag, in rad"},
+    {"f, a\n1, 2\n", "columns = '1', '2', observable = 'loop_area', units = 'Hz', 'dB'",
+     "10^(dB/10)"},
+    {"f, a, e (dB)\n1, 2, 3\n", "columns = '1', '2', '3'", "tell both"},
+    {"f, a\n1, 2\n", "columns = '1', '2', units = 'Hz', 'V', 'V'", "3 units for 2 columns"},
+    {"f, a\n", "", "there are no data"},
+    {"1,2\n", "format = 'nanonis'", "has a line [DATA]"},
+    {"BEGIN A\n1,2\nBEGIN B\n1,2\n", "", "there are several tables"},
+    {"1;0.2\n1;0,2\n", "", "tell data.decimal"},
+    {"1,2\n3,\"1,23\"\n", "", "data.txt:2: '1,23' in column 2 is no number"}};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+    read_data("data.txt", bad[k].text, bad[k].keys, bad[k].words, NULL);
+  scene_check_refused("&scene kind = 'fit' /\n&data file = 'a', units = 'HzV' /\n"
+                      "&fit free = 'damping' /\n", "'HzV' is no unit");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(units), cmocka_unit_test(angles), cmocka_unit_test(numbers),
+    cmocka_unit_test(refused),
+  };
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
+}
