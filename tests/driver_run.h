@@ -132,9 +132,9 @@ static const char orbit_deck[] =
   "&orbit start = 'la' /\n";
 /* Minutes of work, the results of which nobody waits for. */
 static const char long_deck[] =
-  "&scene kind = 'orbit' /\n"
-  "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
-  "&orbit x = 1, v = 0, transient = .true., periods = 1000000, samples = 90 /\n";
+  "&scene kind = 'basins' /\n"
+  "&pendulum damping = 1e-3, drive_amplitude = 0.2, drive_frequency = 0.8 /\n"
+  "&sweep x_range = -1, 1, 2000, v_range = -1, 1, 2000 /\n";
 
 /* A folder for each test, removed afterwards. */
 static inline int enter(void **state)
