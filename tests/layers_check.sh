@@ -36,9 +36,10 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   orbits/free_force.h orbits/label.h orbits/linear.h orbits/mean.h orbits/numbers.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h orbits/orbit_same.h
   orbits/orbit_reading.h orbits/orbit_series.h orbits/orbit_span.h orbits/orbit_table.h orbits/strobe_noise.h
-  settling/attractor_internal.h settling/attractor_set.h settling/settle.h
+  settling/arrival.h settling/attractor_internal.h settling/attractor_set.h settling/settle.h
   settling/exponents/carried.h settling/exponents/growth.h settling/exponents/lyapunov_move.h
-  settling/exponents/numbers.h settling/exponents/unstable.h
+  settling/exponents/lyapunov_caught.h settling/exponents/numbers.h settling/exponents/undriven.h
+  settling/exponents/unstable.h
   settling/trapping/annulus.h settling/trapping/escape.h settling/trapping/trapping_ellipse.h
   noise/langevin_internal.h noise/noise_common.h
   continuation/curve/crossing.h continuation/curve/curve.h continuation/curve/equations.h

@@ -8,6 +8,7 @@
 #include "rotation_fixture.h"
 
 #include <pendres/attractor.h>
+#include <pendres/hysteresis.h>
 #include <pendres/lyapunov.h>
 #include <pendres/resonance.h>
 #include <pendres/response.h>
@@ -110,6 +111,44 @@ static void by_averages(void **state)
   pendres_context_free(ctx);
 }
 
+/* Next to the torque at which rest begins a turn takes hundreds of periods, most of them in one
+   place: nothing but the rotation is there, whoever is asked. */
+static void hardly_turning(void **state)
+{
+  static const double torque[] = {1.00001, 1.001, -1.0001}, damping[] = {5.0, 1.2, 2.0};
+  enum { N = sizeof torque / sizeof *torque };
+  const pendres_state start = {1.0, 0.0};
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
+  (void)state;
+  for (size_t k = 0; k < N; k++) {
+    const pendres_pendulum p = {
+      .damping = damping[k], .torque = torque[k], .drive_frequency = 0.7};
+    const pendres_hysteresis_path along = {PENDRES_TORQUE, 1, &torque[k]};
+    pendres_attractors *set = NULL;
+    pendres_hysteresis *path = NULL;
+    pendres_outcome outcome;
+    pendres_lyapunov told;
+    pendres_rotation exact;
+    assert_int_equal(pendres_rotation_find(&p, &exact, NULL), PENDRES_OK);
+    const double turns = exact.mean_velocity / p.drive_frequency;
+    assert_int_equal(pendres_settle(ctx, 1, &p, &start.x, &start.v, &outcome, &set), PENDRES_OK);
+    assert_int_equal(outcome.label, PENDRES_LABEL_RUNNING);
+    assert_int_equal(outcome.certain, 1);
+    check_near(pendres_attractors_get(set, 0)->drift, turns, 1e-14);
+    assert_int_equal(pendres_lyapunov_find(ctx, 1, &p, &start.x, &start.v, NULL, &told),
+                     PENDRES_OK);
+    assert_int_equal(told.label, PENDRES_LABEL_RUNNING);
+    check_near(told.rotation, turns, 1e-14);
+    assert_int_equal(pendres_hysteresis_find(ctx, &p, &start, &along, &path), PENDRES_OK);
+    const pendres_hysteresis_point *point = pendres_hysteresis_get(path, 0);
+    assert_int_equal(point->attractor.label, PENDRES_LABEL_RUNNING);
+    check_near(point->mean_velocity, exact.mean_velocity, 1e-14);
+    pendres_hysteresis_free(path);
+    pendres_attractors_free(set);
+  }
+  pendres_context_free(ctx);
+}
+
 /* A junction with microwaves that is locked to none of them, whatever it starts from; another one
    beside the state without voltage. Means by smooth averages of an integrator of the fourth order
    with 400 steps: 1e-9. */
@@ -173,7 +212,7 @@ static void members(void **state)
    of a few has a larger one. */
 static void resonance(void **state)
 {
-  enum { FEW = 9 };
+  enum { FEW = 5 };
   pendres_pendulum p[FEW] = {{.damping = 0.12, .drive_amplitude = 0.1, .torque = 0.4}};
   const pendres_ensemble e = {.members = 6, .x_first = -1.5, .x_last = 4.5};
   pendres_resonance peak;
@@ -184,7 +223,7 @@ static void resonance(void **state)
   assert_int_equal(pendres_resonance_find_ensemble(ctx, &p[0], 0.8, 0.96, &e, &peak), PENDRES_OK);
   for (int k = 0; k < FEW; k++) {
     p[k] = p[0];
-    p[k].drive_frequency = 0.8 + 0.02 * k;
+    p[k].drive_frequency = 0.8 + 0.04 * k;
   }
   assert_int_equal(pendres_response_find(ctx, FEW, p, &e, r), PENDRES_OK);
   pendres_context_free(ctx);
@@ -204,12 +243,10 @@ static void slow_or_weak(void **state)
 {
   const pendres_pendulum p[] = {
     {.damping = 5.0, .drive_amplitude = 0.1, .drive_frequency = 1.2, .torque = 1.05},
-    {.damping = 5.0, .drive_amplitude = 0.1, .drive_frequency = 1.2, .torque = 1.05},
     {.damping = 8.0, .drive_amplitude = 0.3, .drive_frequency = 1.2, .torque = 1.3},
-    {.damping = 0.0008, .drive_amplitude = 0.1, .drive_frequency = 1.0, .torque = 0.01},
     {.damping = 0.001, .drive_amplitude = 0.05, .drive_frequency = 2.3, .torque = 0.0033}};
   enum { N = sizeof p / sizeof *p };
-  const double x[N] = {0.0, 2.0, 1.0, 1.0, 1.0}, v[N] = {0.0, 1.0, 0.0, 12.5, 3.3};
+  const double x[N] = {2.0, 1.0, 1.0}, v[N] = {1.0, 0.0, 3.3};
   pendres_attractors *set = NULL;
   pendres_outcome outcome[N];
   pendres_lyapunov told[N];
@@ -262,7 +299,7 @@ static void locks_and_ways(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(beside_rest), cmocka_unit_test(by_averages),
+    cmocka_unit_test(beside_rest), cmocka_unit_test(by_averages), cmocka_unit_test(hardly_turning),
     cmocka_unit_test(without_lock), cmocka_unit_test(members), cmocka_unit_test(resonance),
     cmocka_unit_test(slow_or_weak),
     cmocka_unit_test(locks_and_ways),

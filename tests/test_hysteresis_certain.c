@@ -82,7 +82,7 @@ static void share_of_trials(void **state)
     first += outcome[i].attractor == 0;
   }
   assert_true(first > 0 && first < N);
-  pendres_settled to;
+  pendres_arrival to;
   pendres_jump jump = {.share = NAN};
   check_ok(pendres_jump_try_from(*state, &fractal, x, v, &to, &jump));
   assert_true(jump.share == (double)(first > N / 2 ? first : N - first) / N);

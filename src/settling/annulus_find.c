@@ -19,6 +19,7 @@
 #include "settling/numbers.h"
 #include "orbits/mean.h"
 #include "settling/exponents/lyapunov_move.h"
+#include "settling/exponents/undriven.h"
 #include "settling/settle_lanes.h"
 
 enum { NODES = PENDRES_ANNULUS_NODES };
@@ -58,9 +59,8 @@ static int by_angle(const void *a, const void *b)
   return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Whether points, put into order, lie close enough all around; those that are closer to their
-   neighbour than needed are dropped. */
-static int thin_out(place *point, size_t *n)
+/* Put points into order, and drop those that are closer to their neighbour than needed. */
+static void thin_out(place *point, size_t *n)
 {
   size_t kept = 0;
   qsort(point, *n, sizeof *point, by_angle);
@@ -69,9 +69,14 @@ static int thin_out(place *point, size_t *n)
       point[kept++] = point[i];
   while (kept > 1 && two_pi - (point[kept - 1].y - point[0].y) <= annulus_points_apart) kept--;
   *n = kept;
-  if (kept < ANNULUS_POINTS) return 0;
-  double widest = two_pi - (point[kept - 1].y - point[0].y);
-  for (size_t i = 1; i < kept; i++) widest = fmax(widest, point[i].y - point[i - 1].y);
+}
+
+/* Whether points, in order, lie close enough all around. */
+static int close_up(const place *point, size_t n)
+{
+  if (n < ANNULUS_POINTS) return 0;
+  double widest = two_pi - (point[n - 1].y - point[0].y);
+  for (size_t i = 1; i < n; i++) widest = fmax(widest, point[i].y - point[i - 1].y);
   return widest < annulus_widest_gap;
 }
 
@@ -108,18 +113,20 @@ static pendres_status find_curve(pendres_context *ctx, const pendres_attractor_s
                                  int *found)
 {
   const long settled = fading(c);
+  const size_t most = NODES * NODES; /* points, many times those that are left when thinned out */
   /* A slow rotation is fast in one place: each pendulum must have passed there. */
   const long strobes = ANNULUS_STROBES + suspect->period / labs(suspect->turns);
   const int way = suspect->turns > 0 ? 1 : -1;
   size_t count = 0;
   pendres_room room = pendres_room_open(ctx, "a rotation");
   pendres_strobe_lane *lanes = pendres_room_take(&room, NODES, sizeof *lanes);
-  place *point = pendres_room_take(&room, (size_t)strobes * NODES, sizeof *point);
+  place *point = pendres_room_take(&room, most, sizeof *point);
   pendres_status status = room.status;
   *found = 0;
   for (int k = 0; k < NODES && status == PENDRES_OK; k++)
     status = load(ctx, c, node(k), suspect->w, &lanes[k]);
   for (long strobe = 0; strobe < strobes && status == PENDRES_OK; strobe++) {
+    if (count + NODES > most) thin_out(point, &count);
     status = pendres_strobe_run_until(ctx, NODES, lanes, settled + strobe);
     for (int k = 0; k < NODES && status == PENDRES_OK; k++)
       if (way * lanes[k].turns > 0 &&
@@ -127,7 +134,8 @@ static pendres_status find_curve(pendres_context *ctx, const pendres_attractor_s
           pendres_attractor_set_annulus(c, lanes[k].y, lanes[k].w) == NULL)
         point[count++] = (place){pendres_less_turns(lanes[k].y, two_pi), lanes[k].w};
   }
-  if (status == PENDRES_OK) *found = thin_out(point, &count);
+  if (status == PENDRES_OK) thin_out(point, &count);
+  if (status == PENDRES_OK) *found = close_up(point, count);
   if (*found) status = draw(ctx, count, point, a);
   return pendres_room_close(&room, status);
 }
@@ -156,6 +164,14 @@ static int inside(const pendres_annulus *a, const pendres_strobe_lane *lane)
   return 1;
 }
 
+/* Whether a part of an edge has come to an orbit that is known, and does not leave it. */
+static int settled(const pendres_attractor_set *c, const pendres_strobe_lane *lane)
+{
+  for (int k = 0; k < NODES; k++)
+    if (pendres_attractor_set_ellipse(c, lane[k].y, lane[k].w) != NULL) return 1;
+  return 0;
+}
+
 /* Whether the curve so far above that of an annulus comes into it, all of it at one time. */
 static pendres_status comes_in(pendres_context *ctx, const pendres_attractor_set *c,
                                const pendres_annulus *a, double off, int *in)
@@ -170,6 +186,7 @@ static pendres_status comes_in(pendres_context *ctx, const pendres_attractor_set
   for (long period = 1; period <= most && !*in && status == PENDRES_OK; period *= 2) {
     status = pendres_strobe_run_until(ctx, NODES, lanes, period);
     if (status == PENDRES_OK) *in = inside(a, lanes);
+    if (!*in && settled(c, lanes)) break;
   }
   return pendres_room_close(&room, status);
 }
@@ -230,7 +247,7 @@ static pendres_status find_turns(pendres_context *ctx, const pendres_attractor_s
                                           .out = &told, .orbit = &orbit, .points = 1};
   const pendres_status status = pendres_lyapunov_move(ctx, &motion, PENDRES_CARE_FULL);
   *found = status == PENDRES_OK && told.period == 0 &&
-           (told.label == PENDRES_LABEL_QUASI_PERIODIC || told.label == PENDRES_LABEL_RUNNING);
+           told.label == PENDRES_LABEL_QUASI_PERIODIC;
   if (!*found) return status;
   m->label = told.label;
   m->turns = (pendres_chaos_mean){told.rotation, told.rotation_error};
@@ -304,12 +321,6 @@ static pendres_status find_works(pendres_context *ctx, const pendres_pendulum *p
   sampled coarse = {0}, finer = {0};
   int samples = 1;
   m->work = m->loss = (pendres_chaos_mean){NAN, NAN};
-  if (m->label == PENDRES_LABEL_RUNNING) { /* without a drive */
-    m->work = (pendres_chaos_mean){0.0, 0.0};
-    m->loss = (pendres_chaos_mean){two_pi * p->torque * m->turns.value,
-                                   two_pi * fabs(p->torque) * m->turns.error};
-    return PENDRES_OK;
-  }
   pendres_status status = pendres_steps_choose(ctx, p, pendres_steps_turning_speed(p),
                                                pendres_accuracy_of_means(ctx), &samples);
   if (status == PENDRES_OK) status = sample(ctx, p, samples, m, &coarse);
@@ -344,19 +355,37 @@ static pendres_status look(pendres_context *ctx, pendres_attractor_set *c,
   return status;
 }
 
+/* Add the rotation without a drive if one of the lanes has come to it. */
+static pendres_status find_undriven(pendres_context *ctx, pendres_attractor_set *c,
+                                    const pendres_annulus_suspects *of, int *found)
+{
+  pendres_rotation r;
+  double x, v;
+  if (c->turns || of->n == 0 || pendres_rotation_find(&c->pendulum, &r, NULL) != PENDRES_OK)
+    return PENDRES_OK;
+  for (size_t i = 0; i < of->n && !*found; i++) {
+    pendres_strobe_lane_out(of->lane[i], &x, &v);
+    *found = pendres_undriven_rotates(&c->pendulum, of->x[i], x);
+  }
+  if (!*found) return PENDRES_OK;
+  const pendres_open_measures m = pendres_open_turning(&c->pendulum, &r);
+  return pendres_attractor_set_add_open(ctx, c, &m, NULL, NULL);
+}
+
 pendres_status pendres_annulus_find(pendres_context *ctx, pendres_attractor_set *c, long budget,
-                                    size_t n, const pendres_strobe_lane *const *lanes, int *found)
+                                    const pendres_annulus_suspects *of, int *found)
 {
   pendres_status status = PENDRES_OK;
   const pendres_pendulum *p = &c->pendulum;
   *found = 0;
+  if (pendres_undriven(p)) return find_undriven(ctx, c, of, found);
   if (!pendres_pendulum_rotates(p) || fading(c) > budget) return status;
   for (int way = -1; way <= 1; way += 2) {
     const pendres_strobe_lane *suspect = NULL;
     int new = 0;
     if (c->annuli == PENDRES_MOST_ANNULI) return status;
-    for (size_t i = 0; i < n && suspect == NULL; i++)
-      if (way * lanes[i]->turns >= ANNULUS_TURNS) suspect = lanes[i];
+    for (size_t i = 0; i < of->n && suspect == NULL; i++)
+      if (way * of->lane[i]->turns >= ANNULUS_TURNS) suspect = of->lane[i];
     if (suspect != NULL) status = look(ctx, c, suspect, &new);
     if (status != PENDRES_OK) return status;
     *found |= new;

@@ -4,14 +4,21 @@
 
 #include "settling/attractor_set.h"
 
+/* Lanes that have not settled so far, and where they started from. */
+typedef struct pendres_annulus_suspects {
+  size_t n;
+  const pendres_strobe_lane **lane;
+  double *x;
+} pendres_annulus_suspects;
+
 /*
- * Whether some of n lanes of attractor set c, which have not settled so far, are on a rotation that
- * no closed orbit describes; if so it is added with its annulus. One that may be locked to the
- * drive with a period that recurrences find is not. Nothing is done before the pendulums' own
+ * Whether some of them, of attractor set c, are on a rotation that no closed orbit describes; if so
+ * it is added, with its annulus where there is a drive. One that may be locked to the drive with a
+ * period that recurrences find is not. With a drive nothing is done before the pendulums' own
  * budget is as long as what is beside a rotation takes to come to it: no search lasts longer than
  * they do.
  */
 pendres_status pendres_annulus_find(pendres_context *ctx, pendres_attractor_set *c, long budget,
-                                    size_t n, const pendres_strobe_lane *const *lanes, int *found);
+                                    const pendres_annulus_suspects *of, int *found);
 
 #endif

@@ -119,6 +119,7 @@ pendres_status pendres_attractor_set_order(pendres_context *ctx, pendres_attract
   for (size_t i = 0; i < c->covers; i++) c->cover[i]->attractor = moved[c->cover[i]->attractor];
   for (size_t i = 0; i < c->annuli; i++)
     c->annulus[i]->attractor = moved[c->annulus[i]->attractor];
+  if (c->turns) c->turning = moved[c->turning];
   if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
   pendres_attractor_set_compare_images(c);
@@ -163,30 +164,49 @@ static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_open_me
   return o;
 }
 
+pendres_attractor pendres_attractor_open(const pendres_pendulum *p, const pendres_open_measures *m)
+{
+  const double tau = two_pi / p->drive_frequency;
+  return (pendres_attractor){.label = m->label,
+                             .orbit = mean_cycle(p, m),
+                             .lyapunov = m->growth.value / tau,
+                             .lyapunov_error = m->growth.error / tau,
+                             .trap_metric = {NAN, NAN, NAN},
+                             .trap_radius = NAN,
+                             .drift = m->turns.value,
+                             .drift_error = m->turns.error,
+                             .watched_periods = m->watched_periods,
+                             .escape_rate_bound = m->escape_rate_bound};
+}
+
+pendres_open_measures pendres_open_turning(const pendres_pendulum *p, const pendres_rotation *r)
+{
+  const double tau = two_pi / p->drive_frequency;
+  return (pendres_open_measures){
+    .label = PENDRES_LABEL_RUNNING, .x = half_pi, .v = r->v, .amplitude = {NAN, NAN},
+    .loss = {tau * p->torque * r->mean_velocity, tau * fabs(p->torque) * r->mean_velocity_error},
+    .turns = {r->mean_velocity / p->drive_frequency, r->mean_velocity_error / p->drive_frequency},
+    .watched_periods = NAN, .escape_rate_bound = NAN};
+}
+
 pendres_status pendres_attractor_set_add_open(pendres_context *ctx, pendres_attractor_set *c,
                                               const pendres_open_measures *m,
                                               pendres_cover *cover, pendres_annulus *annulus)
 {
-  const double tau = two_pi / c->pendulum.drive_frequency;
   if (pendres_attractor_set_reserve(c, 0) != 0) {
     free(cover);
     free(annulus);
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   }
-  c->attractors[c->count] = (pendres_attractor){.label = m->label,
-                                                .orbit = mean_cycle(&c->pendulum, m),
-                                                .lyapunov = m->growth.value / tau,
-                                                .lyapunov_error = m->growth.error / tau,
-                                                .trap_metric = {NAN, NAN, NAN},
-                                                .trap_radius = NAN,
-                                                .drift = m->turns.value,
-                                                .drift_error = m->turns.error,
-                                                .watched_periods = m->watched_periods,
-                                                .escape_rate_bound = m->escape_rate_bound};
+  c->attractors[c->count] = pendres_attractor_open(&c->pendulum, m);
   if (cover != NULL) cover->attractor = (int)c->count;
   if (cover != NULL) c->cover[c->covers++] = cover;
   if (annulus != NULL) annulus->attractor = (int)c->count;
   if (annulus != NULL) c->annulus[c->annuli++] = annulus;
+  if (cover == NULL && annulus == NULL) {
+    c->turns = 1;
+    c->turning = (int)c->count;
+  }
   c->count++;
   return PENDRES_OK;
 }

@@ -10,6 +10,7 @@
 #define PENDRES_ATTRACTOR_SET_H
 
 #include <pendres/attractor.h>
+#include <pendres/rotation.h>
 
 #include "engine/strobe_run.h"
 #include "settling/trapping/annulus.h"
@@ -52,6 +53,12 @@ typedef struct pendres_open_measures {
   double x, v;                                /* one of its states; NaN: none is known */
 } pendres_open_measures;
 
+/* Those of a rotation without a drive. */
+pendres_open_measures pendres_open_turning(const pendres_pendulum *p, const pendres_rotation *r);
+
+/* The attractor that has them. */
+pendres_attractor pendres_attractor_open(const pendres_pendulum *p, const pendres_open_measures *m);
+
 typedef struct pendres_attractor_set {
   pendres_pendulum pendulum;
   pendres_trapping_effort effort;
@@ -65,6 +72,8 @@ typedef struct pendres_attractor_set {
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
   size_t annuli;
   pendres_annulus *annulus[PENDRES_MOST_ANNULI]; /* of rotations without a lock; owned */
+  int turns;        /* whether one is a rotation without a drive, ... */
+  int turning;      /* ... and its number */
   int grows;        /* the force is linear, and all motions grow without bound */
   pendres_escape_beside beside; /* from where on they do beside a spring */
   double transient; /* mean lifetime of transient chaos, in drive periods; 0: none was found */
@@ -119,8 +128,8 @@ pendres_status pendres_attractor_set_add(pendres_context *ctx,
 /* Make room for one more attractor with `more_ellipses` ellipses; nonzero if out of memory. */
 int pendres_attractor_set_reserve(pendres_attractor_set *c, size_t more_ellipses);
 
-/* Add an attractor that does not close, with its cover, or with its annulus if it is a rotation:
-   the other one is NULL. The set takes ownership of it. */
+/* Add an attractor that does not close, with its cover, or with its annulus if it is a rotation
+   that is driven: the others are NULL. The set takes ownership of it. */
 pendres_status pendres_attractor_set_add_open(pendres_context *ctx, pendres_attractor_set *c,
                                               const pendres_open_measures *m,
                                               pendres_cover *cover, pendres_annulus *annulus);

@@ -130,4 +130,13 @@ static const double annulus_step = 0.3, annulus_inside = 0.25, annulus_margin = 
 /* Edges are moved by such factors. */
 static const double annulus_first_factor = 8.0, annulus_least_factor = 1.05;
 
+/* ---- arrivals ---- */
+
+enum {
+  ARRIVAL_PERIODS = 500 /* after which a pendulum on no closed orbit is on its attractor */
+};
+
+/* The mean turns of chaos that was taken for a rotation are known no better than this. */
+static const double arrival_scatter = 1e-3;
+
 #endif

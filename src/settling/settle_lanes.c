@@ -13,6 +13,7 @@
 #include "engine/steps.h"
 #include "engine/threads.h"
 #include "model/model.h"
+#include "settling/exponents/undriven.h"
 #include "settling/trapping/escape.h"
 #include "settling/numbers.h"
 #include "orbits/strobe_noise.h"
@@ -74,12 +75,22 @@ pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbou
   return lane;
 }
 
+static double angle_of(const pendres_strobe_lane *lane)
+{
+  return lane->y + two_pi * (double)lane->turns;
+}
+
 static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
 {
   const long k = h->filled++ % PENDRES_SETTLE_HISTORY;
-  h->y[k] = lane->y + two_pi * (double)lane->turns;
+  h->y[k] = angle_of(lane);
   h->w[k] = lane->w;
 }
+
+/* A state, the largest variance of the error on the way to it, and its angle with whole turns. */
+typedef struct pendres_settle_place {
+  double y, w, worst, angle;
+} pendres_settle_place;
 
 /* A streak is one number: the number of successive strobes at which a lane has been in the cells of
    one chaotic attractor, plus this constant times the number of the attractor's cover. */
@@ -147,10 +158,27 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_at
   return 1;
 }
 
-/* Whether a lane is between the edges of a rotation. */
+/* Whether a lane has come to a rotation without a drive since it was looked at last. */
+static int turns_over(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
+                      const pendres_strobe_lane *lane)
+{
+  const double now = angle_of(lane), last = l->before != NULL ? l->before[i].angle : now;
+  return c->turns && pendres_undriven_rotates(&c->pendulum, last, now);
+}
+
+/* Whether a lane is on a rotation without a lock: one without a drive, or between the edges of
+   another. */
 static int rotates(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
                    const pendres_strobe_lane *lane)
 {
+  if (turns_over(l, i, c, lane)) {
+    l->outcome[i] = (pendres_outcome){.label = c->attractors[c->turning].label,
+                                      .attractor = c->turning,
+                                      .settling_periods = lane->period};
+    judge(l, i, lane->period > 0 && lane->added == 0.0 ? NAN
+                                                       : pendres_settle_error_ratio(lane->worst));
+    return 1;
+  }
   const pendres_annulus *in = pendres_attractor_set_annulus(c, lane->y, lane->w);
   if (in == NULL) return 0;
   double slope;
@@ -166,10 +194,10 @@ static int rotates(const pendres_settle_labelling *l, size_t i, const pendres_at
 
 /* ---- escapes ---- */
 
-/* A state, and the largest variance of the error on the way to it. */
-typedef struct pendres_settle_place {
-  double y, w, worst;
-} pendres_settle_place;
+static pendres_settle_place place_of(const pendres_strobe_lane *lane)
+{
+  return (pendres_settle_place){lane->y, lane->w, lane->worst, angle_of(lane)};
+}
 
 static void note_escape(const pendres_settle_labelling *l, size_t i,
                         const pendres_strobe_lane *lane, double worst)
@@ -185,7 +213,7 @@ static int escapes(const pendres_settle_labelling *l, size_t i, const pendres_at
                    const pendres_strobe_lane *lane)
 {
   if (pendres_escape_lost(lane->y, lane->w)) return 1;
-  l->before[i] = (pendres_settle_place){lane->y, lane->w, lane->worst};
+  l->before[i] = place_of(lane);
   if (!pendres_escape_certain(lane->pendulum, &c->beside, lane->y, lane->w)) return 0;
   note_escape(l, i, lane, lane->worst);
   return 1;
@@ -278,7 +306,8 @@ static pendres_status glide(pendres_context *ctx, pendres_charts *charts,
     lane->charted += pendres_charts_periods(level) - 1;
     if (level == 0) {
       *done = settle_look((void *)l, i, lane);
-    } else if (pendres_attractor_set_ellipse(c, lane->y, lane->w) != NULL) {
+    } else if (pendres_attractor_set_ellipse(c, lane->y, lane->w) != NULL ||
+               turns_over(l, i, c, lane)) {
       *lane = from;
       most = level - 1;
     } else {
@@ -403,7 +432,7 @@ static pendres_status run_lanes(pendres_context *ctx, size_t n, size_t *which,
 
 /* List the lanes that are to run: those that are unresolved, in no ellipse, and within their
    budget.
-   *covers, *open: whether any of them may be on chaos, or escape. */
+   *covers, *open: whether any of them may be on chaos, or escape or come to rotate. */
 static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
                              const pendres_settle_labelling *l, size_t *which, int *covers,
                              int *open)
@@ -422,7 +451,7 @@ static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
     if (trapped(l, i, c, &lanes[i]) || rotates(l, i, c, &lanes[i]) || spent(l, set, &lanes[i]))
       continue;
     *covers |= c->covers > 0;
-    *open |= pendres_escape_possible(&c->pendulum);
+    *open |= pendres_escape_possible(&c->pendulum) || c->turns;
     which[left++] = i;
   }
   return left;
@@ -443,10 +472,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
   }
   if (open) l->before = pendres_room_take(&room, n, sizeof *l->before);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  for (size_t k = 0; k < left && open; k++) {
-    const pendres_strobe_lane *from = &lanes[which[k]];
-    l->before[which[k]] = (pendres_settle_place){from->y, from->w, from->worst};
-  }
+  for (size_t k = 0; k < left && open; k++) l->before[which[k]] = place_of(&lanes[which[k]]);
   pendres_status status = run_lanes(ctx, left, which, lanes, l);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
     const size_t i = which[k];

@@ -57,7 +57,8 @@ typedef struct pendres_settle_labelling {
   double most_steps;        /* of a lane */
   int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
   double *entry;            /* largest variance of its error before that */
-  struct pendres_settle_place *before; /* a period ago, of lanes that may escape; NULL: none may */
+  struct pendres_settle_place *before; /* a period ago, of lanes that may escape or come to rotate
+                                          without a drive; NULL: none may */
 } pendres_settle_labelling;
 
 /* Periods after which attractors are searched for near a pendulum that is in no ellipse. */

@@ -40,6 +40,7 @@ typedef struct lost_lanes {
   pendres_settle_history *histories;
   pendres_initial_guess *guesses;
   const pendres_strobe_lane **suspects;
+  double *x; /* where the suspects started from */
   size_t *known;   /* attractors of each set when the search began */
   size_t *watched; /* covers of each set when the latest round began */
   unsigned char *found; /* of each set: whether chaos was found after the latest round */
@@ -56,6 +57,7 @@ static void take_room(pendres_room *room, size_t sets, lost_lanes *l)
   l->histories = pendres_room_take(room, n, sizeof *l->histories);
   l->guesses = pendres_room_take(room, n, sizeof *l->guesses);
   l->suspects = pendres_room_take(room, n, sizeof *l->suspects);
+  l->x = pendres_room_take(room, n, sizeof *l->x);
   l->known = pendres_room_take(room, sets, sizeof *l->known);
   l->watched = pendres_room_take(room, sets, sizeof *l->watched);
   l->found = pendres_room_take(room, sets, sizeof *l->found);
@@ -102,17 +104,20 @@ static int nowhere(const pendres_attractor_set *c, size_t watched, const pendres
 
 /* Look for rotations among the lost lanes, set by set. */
 static pendres_status add_rotations(pendres_context *ctx, lost_lanes *l,
-                                    pendres_attractor_set *attractor_sets, const long *budget)
+                                    pendres_attractor_set *attractor_sets,
+                                    const pendres_settle_starts *from, const long *budget)
 {
   pendres_status status = PENDRES_OK;
   for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
     pendres_attractor_set *c = &attractor_sets[l->set[first]];
-    size_t n = 0;
+    pendres_annulus_suspects some = {.lane = l->suspects, .x = l->x};
     int found = 0;
     for (last = first; last < l->count && l->set[last] == l->set[first]; last++)
-      if (searched(l, last) && nowhere(c, l->watched[l->set[last]], &l->lanes[last]))
-        l->suspects[n++] = &l->lanes[last];
-    status = pendres_annulus_find(ctx, c, budget[l->set[first]], n, l->suspects, &found);
+      if (searched(l, last) && nowhere(c, l->watched[l->set[last]], &l->lanes[last])) {
+        l->x[some.n] = from->x[l->index[last]];
+        l->suspects[some.n++] = &l->lanes[last];
+      }
+    status = pendres_annulus_find(ctx, c, budget[l->set[first]], &some, &found);
     l->found[l->set[first]] |= (unsigned char)found;
   }
   return status;
@@ -225,7 +230,7 @@ pendres_status pendres_settle_search(pendres_context *ctx, size_t sets,
     if (status != PENDRES_OK || left == 0) break;
     status = add_recurrences(ctx, &l, attractor_sets);
     if (status == PENDRES_OK && round % 2 == 0)
-      status = add_rotations(ctx, &l, attractor_sets, again.budget);
+      status = add_rotations(ctx, &l, attractor_sets, from, again.budget);
     if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, attractor_sets);
   }
   const int again_timed = from->wanted != PENDRES_SETTLE_NOTHING;

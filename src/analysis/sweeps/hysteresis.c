@@ -71,12 +71,12 @@ typedef pendres_path path;
 /* Whether it is a rotation without a drive. */
 static int rotates_freely(const pendres_attractor *a)
 {
-  return a->label == PENDRES_LABEL_RUNNING && !pendres_settled_closed(a);
+  return a->label == PENDRES_LABEL_RUNNING && !pendres_attractor_closes(a);
 }
 
 /* The last value at which the old state has not ended. An unstable one may end right at its last
    value, where it attracts from one side: then it is the value before. */
-static double last_before(const path *w, size_t step, const pendres_settled *old)
+static double last_before(const path *w, size_t step, const pendres_arrival *old)
 {
   if (old->attractor.label != PENDRES_LABEL_UNSTABLE || step < 2 ||
       w->h->point[step - 2].attractor.label != PENDRES_LABEL_UNSTABLE ||
@@ -88,7 +88,7 @@ static double last_before(const path *w, size_t step, const pendres_settled *old
 /* Chaos has ended between the last value and this one, at which the pendulum is on an orbit.
    w->state becomes the first orbit that it goes to, at this value or an earlier one, where that is
    looked for; otherwise it stays. */
-static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old, int look)
+static pendres_status end_chaos(path *w, size_t step, const pendres_arrival *old, int look)
 {
   const double to = w->value[step];
   pendres_jump j = {
@@ -96,7 +96,7 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
     .share = NAN};
   pendres_status status = PENDRES_OK;
   const int back = (to - w->at) * j.direction <= 0.0; /* from trials beyond the value */
-  if (look && w->tries <= TRIES && !(back && pendres_settled_closed(&old->attractor))) {
+  if (look && w->tries <= TRIES && !(back && pendres_attractor_closes(&old->attractor))) {
     status = pendres_chaos_end(w->ctx, w->parameter, old, last_before(w, step, old), &w->state, &j);
   } else { /* chaos and windows of orbits in turn, or one orbit and another: somewhere between */
     j.from = old->attractor.label;
@@ -109,7 +109,7 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
 }
 
 /* Chaos goes on at value number `step`; it may have become larger or smaller on the way there. */
-static pendres_status go_on_in_chaos(path *w, size_t step, const pendres_settled *old)
+static pendres_status go_on_in_chaos(path *w, size_t step, const pendres_arrival *old)
 {
   pendres_jump j = {
     .step = step, .direction = pendres_path_direction(w, step), .kind = PENDRES_JUMP_OTHER};
@@ -124,7 +124,7 @@ static pendres_status go_on_in_chaos(path *w, size_t step, const pendres_settled
 static void stay_away(path *w, size_t *i)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
-  w->state = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  w->state = pendres_arrival_at(&p, w->state.x, w->state.v);
   w->state.attractor.label = PENDRES_LABEL_ESCAPE;
   w->at = w->value[*i];
   pendres_path_put(w, (*i)++, &w->state.attractor);
@@ -134,8 +134,8 @@ static void stay_away(path *w, size_t *i)
    only where errors stay small; where they grow, copies tell. */
 static pendres_status begin_path(path *w, double x, double v)
 {
-  const pendres_settled *s = &w->state;
-  const int closed = pendres_settled_closed(&s->attractor);
+  const pendres_arrival *s = &w->state;
+  const int closed = pendres_attractor_closes(&s->attractor);
   pendres_lyapunov l;
   if (w->known || s->attractor.label == PENDRES_LABEL_UNRESOLVED) return PENDRES_OK;
   w->known = 1;
@@ -154,10 +154,10 @@ static pendres_status begin_path(path *w, double x, double v)
 static pendres_status settle_alone(path *w, size_t i)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
-  const pendres_settled from = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  const pendres_arrival from = pendres_arrival_at(&p, w->state.x, w->state.v);
   const pendres_lyapunov_care care = w->settled ? PENDRES_CARE_LABEL : PENDRES_CARE_FULL;
   int found = 0;
-  pendres_status status = pendres_settled_find(w->ctx, &p, from.x, from.v, care, &w->state);
+  pendres_status status = pendres_arrival_find(w->ctx, &p, from.x, from.v, care, &w->state);
   if (status != PENDRES_OK || !w->settled ||
       w->state.attractor.label != PENDRES_LABEL_QUASI_PERIODIC)
     return status;
@@ -165,19 +165,19 @@ static pendres_status settle_alone(path *w, size_t i)
   status = pendres_path_unlocked_at(w, i, &found);
   if (found) w->state.certain = certain;
   if (found || status != PENDRES_OK) return status;
-  return pendres_settled_find(w->ctx, &p, from.x, from.v, PENDRES_CARE_FULL, &w->state);
+  return pendres_arrival_find(w->ctx, &p, from.x, from.v, PENDRES_CARE_FULL, &w->state);
 }
 
 /* What the pendulum has done between the last value and number i, which it has come to from a state
    that is not followed. */
-static pendres_status tell_way(path *w, size_t i, const pendres_settled *old)
+static pendres_status tell_way(path *w, size_t i, const pendres_arrival *old)
 {
   const pendres_attractor *from = &old->attractor, *to = &w->state.attractor;
   const int ends = pendres_chaos_ends(from, to);
   pendres_status status = PENDRES_OK;
   if (!w->settled) return status;
   if (ends && !w->states_only) {
-    const pendres_settled settled = w->state;
+    const pendres_arrival settled = w->state;
     const size_t jumps = w->h->jumps;
     if (w->tried != i) w->tries = 0;
     w->tried = i;
@@ -200,9 +200,9 @@ static pendres_status tell_way(path *w, size_t i, const pendres_settled *old)
 
 /* Find what the pendulum settles on at value number *i, from its present state, unless it is known,
    or the orbit that it goes to on the way there, which is to be followed first. */
-static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known)
+static pendres_status settle_at(path *w, size_t *i, const pendres_arrival *known)
 {
-  const pendres_settled old = w->state;
+  const pendres_arrival old = w->state;
   pendres_status status = PENDRES_OK;
   if (known->attractor.label != PENDRES_LABEL_UNRESOLVED) w->state = *known;
   else status = settle_alone(w, *i);
@@ -222,7 +222,7 @@ static pendres_status settle_at(path *w, size_t *i, const pendres_settled *known
 static pendres_status go_on(path *w, size_t *i)
 {
   const size_t before = *i;
-  pendres_settled known = {.attractor = {.label = PENDRES_LABEL_UNRESOLVED}};
+  pendres_arrival known = {.attractor = {.label = PENDRES_LABEL_UNRESOLVED}};
   pendres_status status = pendres_context_poll(w->ctx);
   if (status != PENDRES_OK || !w->settled)
     return status == PENDRES_OK ? settle_at(w, i, &known) : status;
@@ -310,7 +310,6 @@ static void close_path(path *w, pendres_path_left *left)
 {
   pendres_part_free(&w->part);
   pendres_path_unlocked_free(w);
-  pendres_rotation_table_free(w->rotations);
   free(w->seen);
   pendres_path_left_close(left);
 }
@@ -338,7 +337,7 @@ pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hys
 {
   pendres_path_left left;
   size_t at = 0;
-  w->state = (pendres_settled){.x = x, .v = v};
+  w->state = (pendres_arrival){.x = x, .v = v};
   for (size_t i = 0; i < w->n; i++) {
     const char *why = NULL;
     const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);

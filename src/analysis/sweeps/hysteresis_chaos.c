@@ -13,8 +13,8 @@
 int pendres_chaos_ends(const pendres_attractor *old, const pendres_attractor *there)
 {
   if (there->label == PENDRES_LABEL_ESCAPE) return 1;
-  if (pendres_settled_closed(there)) return !pendres_settled_alike(there, old);
-  return pendres_settled_closed(old) && old->orbit.period <= PENDRES_HYSTERESIS_PERIOD &&
+  if (pendres_attractor_closes(there)) return !pendres_arrival_alike(there, old);
+  return pendres_attractor_closes(old) && old->orbit.period <= PENDRES_HYSTERESIS_PERIOD &&
          there->label != PENDRES_LABEL_UNRESOLVED;
 }
 
@@ -22,10 +22,10 @@ int pendres_chaos_ends(const pendres_attractor *old, const pendres_attractor *th
 typedef struct search {
   pendres_context *ctx;
   pendres_parameter parameter;
-  const pendres_settled *old;
+  const pendres_arrival *old;
   double from;            /* the last value at which the state is known to last, ... */
-  pendres_settled before; /* ... and the state there */
-  pendres_settled *state; /* the first one known to be another, at a value beyond the end */
+  pendres_arrival before; /* ... and the state there */
+  pendres_arrival *state; /* the first one known to be another, at a value beyond the end */
 } search;
 
 static pendres_pendulum pendulum_at(const search *s, double value)
@@ -49,13 +49,12 @@ static pendres_jump_kind kind_of(pendres_special kind)
   }
 }
 
-/* States that a pendulum comes through, far enough apart for chaos to have lost its memory. */
-static pendres_status spread(const search *w, const pendres_settled *from, int n, double *x,
-                             double *v)
+pendres_status pendres_chaos_spread(pendres_context *ctx, const pendres_arrival *from, int n,
+                                    double *x, double *v)
 {
   double xs[LIVES * LIVES_APART + 1], vs[LIVES * LIVES_APART + 1];
   const pendres_status status =
-    pendres_strobe_record(w->ctx, &from->pendulum, &(pendres_state){from->x, from->v},
+    pendres_strobe_record(ctx, &from->pendulum, &(pendres_state){from->x, from->v},
                           (long)n * LIVES_APART, 1, &(pendres_record){.x = xs, .v = vs});
   for (int i = 0; i < n && status == PENDRES_OK; i++) {
     x[i] = xs[i * LIVES_APART];
@@ -75,9 +74,9 @@ typedef struct place {
 } place;
 
 /* A pendulum on an orbit. */
-static pendres_settled settled_on(const pendres_orbit *o)
+static pendres_arrival settled_on(const pendres_orbit *o)
 {
-  return (pendres_settled){.pendulum = o->pendulum, .attractor = pendres_settled_orbit(o),
+  return (pendres_arrival){.pendulum = o->pendulum, .attractor = pendres_arrival_orbit(o),
                            .x = o->x, .v = o->v};
 }
 
@@ -92,21 +91,21 @@ static int rotates(const search *w)
 static pendres_status try_beside(search *w, const place *at, pendres_jump *jump, int *born)
 {
   const pendres_pendulum p = pendulum_at(w, at->before), q = pendulum_at(w, at->behind);
-  pendres_settled before = *w->old, behind;
+  pendres_arrival before = *w->old, behind;
   pendres_jump there = {.from = w->old->attractor.label, .share = NAN};
   double x[PENDRES_HYSTERESIS_TRIALS], v[PENDRES_HYSTERESIS_TRIALS];
   pendres_status status = PENDRES_OK;
   /* A rotation lasts up to a lock that is born on it. */
   if (!rotates(w))
-    status = pendres_settled_name(w->ctx, &p, w->old->x, w->old->v, &before);
+    status = pendres_arrival_name(w->ctx, &p, w->old->x, w->old->v, &before);
   *born = 0;
-  if (status != PENDRES_OK || pendres_settled_closed(&before.attractor) ||
+  if (status != PENDRES_OK || pendres_attractor_closes(&before.attractor) ||
       before.attractor.label == PENDRES_LABEL_ESCAPE)
     return status;
-  status = spread(w, &before, PENDRES_HYSTERESIS_TRIALS, x, v);
+  status = pendres_chaos_spread(w->ctx, &before, PENDRES_HYSTERESIS_TRIALS, x, v);
   if (status == PENDRES_OK) status = pendres_jump_try_from(w->ctx, &q, x, v, &behind, &there);
   if (status != PENDRES_OK) return status;
-  *born = pendres_settled_closed(&behind.attractor) &&
+  *born = pendres_attractor_closes(&behind.attractor) &&
           behind.attractor.orbit.period == at->period;
   if (!*born) return status;
   jump->kind = at->kind;
@@ -198,7 +197,7 @@ static pendres_status try_birth(search *w, pendres_jump *jump, birth *found)
   place at;
   int there = 0, births = 0, born = 0;
   *found = BIRTH_NONE;
-  if (!pendres_settled_closed(&w->state->attractor) ||
+  if (!pendres_attractor_closes(&w->state->attractor) ||
       w->state->attractor.orbit.period > PENDRES_HYSTERESIS_PERIOD)
     return PENDRES_OK;
   pendres_status status = go_back(w, &s, &births);
@@ -215,13 +214,13 @@ static pendres_status try_birth(search *w, pendres_jump *jump, birth *found)
 static pendres_status halve(search *w, pendres_jump *jump)
 {
   double from = w->from, to = value_of(w);
-  pendres_settled last = w->before;
+  pendres_arrival last = w->before;
   pendres_status status = PENDRES_OK;
   for (int k = 0; k < ENDS_HALVINGS && status == PENDRES_OK; k++) {
     const double middle = 0.5 * (from + to);
     const pendres_pendulum p = pendulum_at(w, middle);
-    pendres_settled there;
-    status = pendres_settled_name(w->ctx, &p, last.x, last.v, &there);
+    pendres_arrival there;
+    status = pendres_arrival_name(w->ctx, &p, last.x, last.v, &there);
     if (status != PENDRES_OK) break;
     if (pendres_chaos_ends(&w->old->attractor, &there.attractor)) {
       to = middle;
@@ -280,7 +279,7 @@ static pendres_status leave_open(const search *w, pendres_jump *jump)
   double x[LIVES], v[LIVES], life[2];
   if (isnan(watched)) jump->value_error += step;
   if (isnan(watched)) return PENDRES_OK;
-  pendres_status status = spread(w, &w->before, LIVES, x, v);
+  pendres_status status = pendres_chaos_spread(w->ctx, &w->before, LIVES, x, v);
   if (status == PENDRES_OK) status = mean_lives(w, at, x, v, life);
   if (status != PENDRES_OK) return status;
   const double power = fmax(ends_least_power, log(life[0] / life[1]) / log(ENDS_FURTHER));
@@ -290,7 +289,7 @@ static pendres_status leave_open(const search *w, pendres_jump *jump)
 }
 
 pendres_status pendres_chaos_end(pendres_context *ctx, pendres_parameter parameter,
-                                 const pendres_settled *old, double from, pendres_settled *state,
+                                 const pendres_arrival *old, double from, pendres_arrival *state,
                                  pendres_jump *jump)
 {
   search w = {.ctx = ctx, .parameter = parameter, .old = old, .from = from, .before = *old,
@@ -305,12 +304,12 @@ pendres_status pendres_chaos_end(pendres_context *ctx, pendres_parameter paramet
     status = try_birth(&w, jump, &found);
     /* What is there all the while coexists with the chaos, which ends by itself. */
     if (status == PENDRES_OK &&
-        (found == BIRTH_EARLIER || !pendres_settled_closed(&state->attractor))) {
+        (found == BIRTH_EARLIER || !pendres_attractor_closes(&state->attractor))) {
       jump->kind = PENDRES_JUMP_CRISIS;
       status = leave_open(&w, jump);
     }
   }
   jump->to = state->attractor.label;
-  jump->to_period = pendres_settled_closed(&state->attractor) ? state->attractor.orbit.period : 0;
+  jump->to_period = pendres_attractor_closes(&state->attractor) ? state->attractor.orbit.period : 0;
   return status;
 }

@@ -24,7 +24,12 @@ int pendres_chaos_ends(const pendres_attractor *old, const pendres_attractor *th
  * value_error, from, to, to_period, share and certain of the jump.
  */
 pendres_status pendres_chaos_end(pendres_context *ctx, pendres_parameter parameter,
-                                 const pendres_settled *old, double from, pendres_settled *state,
+                                 const pendres_arrival *old, double from, pendres_arrival *state,
                                  pendres_jump *jump);
+
+/* n states that a pendulum in chaos comes through, at most LIVES, far enough apart for that to have
+   lost its memory. */
+pendres_status pendres_chaos_spread(pendres_context *ctx, const pendres_arrival *from, int n,
+                                    double *x, double *v);
 
 #endif

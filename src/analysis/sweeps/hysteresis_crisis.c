@@ -11,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <pendres/strobe.h>
-
+#include "analysis/sweeps/hysteresis_chaos.h"
 #include "analysis/sweeps/numbers.h"
 #include "continuation/parameter.h"
 #include "engine/accuracy.h"
@@ -57,7 +56,7 @@ typedef struct pendres_crisis_seen {
 typedef struct search {
   pendres_context *ctx;
   pendres_parameter parameter;
-  const pendres_settled *smaller;
+  const pendres_arrival *smaller;
   double small, large; /* the last values known to be on either side */
   states in;     /* the smaller chaos, at the last value known to be on its side, ... */
   region where;  /* ... and where it has been */
@@ -208,20 +207,6 @@ static pendres_status take_sample(pendres_context *ctx, const pendres_pendulum *
   return run(ctx, p, s, &k);
 }
 
-/* States that a pendulum in chaos comes through. */
-static pendres_status spread(pendres_context *ctx, const pendres_settled *s, states *out)
-{
-  double xs[LIVES * LIVES_APART + 1], vs[LIVES * LIVES_APART + 1];
-  const pendres_status status =
-    pendres_strobe_record(ctx, &s->pendulum, &(pendres_state){s->x, s->v}, LIVES * LIVES_APART, 1,
-                          &(pendres_record){.x = xs, .v = vs});
-  for (int i = 0; i < LIVES && status == PENDRES_OK; i++) {
-    out->x[i] = xs[i * LIVES_APART];
-    out->v[i] = vs[i * LIVES_APART];
-  }
-  return status;
-}
-
 /* The mean number of periods in which pendulums leave the region of the smaller chaos; infinite
    where some do not, or where it is more than is asked about: the longest lives take most work. */
 static pendres_status mean_life(const search *w, double value, double most, double *life)
@@ -328,18 +313,18 @@ static pendres_status by_lives(const search *w, double other, pendres_jump *jump
 static pendres_status in_chaos(const search *w, double value, int *chaotic)
 {
   const pendres_pendulum p = pendres_parameter_with(&w->smaller->pendulum, w->parameter, value);
-  pendres_settled s;
+  pendres_arrival s;
   const pendres_status status =
-    pendres_settled_name(w->ctx, &p, w->in.x[0], w->in.v[0], &s);
+    pendres_arrival_name(w->ctx, &p, w->in.x[0], w->in.v[0], &s);
   *chaotic = status == PENDRES_OK && s.attractor.label == PENDRES_LABEL_CHAOTIC;
   return status;
 }
 
 /* Look at the chaos that a pendulum is in. */
-static pendres_status look_at(pendres_context *ctx, const pendres_settled *s,
+static pendres_status look_at(pendres_context *ctx, const pendres_arrival *s,
                               pendres_crisis_seen *out)
 {
-  pendres_status status = spread(ctx, s, &out->in);
+  pendres_status status = pendres_chaos_spread(ctx, s, LIVES, out->in.x, out->in.v);
   if (status == PENDRES_OK) status = take_sample(ctx, &s->pendulum, &out->in, &out->points);
   out->pendulum = s->pendulum;
   out->x = status == PENDRES_OK ? s->x : NAN;
@@ -349,8 +334,8 @@ static pendres_status look_at(pendres_context *ctx, const pendres_settled *s,
 
 /* Look at both chaotic motions: which of them is larger, if any; 1: the latter, -1: the former,
    which mostly was the latter of the last two. */
-static pendres_status compare(search *w, pendres_crisis_seen **seen, const pendres_settled *old,
-                              const pendres_settled *there, int *larger)
+static pendres_status compare(search *w, pendres_crisis_seen **seen, const pendres_arrival *old,
+                              const pendres_arrival *there, int *larger)
 {
   region before, after;
   pendres_crisis_seen *first = *seen != NULL ? *seen : calloc(1, sizeof *first);
@@ -384,10 +369,10 @@ void pendres_crisis_seen_pass(pendres_bytes *b, pendres_path *path)
   if (pendres_bytes_fit(b, n < 2)) pendres_bytes_pass_array(b, n, sizeof *path->seen, &path->seen);
 }
 
-pendres_status pendres_crisis_find(pendres_path *path, const pendres_settled *old,
+pendres_status pendres_crisis_find(pendres_path *path, const pendres_arrival *old,
                                    pendres_jump *jump)
 {
-  const pendres_settled *there = &path->state;
+  const pendres_arrival *there = &path->state;
   const double from = path->at, to = pendres_parameter_get(path->parameter, &there->pendulum);
   int larger = 0, found = 0, chaotic = 0;
   search *w = calloc(1, sizeof *w);

@@ -16,7 +16,7 @@
  * jump are set. One place is found where there are several. What changes gradually, or cannot be
  * told from it, is not.
  */
-pendres_status pendres_crisis_find(pendres_path *w, const pendres_settled *old, pendres_jump *jump);
+pendres_status pendres_crisis_find(pendres_path *w, const pendres_arrival *old, pendres_jump *jump);
 
 /* Pass what was seen of chaos last as plain bytes. */
 void pendres_crisis_seen_pass(pendres_bytes *b, pendres_path *path);

@@ -66,14 +66,12 @@ static void go_back(pendres_path *w, const pendres_path_mark *mark)
 {
   pendres_unlocked *unlocked = w->unlocked;
   const size_t values = w->values;
-  pendres_rotation_table *rotations = w->rotations;
   struct pendres_crisis_seen *seen = w->seen;
   pendres_part_free(&w->part);
   *w = mark->path;
   w->part = pendres_part_none;
   w->unlocked = unlocked;
   w->values = values;
-  w->rotations = rotations;
   w->seen = seen;
   w->h->jumps = mark->jumps;
   w->h->parts = mark->parts;

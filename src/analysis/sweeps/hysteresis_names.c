@@ -43,7 +43,7 @@ static void compare(const meeting *m, size_t i, size_t k)
   const pendres_hysteresis *h = m->h;
   const pendres_attractor *a = &h->point[i].attractor, *b = &h->point[k].attractor;
   if (h->part[i] == h->part[k]) return;
-  if (!pendres_settled_closed(a) || !pendres_settled_closed(b)) return;
+  if (!pendres_attractor_closes(a) || !pendres_attractor_closes(b)) return;
   if (!pendres_label_named(&a->orbit) || !pendres_label_named(&b->orbit)) return;
   if (!a->orbit.stable || !b->orbit.stable) return;
   pendres_label_states states = {.count = 0};
@@ -91,7 +91,7 @@ static pendres_label name_of(const meeting *m, size_t i)
   const pendres_attractor *a = &m->h->point[i].attractor;
   const pendres_label_states alone = {.count = 0};
   const unsigned here = m->here[i], along = m->along[first_of(m, m->h->part[i])];
-  if (!pendres_settled_closed(a)) return a->label;
+  if (!pendres_attractor_closes(a)) return a->label;
   if (!pendres_label_named(&a->orbit)) return pendres_label_of(&alone, NULL, &a->orbit);
   if (here != UNNAMED) return here == SMALLER ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
   if (along == SMALLER) return PENDRES_LABEL_SA;

@@ -66,7 +66,7 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
   const double value = pendres_parameter_get(w->parameter, &old->orbit.pendulum);
   int found = 0;
   *same = 0;
-  if (!pendres_settled_closed(old) || !pendres_settled_alike(old, &w->state.attractor))
+  if (!pendres_attractor_closes(old) || !pendres_arrival_alike(old, &w->state.attractor))
     return PENDRES_OK;
   pendres_status status =
     pendres_part_from(w->ctx, &w->state.attractor.orbit, w->parameter, value, &back);
@@ -104,7 +104,7 @@ static pendres_status end_part(pendres_path *w, size_t step, double limit)
   pendres_orbit arrived;
   if (status == PENDRES_OK) status = pendres_part_arrive(w->ctx, &next, &arrived);
   if (status == PENDRES_OK) {
-    w->state.attractor = pendres_settled_orbit(&arrived);
+    w->state.attractor = pendres_arrival_orbit(&arrived);
     w->at = end.value;
     j.gradual = j.certain = 1;
     j.share = 1.0;
@@ -112,7 +112,7 @@ static pendres_status end_part(pendres_path *w, size_t step, double limit)
     j.to_period = pendres_part_period(&next);
   } else if (status == PENDRES_NOT_FOUND && cascades(w)) {
     /* What it goes to is found at the next value. */
-    w->state.attractor = pendres_settled_nothing(&end.orbit.pendulum);
+    w->state.attractor = pendres_arrival_nothing(&end.orbit.pendulum);
     w->state.x = end.orbit.x;
     w->state.v = end.orbit.v;
     w->at = end.value;
@@ -193,10 +193,10 @@ static pendres_status put_part(pendres_path *w, size_t first, size_t last)
       found[i] = 1;
     }
     const pendres_attractor a =
-      found[i] ? pendres_settled_orbit(&orbit[i]) : pendres_settled_nothing(&p);
+      found[i] ? pendres_arrival_orbit(&orbit[i]) : pendres_arrival_nothing(&p);
     pendres_path_put(w, first + i, &a);
     if (!found[i]) continue;
-    w->state = (pendres_settled){
+    w->state = (pendres_arrival){
       .pendulum = p, .attractor = a, .x = orbit[i].x, .v = orbit[i].v};
     w->at = w->value[first + i];
   }
@@ -219,7 +219,7 @@ static double turning_point(const pendres_path *w, size_t i)
 
 int pendres_path_short(const pendres_path *w, const pendres_attractor *a)
 {
-  return pendres_settled_closed(a) && a->orbit.period <= pendres_path_longest(w);
+  return pendres_attractor_closes(a) && a->orbit.period <= pendres_path_longest(w);
 }
 
 pendres_status pendres_path_orbit(pendres_path *w, size_t *i)

@@ -28,7 +28,7 @@ void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
 {
   pendres_hysteresis_point *p = &w->h->point[i];
   const double omega = pendres_path_pendulum(w, w->value[i]).drive_frequency;
-  const int closed = pendres_settled_closed(a);
+  const int closed = pendres_attractor_closes(a);
   *p = (pendres_hysteresis_point){.value = w->value[i], .attractor = *a};
   p->x = closed ? a->orbit.x : w->state.x;
   p->v = closed ? a->orbit.v : w->state.v;
@@ -48,7 +48,7 @@ pendres_hysteresis_point pendres_path_nothing(const pendres_path *w, double valu
 {
   const pendres_pendulum p = pendres_path_pendulum(w, value);
   return (pendres_hysteresis_point){
-    .value = value, .attractor = pendres_settled_nothing(&p), .x = NAN, .v = NAN,
+    .value = value, .attractor = pendres_arrival_nothing(&p), .x = NAN, .v = NAN,
     .mean_velocity = NAN, .mean_velocity_error = NAN};
 }
 

@@ -8,7 +8,6 @@
 
 #include "analysis/sweeps/hysteresis_jump.h"
 #include "analysis/sweeps/hysteresis_names.h"
-#include "analysis/sweeps/rotation_table.h"
 #include "analysis/sweeps/stable_part.h"
 #include "base/bytes.h"
 
@@ -30,14 +29,13 @@ typedef struct pendres_path {
   double most_slopes;  /* evaluations of the slope that one value may take; 0: the default */
   pendres_hysteresis *h;
   double at;               /* the present value of the parameter */
-  pendres_settled state;   /* what the pendulum is on there */
+  pendres_arrival state;   /* what the pendulum is on there */
   pendres_part part; /* that it is followed along; none: not yet, or no closed orbit */
   int beyond;              /* while it is searched for what there is beyond the end of a state: the
                               direction in which that lies, else 0, ... */
   double end;              /* ... and where the state ends */
   size_t tried;            /* number of the value to which a way out of chaos was last tried, ... */
   int tries;               /* ... and how often */
-  pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
   pendres_unlocked *unlocked; /* at each of this many different values; NULL: none met yet */
   size_t values;
   struct pendres_crisis_seen *seen; /* chaos compared with another last; NULL: none */

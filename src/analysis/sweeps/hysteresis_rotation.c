@@ -8,9 +8,10 @@
 #include "engine/context_internal.h"
 #include "analysis/sweeps/hysteresis_left.h"
 #include "analysis/sweeps/numbers.h"
+#include "settling/exponents/undriven.h"
 
 /* The lower equilibrium; at a torque of 1 exactly it is the upper one, too. */
-static pendres_status stand_still(const pendres_path *w, double at, pendres_settled *out)
+static pendres_status stand_still(const pendres_path *w, double at, pendres_arrival *out)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, at);
   const pendres_orbit_guess guess = {
@@ -20,21 +21,67 @@ static pendres_status stand_still(const pendres_path *w, double at, pendres_sett
   const pendres_status status =
     pendres_orbit_find(w->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome);
   if (status != PENDRES_OK) return status;
-  *out = pendres_settled_nothing_at(&p, guess.x, 0.0);
+  *out = pendres_arrival_at(&p, guess.x, 0.0);
   if (outcome != PENDRES_NOT_CONVERGED && (orbit.stable || fabs(p.torque) == 1.0))
-    out->attractor = pendres_settled_orbit(&orbit);
+    out->attractor = pendres_arrival_orbit(&orbit);
+  return PENDRES_OK;
+}
+
+/* Where rotations end. */
+typedef struct rotation_limit {
+  double value, error;      /* of the parameter */
+  pendres_rotation_end end; /* how */
+} rotation_limit;
+
+/* The damping at which the least torque is that of p, between one with a rotation and one
+   without. */
+static pendres_status limit_of_damping(const pendres_pendulum *p, double with, double without,
+                                       rotation_limit *out)
+{
+  pendres_rotation_onset o = {.torque = NAN};
+  double slope = NAN;
+  for (int k = 0; k < ITERATIONS; k++) {
+    const double middle = 0.5 * (with + without);
+    if (middle == with || middle == without) break;
+    const double before = o.torque, from = out->value;
+    out->value = middle;
+    if (pendres_rotation_onset_find(middle, &o) != PENDRES_OK) return PENDRES_NOT_FOUND;
+    if (middle != from && o.torque != before) slope = (o.torque - before) / (middle - from);
+    if (o.torque <= fabs(p->torque)) with = middle;
+    else without = middle;
+    if (fabs(o.torque - fabs(p->torque)) <= o.torque_error) break;
+  }
+  out->end = PENDRES_ROTATION_HOMOCLINIC;
+  out->error = fabs(with - without) + 2.0 * o.torque_error / fabs(slope);
+  return isfinite(out->error) ? PENDRES_OK : PENDRES_NOT_FOUND;
+}
+
+/* The end between a value at which there is a rotation and one at which there is none, or one in
+   the other direction. PENDRES_NOT_FOUND if the end does not depend on the parameter. */
+static pendres_status limit_between(const pendres_path *w, double with, double without,
+                                    rotation_limit *out)
+{
+  const pendres_pendulum *p = &w->pendulum;
+  const pendres_parameter parameter = w->parameter;
+  *out = (rotation_limit){.value = NAN, .error = NAN};
+  if (parameter == PENDRES_DAMPING) return limit_of_damping(p, with, without, out);
+  pendres_rotation_onset o;
+  if (parameter != PENDRES_TORQUE) return PENDRES_NOT_FOUND;
+  const pendres_status status = pendres_rotation_onset_find(p->damping, &o);
+  if (status != PENDRES_OK) return status;
+  *out = (rotation_limit){
+    .value = copysign(o.torque, with), .error = o.torque_error, .end = o.end};
   return PENDRES_OK;
 }
 
 /* At value number i there is no rotation any more: the pendulum comes to rest. */
 static pendres_status end_rotation(pendres_path *w, size_t i)
 {
-  pendres_rotation_limit limit;
+  rotation_limit limit;
   pendres_jump j = {.step = i, .direction = w->value[i] > w->at ? 1 : -1,
                     .kind = PENDRES_JUMP_OTHER, .from = w->state.attractor.label, .share = 1.0,
                     .certain = 1};
-  pendres_status status = pendres_rotation_limit_between(&w->pendulum, w->parameter, w->at,
-                                                         w->value[i], &limit);
+  pendres_status status = limit_between(w, w->at, w->value[i], &limit);
   double at = w->value[i];
   if (status == PENDRES_NOT_FOUND) { /* it ends somewhere in between */
     limit.value = 0.5 * (w->at + w->value[i]);
@@ -52,7 +99,7 @@ static pendres_status end_rotation(pendres_path *w, size_t i)
   j.value = limit.value;
   j.value_error = limit.error;
   j.to = w->state.attractor.label;
-  j.to_period = pendres_settled_closed(&w->state.attractor) ? 1 : 0;
+  j.to_period = pendres_attractor_closes(&w->state.attractor) ? 1 : 0;
   if (status == PENDRES_OK) status = pendres_path_note(w, &j);
   pendres_path_leave(w);
   return status;
@@ -62,7 +109,7 @@ static pendres_status end_rotation(pendres_path *w, size_t i)
    rest there, and the path goes on in either direction. */
 static pendres_status put_end(pendres_path *w, size_t i)
 {
-  const pendres_settled rotating = w->state;
+  const pendres_arrival rotating = w->state;
   const pendres_status status = stand_still(w, w->value[i], &w->state);
   if (status != PENDRES_OK) return status;
   pendres_path_leave(w);
@@ -76,27 +123,25 @@ static pendres_status put_end(pendres_path *w, size_t i)
 pendres_status pendres_path_rotation(pendres_path *w, size_t *i)
 {
   const int forwards = w->state.pendulum.torque > 0.0;
-  pendres_status status = PENDRES_OK;
-  pendres_path_allow_all(w); /* those of all values are looked for at once */
-  if (w->rotations == NULL)
-    status = pendres_rotation_table_create(w->ctx, &w->pendulum, w->parameter, w->n, w->value,
-                                           &w->rotations);
+  pendres_status status = pendres_context_poll(w->ctx);
   for (; *i < w->n && status == PENDRES_OK; (*i)++) {
     const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
-    const pendres_rotation *r = pendres_rotation_table_at(w->rotations, w->value[*i]);
     const int same_way = (p.torque > 0.0) == forwards;
-    if (!pendres_rotation_may_be(&p)) {
-      w->state.attractor = pendres_settled_nothing(&p);
+    pendres_rotation r;
+    if (!pendres_undriven(&p)) {
+      w->state.attractor = pendres_arrival_nothing(&p);
       return status;
     }
-    if (same_way && r == NULL && fabs(p.torque) == 1.0) {
+    if (!same_way) return end_rotation(w, *i);
+    if (pendres_rotation_find(&p, &r, NULL) != PENDRES_OK) {
+      if (fabs(p.torque) != 1.0) return end_rotation(w, *i);
       status = put_end(w, *i);
       continue;
     }
-    if (!same_way || r == NULL) return end_rotation(w, *i);
-    pendres_settled_rotate(&p, r, &w->state);
+    w->state = pendres_arrival_turning(&p, &r);
     w->at = w->value[*i];
     pendres_path_put(w, *i, &w->state.attractor);
+    status = pendres_context_poll(w->ctx);
   }
   return status;
 }
@@ -107,9 +152,9 @@ void pendres_path_into_rotation(pendres_path *w, const pendres_bifurcation *end,
   const pendres_orbit *o = &end->orbit;
   const pendres_rotation slowest = {.mean_velocity = NAN, .mean_velocity_error = NAN, .v = o->v};
   *done = end->kind == PENDRES_FOLD && end->parameter == PENDRES_TORQUE &&
-          pendres_rotation_may_be(&o->pendulum) && o->period == 1 && o->winding == 0;
+          pendres_undriven(&o->pendulum) && o->period == 1 && o->winding == 0;
   if (!*done) return;
-  pendres_settled_rotate(&o->pendulum, &slowest, &w->state);
+  w->state = pendres_arrival_turning(&o->pendulum, &slowest);
   jump->to = w->state.attractor.label;
   jump->to_period = 0;
   jump->share = 1.0;

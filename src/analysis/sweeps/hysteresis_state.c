@@ -122,7 +122,7 @@ void pendres_path_pass(pendres_bytes *b, pendres_path *w, pendres_path_left *lef
                        int *follows)
 {
   pendres_hysteresis *h = w->h;
-  pendres_settled *state = &w->state;
+  pendres_arrival *state = &w->state;
   standing s = {.at = w->at, .end = w->end, .n = w->n, .done = *at, .jumps = h->jumps,
                 .parts = h->parts, .tried = w->tried, .settled = w->settled, .known = w->known,
                 .certain = w->certain, .beyond = w->beyond, .tries = w->tries,
@@ -152,7 +152,6 @@ void pendres_path_pass(pendres_bytes *b, pendres_path *w, pendres_path_left *lef
   }
   pendres_crisis_seen_pass(b, w);
   pendres_path_unlocked_pass(b, w);
-  pendres_rotation_table_pass(b, &w->rotations);
   if (b->reads)
     (void)(pendres_bytes_end(b) &&
            pendres_bytes_fit(b, results_fit(w, *at) && attractor_fits(w, &state->attractor) &&

@@ -63,16 +63,16 @@ void pendres_path_unlocked_free(pendres_path *w)
 
 /* Rotations that slip too seldom for their means to be known go on for as long again: by then some
    have come to the lock that they were on their way to. */
-static pendres_status go_on(pendres_context *ctx, size_t n, pendres_settled *s)
+static pendres_status go_on(pendres_context *ctx, size_t n, pendres_arrival *s)
 {
   size_t count = 0;
-  pendres_settled *some = malloc((n + 1) * sizeof *some);
+  pendres_arrival *some = malloc((n + 1) * sizeof *some);
   if (some == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for rotations");
   for (size_t k = 0; k < n; k++)
     if (s[k].slips)
-      some[count++] = pendres_settled_nothing_at(&s[k].pendulum, s[k].x, s[k].v);
-  const pendres_status status = pendres_settled_rotations(ctx, count, some);
+      some[count++] = pendres_arrival_at(&s[k].pendulum, s[k].x, s[k].v);
+  const pendres_status status = pendres_arrivals_turning(ctx, count, some);
   count = 0;
   for (size_t k = 0; k < n; k++)
     if (s[k].slips) s[k] = some[count++];
@@ -89,7 +89,7 @@ static int is_next(const pendres_path *w, size_t i, size_t k)
 
 /* Take over what has been found at a value; where it had been tried before, from a rotation further
    away, only that there is one. */
-static void keep(const pendres_settled *s, pendres_unlocked *u)
+static void keep(const pendres_arrival *s, pendres_unlocked *u)
 {
   const int found = s->attractor.label == PENDRES_LABEL_QUASI_PERIODIC, again = u->again;
   u->again = 0;
@@ -105,12 +105,12 @@ static void keep(const pendres_settled *s, pendres_unlocked *u)
 /* Average the rotations at values from number i on that are not known yet, side by side; with them
    the next few again, since one alone takes as long. *next receives what is found at value number
    i. */
-static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
+static pendres_status average(pendres_path *w, size_t i, pendres_arrival *next)
 {
   const double scale = pendres_parameter_scale(w->parameter);
   pendres_unlocked *known[SWEEP_ABREAST];
   int onward = 1;
-  pendres_settled *s = malloc(SWEEP_ABREAST * sizeof *s);
+  pendres_arrival *s = malloc(SWEEP_ABREAST * sizeof *s);
   size_t n = 0;
   if (s == NULL)
     return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for rotations");
@@ -124,10 +124,10 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
     const pendres_pendulum p = pendres_path_pendulum(w, u->value);
     u->tried = 1;
     known[n] = u;
-    s[n++] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+    s[n++] = pendres_arrival_at(&p, w->state.x, w->state.v);
   }
   pendres_path_allow_all(w); /* the work is that of many values */
-  pendres_status status = pendres_settled_rotations(w->ctx, n, s);
+  pendres_status status = pendres_arrivals_turning(w->ctx, n, s);
   if (status == PENDRES_OK) status = go_on(w->ctx, n, s);
   pendres_path_allow(w);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) keep(&s[k], known[k]);
@@ -140,7 +140,7 @@ static pendres_status average(pendres_path *w, size_t i, pendres_settled *next)
 static void stand_on(pendres_path *w, const pendres_unlocked *u)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, u->value);
-  w->state = pendres_settled_nothing_at(&p, u->x, u->v);
+  w->state = pendres_arrival_at(&p, u->x, u->v);
   w->state.attractor.label = PENDRES_LABEL_QUASI_PERIODIC;
   w->state.attractor.lyapunov = w->state.attractor.lyapunov_error = 0.0;
   w->state.attractor.drift = u->turns;
@@ -158,11 +158,11 @@ static void take(pendres_path *w, size_t i, const pendres_unlocked *u)
 static void leave_open(pendres_path *w, size_t i)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
-  const pendres_attractor nothing = pendres_settled_nothing(&p);
+  const pendres_attractor nothing = pendres_arrival_nothing(&p);
   pendres_path_put(w, i, &nothing);
 }
 
-pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled *next)
+pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_arrival *next)
 {
   const double close = sweep_close_by * pendres_parameter_scale(w->parameter);
   const size_t first = *i;
@@ -184,7 +184,7 @@ pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled
 
 pendres_status pendres_path_unlocked_at(pendres_path *w, size_t i, int *found)
 {
-  pendres_settled ignored;
+  pendres_arrival ignored;
   pendres_status status = make_table(w);
   const pendres_unlocked *u = status == PENDRES_OK ? at(w, w->value[i]) : NULL;
   if (status == PENDRES_OK && !u->tried) status = average(w, i, &ignored);

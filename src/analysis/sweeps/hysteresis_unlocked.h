@@ -15,7 +15,7 @@
  * receives what the pendulum settles on at value number *i then, unresolved where that is not known
  * yet.
  */
-pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_settled *next);
+pendres_status pendres_path_unlocked(pendres_path *w, size_t *i, pendres_arrival *next);
 
 /* Find the mean of the rotation on which a pendulum has settled at value number i, together with
    those at the values that follow: *found says whether w->state is on it. */

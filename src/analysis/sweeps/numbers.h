@@ -56,10 +56,7 @@ static const double stable_near_birth = 1e-5;
 
 /* ---- jumps: trials beyond an end ---- */
 
-enum {
-  JUMP_ROUNDS = 3,      /* of trials, each further beyond the end than the one before */
-  JUMP_ON_THE_WAY = 500 /* periods after which a pendulum on no closed orbit is on its attractor */
-};
+enum { JUMP_ROUNDS = 3 /* of trials, each further beyond the end than the one before */ };
 
 /* Half of the trials are just_beyond the bifurcation, the others so much nearer, and those of the
    next round so much further. Within each half they vary by a factor of 1.5. The time to pass a
@@ -69,9 +66,6 @@ static const double jump_further = 10.0;
 
 /* Trials start this far from an orbit that has become unstable, where deviations grow fast. */
 static const double jump_away = 0.03;
-
-/* The mean turns of chaos that was taken for a rotation are known no better than this. */
-static const double jump_scatter = 1e-3;
 
 /* ---- chaos that ends or grows: lives ---- */
 
@@ -126,14 +120,6 @@ static const double crisis_least_power = 0.25, crisis_safe_power = 1.0;
 /* The nearer distance is one at which lives are shorter than this share of all the periods for
    which the smaller chaos was watched, so that it would have left there several times. */
 static const double crisis_short_life = 0.1;
-
-/* ---- tables of rotations without a drive ---- */
-
-/* Polynomials are good to this, of the velocity, or to a hundredth of the tolerance. */
-static const double table_finest = 1e-12, table_of_tolerance = 1e-2;
-
-/* Turns' worth of time, beside that in which friction stops a turn, that a rotation is watched. */
-enum { TABLE_WATCHED = 20 };
 
 /* ---- ramps ---- */
 

@@ -25,7 +25,7 @@ static int driven(const pendres_ramp *r)
 static pendres_ramp_reading reading_of(const pendres_ramp *r, const pendres_hysteresis_point *p)
 {
   const pendres_orbit *o = &p->attractor.orbit;
-  const int closed = pendres_settled_closed(&p->attractor), locked = closed && driven(r);
+  const int closed = pendres_attractor_closes(&p->attractor), locked = closed && driven(r);
   return (pendres_ramp_reading){
     .cosine = locked ? o->cosine[0] : closed ? o->x : NAN,
     .sine = locked ? o->sine[0] : closed ? 0.0 : NAN,
@@ -39,7 +39,7 @@ static double own_time(const pendres_ramp *r, const pendres_hysteresis_point *p)
 {
   const pendres_orbit *o = &p->attractor.orbit;
   const double turn = fabs(two_pi / reading_of(r, p).advance);
-  if (pendres_settled_closed(&p->attractor) && driven(r)) return o->period;
+  if (pendres_attractor_closes(&p->attractor) && driven(r)) return o->period;
   if (isfinite(turn)) return driven(r) ? fmax(1.0, turn) : turn;
   const double decay = -o->period / log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
   const double free = 1.0 / pendres_equation_shrinking(&o->pendulum);

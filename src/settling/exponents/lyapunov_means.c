@@ -9,8 +9,6 @@
 #include "engine/context_internal.h"
 #include "engine/steps.h"
 
-#include <pendres/rotation.h>
-
 /* The fraction p/q nearest to a mean, relative to its denominator of `most` at most: one of its
    continued fraction's convergents. Returns by how much q times the mean misses p. */
 static double nearest(double mean, int most, int *q, int *p)
@@ -58,21 +56,6 @@ int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_l
   }
   *out = (pendres_lyapunov){.label = PENDRES_LABEL_QUASI_PERIODIC, .rotation = turned,
                             .rotation_error = off};
-  return 1;
-}
-
-int pendres_means_undriven(const pendres_runner *r, pendres_lyapunov *out)
-{
-  const pendres_pendulum *p = r->lane.pendulum;
-  pendres_rotation rotation;
-  if (r->lane.period == 0 || !pendres_pendulum_rotates(p) ||
-      pendres_rotation_find(p, &rotation, NULL) != PENDRES_OK)
-    return 0;
-  const double turns = rotation.mean_velocity / p->drive_frequency;
-  /* What rests has turned no further for long, and nothing rotates against the torque. */
-  if (!((double)r->lane.turns / (double)r->lane.period / turns > 0.5)) return 0;
-  *out = (pendres_lyapunov){.label = PENDRES_LABEL_RUNNING, .rotation = turns,
-                            .rotation_error = rotation.mean_velocity_error / p->drive_frequency};
   return 1;
 }
 

@@ -89,10 +89,6 @@ double pendres_runner_extrapolate(pendres_runner *r, long batch);
    on its slow way to an orbit. */
 int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_lyapunov *out);
 
-/* Whether a runner that has not come to rest is on the rotation of a pendulum without a drive,
-   which is known by other means. */
-int pendres_means_undriven(const pendres_runner *r, pendres_lyapunov *out);
-
 /* Whether one that may be next to such a rotation is certainly on none: it is on chaos. */
 int pendres_means_scatter(const pendres_runner *r, long periods);
 

@@ -16,6 +16,7 @@
 #include "settling/trapping/escape.h"
 #include "orbits/linear.h"
 #include "settling/exponents/carried.h"
+#include "settling/exponents/undriven.h"
 #include "settling/exponents/unstable.h"
 #include "settling/exponents/lyapunov_caught.h"
 #include "settling/exponents/numbers.h"
@@ -156,14 +157,23 @@ static pendres_status tell_unstable(pendres_context *ctx, const job *j)
   return pendres_room_close(&room, status);
 }
 
-/* Those that rotate without a drive: their exponent is 0, exactly. */
+/* Those that have come to rotate without a drive: their exponent is 0, exactly. */
 static void tell_undriven(const job *j)
 {
   for (size_t i = 0; i < j->n; i++) {
+    const pendres_pendulum *p = &j->pendulum[i];
     pendres_runner *r = &j->runner[i];
-    if (r->state != PENDRES_RUNNER_MOVING || !pendres_means_undriven(r, &j->out[i])) continue;
+    pendres_rotation found;
+    double x, v;
+    if (r->state != PENDRES_RUNNER_MOVING || !pendres_undriven(p)) continue;
+    pendres_strobe_lane_out(&r->lane, &x, &v);
+    if (!pendres_undriven_rotates(p, j->x[i], x) ||
+        pendres_rotation_find(p, &found, NULL) != PENDRES_OK)
+      continue;
+    j->out[i] = (pendres_lyapunov){
+      .label = PENDRES_LABEL_RUNNING, .rotation = found.mean_velocity / p->drive_frequency,
+      .rotation_error = found.mean_velocity_error / p->drive_frequency};
     r->state = PENDRES_RUNNER_DONE;
-    r->doubt = 0.0;
   }
 }
 

@@ -1,11 +1,11 @@
 /*
  * annulus.h -- the ring of states around a rotation that closes after no drive period.
  *
- * A pendulum that rotates without a lock to its drive, or without a drive, comes in the strobe map
- * to a curve w = c(y) that goes once around the cylinder of states. States between two curves on
- * either side of it, an annulus, settle on it: the map is a homeomorphism of the cylinder, so that
- * the image of an annulus is the annulus between the images of its edges, and where these lie in
- * one that is known already, all of it goes there. As with trapping ellipses (attractor.h) edges
+ * A pendulum that rotates without a lock to its drive comes in the strobe map to a curve w = c(y)
+ * that goes once around the cylinder of states. States between two curves on either side of it, an
+ * annulus, settle on it: the map is a homeomorphism of the cylinder, so that the image of an
+ * annulus is the annulus between the images of its edges, and where these lie in one that is known
+ * already, all of it goes there. As with trapping ellipses (attractor.h) edges
  * are sampled, and what lies between two samples is estimated by second differences: checked, not
  * proved.
  *
