@@ -44,7 +44,7 @@ static const bad_deck bad[] = {
     { "4:12 'members' is not a key of &precision (it belongs in &ensemble)" } },
   { CURVE "&sweep damping=0.1 /\n&ensemble qwertz=3 /",
     { "4:11 'qwertz' is not a key of &ensemble; scene 'resonance_curve' takes members, shape, "
-      "x_first, x_last, v, v_last, rows, seed\n" } },
+      "x_first, x_last, v, v_last, rows, seed; docs/limits.md says what cannot be asked\n" } },
   { CURVE "&sweep damping=0.1 /\n&ensemble shape='rectangle' members=64 v_last=1 /",
     { "4:11 whole 'rows'" } },
   { CURVE "&sweep damping=0.1 /\n&ensemble shape='random' v_last=-1 rows=2 /",

@@ -103,7 +103,7 @@ static void test_absent(void **state)
   check_says(out, "\n10.8 ");
   check_says(out, "\n12 ");
   assert_null(strstr(out, "\n11.4 "));
-  check_says(out, "(11 of 21 rows; the file has all)\n");
+  check_says(out, "(11 of 21 rows; the file has all, and --csv writes them)\n");
 }
 
 /* Its cusp, known to a tenth of a pN. */

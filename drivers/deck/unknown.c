@@ -133,7 +133,8 @@ void deck_report_unknown_key(deck_builder *b, const namelist_assignment *a, cons
   if (row == deck_table_size) row = find_elsewhere(b, a->name, hint, sizeof hint);
   if (row < deck_table_size) b->given[row].broken = 1; /* do not call it missing too */
   else list_keys(b, group, hint, sizeof hint);
-  namelist_error_at(b->nl, a->at, b->errors, "'%s' is not a key of &%s%s", a->name, group, hint);
+  namelist_error_at(b->nl, a->at, b->errors, "'%s' is not a key of &%s%s%s", a->name, group, hint,
+                    row < deck_table_size ? "" : "; docs/limits.md says what cannot be asked");
 }
 
 void deck_report_idle_key(deck_builder *b, const namelist_assignment *a, const char *group)

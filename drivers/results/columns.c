@@ -347,7 +347,8 @@ void scene_columns_print(FILE *out, const scene_table *t, size_t lines, size_t c
     fputc('\n', out);
     shown++;
   }
-  if (shown < t->n) fprintf(out, "(%zu of %zu rows; the file has all)\n", shown, t->n);
+  if (shown < t->n)
+    fprintf(out, "(%zu of %zu rows; the file has all, and --csv writes them)\n", shown, t->n);
 }
 
 /* ---- records that come from elsewhere ---- */

@@ -117,8 +117,14 @@ void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char 
     snprintf(periods, sizeof periods, "%lld periods", (long long)d->precision.period_budget);
   if (!isnan(multiplier))
     snprintf(weakest, sizeof weakest, " (weakest multiplier %.4g)", multiplier);
-  snprintf(words, SCENE_TOLD, "%zu of %zu %s did not settle within %s%s: %s", some, all, what,
-           periods, weakest, "raise precision.period_budget");
+  const double frequency = deck_pendulum_units(d).time * deck_pendulum(d).drive_frequency;
+  const int n = snprintf(words, SCENE_TOLD, "%zu of %zu %s did not settle within %s%s: ", some, all,
+                         what, periods, weakest);
+  if (n < 0 || n >= SCENE_TOLD) return;
+  if (frequency > far_above)
+    snprintf(words + n, (size_t)(SCENE_TOLD - n), "the drive has %.0e times the natural frequency",
+             frequency);
+  else snprintf(words + n, (size_t)(SCENE_TOLD - n), "raise precision.period_budget");
 }
 
 /* ---- the terminal -------------------------------------------------------------------------- */

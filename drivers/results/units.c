@@ -317,7 +317,7 @@ static void tell_dimension(scene_run *run, const char *dimension, size_t n)
   char *name = NULL;
   read_shown(run, dimension, &(line_of){n, 0, 1}, &t.along);
   if (n > MOST_PRINTED && t.along.units[0] == '\0') { /* points, samples: numbers of a list */
-    fprintf(run->table, "(%zu rows over %s are in the file)\n", n, dimension);
+    fprintf(run->table, "(%zu rows over %s are in the file, and --csv writes them)\n", n, dimension);
     return;
   }
   read_words(run, &t.along);
@@ -325,7 +325,8 @@ static void tell_dimension(scene_run *run, const char *dimension, size_t n)
     add_lines(run, &t, name);
   tell(run, &t);
   if (t.tables > 0 && t.along.n < n)
-    fprintf(run->table, "(%zu of %zu rows; the file has all)\n", t.along.n, n);
+    fprintf(run->table, "(%zu of %zu rows; the file has all, and --csv writes them)\n", t.along.n,
+            n);
 }
 
 void scene_tell_units(scene_run *run)
