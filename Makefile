@@ -22,6 +22,7 @@
 #   make man        man/resonance.1 anew, with help2man: for a release, and when options change
 #   make decks-reference   docs/decks.md anew, from the table of keys
 #   make results-reference  docs/results.md anew, from runs of each kind
+#   make python-stubs      what type checkers know of the Python package, anew
 #   make interface-list    tests/interface.txt anew, the functions, values and structs that are public
 #   make figures    run every deck and draw every picture, into build/figures; some minutes
 #   make gallery    the small pictures of docs/gallery.md anew, from those runs

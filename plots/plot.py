@@ -12,37 +12,21 @@ import argparse
 import os
 import re
 import sys
-import textwrap
 
+BESIDE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "python", "pendres")
 try:
-    import h5py
+    import matplotlib
 
-    import curves
-    import fits
-    import maps
-    import outer
-    import validation
-    from style import Run, plt
+    matplotlib.use("Agg")
+    if os.path.isdir(BESIDE):  # in the source tree, and where make install puts both
+        sys.path.insert(0, BESIDE)
+        from plots import drawn
+    else:  # beside a wheel
+        from pendres.plots import drawn
+    from matplotlib import pyplot as plt
 except ModuleNotFoundError as missing:
     sys.exit(f"plot.py: {sys.executable} has no {missing.name}. On Debian `make deps-plots` installs "
              "what pictures need for /usr/bin/python3; elsewhere `pip install h5py matplotlib`.")
-
-DRAWERS = {  # by the root attribute `scene`
-    "free_oscillation": curves.draw_free_oscillation,
-    "resonance_curve": curves.draw_resonance_curve,
-    "response": maps.draw_response,
-    "orbit": curves.draw_orbit,
-    "hysteresis": curves.draw_hysteresis,
-    "bifurcation_diagram": curves.draw_bifurcation_diagram,
-    "lyapunov_map": maps.draw_lyapunov_map,
-    "basins": maps.draw_basins,
-    "branches": curves.draw_branches,
-    "phase_diagram": maps.draw_phase_diagram,
-    "work_precision": validation.draw_work_precision,
-    "hard_cases": validation.draw_hard_cases,
-    "switching": curves.draw_switching,
-    "fit": fits.draw_fit,
-}
 
 
 def size(text):
@@ -83,61 +67,14 @@ def parse():
     return parser.parse_args()
 
 
-def balanced(text, most):
-    """Text in as few lines as it takes, and these about alike in length."""
-    lines = textwrap.wrap(text, most)
-    shorter = most
-    while shorter > 1 and len(textwrap.wrap(text, shorter - 1)) == len(lines):
-        shorter -= 1
-    return textwrap.fill(text, shorter)
-
-
-def title(run):
-    """The deck's title, and behind it the parameters that were set on the command line, of which
-    the title does not know."""
-    settings = re.split(r" (?=[a-z_]+\.\w+=)", run.settings())
-    found = [s.split(".", 1)[1] for s in settings if s.startswith("pendulum.")]
-    if not found or any(s.startswith("scene.title=") for s in settings):
-        return run.text("title")
-    return f"{run.text('title')} (set: {'; '.join(found)})"
-
-
-def draw(path, options):
-    """The figures of a file, mostly one, with what is added to their names; ValueError says why
-    there is none."""
-    try:
-        file = h5py.File(path, "r")
-    except FileNotFoundError:
-        raise ValueError("there is no such file") from None
-    except OSError:
-        raise ValueError("this is not an HDF5 file, or not a whole one") from None
-    with file:
-        run = Run(file, options)
-        drawer = DRAWERS.get(run.text("scene"))
-        if drawer is None:
-            raise ValueError("this is not a run of resonance that can be drawn")
-        try:
-            if "outer_axis" in file.attrs:
-                figures = outer.draw(run, path, drawer)
-            else:
-                figures = [("", "", drawer(run, path))]
-        except KeyError as missing:
-            raise ValueError(f"something is missing from it: {missing}") from None
-        for _, more, figure in figures:
-            most = max(20, int(120 * figure.get_size_inches()[0] / plt.rcParams["font.size"]))
-            if options.title:
-                figure.suptitle(balanced(title(run) + (f", {more}" if more else ""), most),
-                                fontsize=plt.rcParams["font.size"])
-        return [(suffix, figure) for suffix, _, figure in figures]
-
-
 def main():
     options = parse()
+    plt.rcParams.update(drawn.SETTINGS)
     failed = 0
     os.makedirs(options.output, exist_ok=True)
     for path in options.files:
         try:
-            figures = draw(path, options)
+            figures = drawn.draw(path, options)
         except ValueError as why:
             print(f"{path}: {why}", file=sys.stderr)
             failed = 1

@@ -59,12 +59,12 @@ def program(declared):
     """C that prints sizes, offsets and values."""
     lines = ["#include <stddef.h>", "#include <stdio.h>", "#include <pendres/pendres.h>",
              "int main(void)", "{"]
-    for name, fields in structs_of(declared.cdef):
+    for name, fields in structs_of(declared.types):
         lines.append(f'  printf("struct {name} %zu\\n", sizeof({name}));')
         for field in fields:
             lines.append(f'  printf("struct {name}.{field} %zu %zu\\n", offsetof({name}, {field}), '
                          f'sizeof((({name} *)0)->{field}));')
-    for name in constants_of(declared.cdef):
+    for name in constants_of(declared.types):
         lines.append(f'  printf("value {name} %lld\\n", (long long){name});')
     return "\n".join(lines + ["  return 0;", "}", ""])
 

@@ -8,11 +8,11 @@ import types
 import h5py
 import numpy as np
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plots"))
-import curves  # noqa: E402
-import maps  # noqa: E402
-import plot  # noqa: E402
-import style  # noqa: E402
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python", "pendres"))
+from plots import curves, drawn, maps, style  # noqa: E402
+
+style.plt.switch_backend("Agg")
+style.plt.rcParams.update(style.SETTINGS)
 
 
 def options(unit=None, frequency=False):
@@ -62,7 +62,7 @@ check("gap", gaps, [((1.5, 0.0), (2.0, 1.0))])
 def labels(name):
     """The labels of the axes of a picture, and of its legend's entries."""
     options = types.SimpleNamespace(unit=None, frequency=False, size=None, boundary=True, title=True)
-    (_, figure), = plot.draw(name, options)
+    (_, figure), = drawn.draw(name, options)
     found = [text for ax in figure.axes for text in (ax.get_xlabel(), ax.get_ylabel())]
     return found, [text for ax in figure.axes for text in ax.get_legend_handles_labels()[1]]
 

@@ -513,6 +513,61 @@ def test_scenes_outer():
     assert data.attrs["outer_axis"] == "drive_amplitude"
 
 
+def test_kept():
+    """Records are pickled; what is the library's is refused with a sentence. What is not needed by an
+    import waits."""
+    import copy
+    import pickle
+    p = pendres.pendulum(damping=0.13, drive_amplitude=0.2, drive_frequency=0.8)
+    found = pendres.attractors(p)
+    assert pickle.loads(pickle.dumps(found.table)).tobytes() == found.table.tobytes()
+    assert pickle.loads(pickle.dumps(pendres.NotFound("no"))).args == ("no",)
+    branch, = pendres.branches(found.table.orbit, 0.7, 0.9)
+    grid = pendres.basins(p, np.array([0.0, 1.0]), np.array([0.0]))
+    for thing in (found, branch, grid, pendres.Context()):
+        for way in (pickle.dumps, copy.deepcopy):
+            words = raised(TypeError, way, thing)
+            assert "kept in the library" in words, words
+    code = ("import pendres, sys; from pendres._library import declared; "
+            "assert 'functions' not in vars(declared); late = {'xarray', 'matplotlib', "
+            "'importlib.metadata'} & set(sys.modules); assert not late, late")
+    subprocess.run([sys.executable, "-S", "-c", "import sys; sys.path[:] = " + repr(sys.path) +
+                    "; " + code], check=True)
+
+
+def test_stubs():
+    """What type checkers are told is what there is."""
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import stubs_list
+    with open(os.path.join(os.path.dirname(pendres.__file__), "__init__.pyi"),
+              encoding="utf-8") as file:
+        assert file.read() == stubs_list.text(), "make python-stubs"
+
+
+def test_plot():
+    """The picture of a Dataset is that of its file."""
+    import importlib.util
+    if not importlib.util.find_spec("matplotlib"):
+        return
+    import matplotlib
+    matplotlib.use("Agg")
+    before = dict(matplotlib.rcParams)
+    data = pendres.hysteresis(damping=0.12, drive_amplitude=0.2, start="sa",
+                              drive_frequency_range=(0.7, 0.9, 5))
+    figure = pendres.plot(data, title=False)
+    assert figure.axes and not matplotlib.pyplot.get_fignums()
+    assert [a.get_ylabel() for a in figure.axes] == [
+        a.get_ylabel() for a in data.pendres.plot().axes]
+    assert dict(matplotlib.rcParams) == before
+    assert "no 'sise'" in raised(TypeError, pendres.plot, data, sise=1)
+    assert "file is gone" in raised(FileNotFoundError, pendres.plot, 3)
+    laboratory = pendres.si(pendres.hysteresis(
+        units={"critical_current": "10 uA", "resistance": "10 ohm", "capacitance": "0.5 pF"},
+        drive_amplitude=0, drive_frequency=1, torque_range=("0 uA", "5 uA", 3), x=1.6))
+    assert laboratory.mean_velocity.attrs["long_name"] == "mean voltage"
+    assert laboratory.torque.attrs["long_name"] == "current I"
+
+
 def test_scenes_known():
     """Functions of scenes, their keywords and their words are the program's: also of a kind, in a
     group, with a key, that this package has never heard of."""

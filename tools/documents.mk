@@ -1,7 +1,7 @@
 # documents.mk -- manuals, references and pictures: `make doc`, `man`, `decks-reference`,
-# `results-reference`, `interface-list`, `figures`, `gallery`.
+# `results-reference`, `interface-list`, `python-stubs`, `figures`, `gallery`.
 
-.PHONY: doc decks-reference results-reference interface-list figures gallery
+.PHONY: doc python-stubs decks-reference results-reference interface-list figures gallery
 
 doc:
 	@command -v doxygen >/dev/null || { echo 'make doc needs Doxygen (Debian: apt-get install' \
@@ -20,6 +20,10 @@ decks-reference: $(PROGRAM)
 results-reference: $(PROGRAM)
 	@$${PYTHON:-/usr/bin/python3} -B tests/results_list.py ./$(PROGRAM) tests/kinds/*.nml \
 	  >docs/results.md.new && mv docs/results.md.new docs/results.md
+
+python-stubs: all
+	@PYTHONPATH=python $${PYTHON:-/usr/bin/python3} -B tests/stubs_list.py \
+	  >python/pendres/__init__.pyi.new && mv python/pendres/__init__.pyi.new python/pendres/__init__.pyi
 
 interface-list:
 	@$${PYTHON:-/usr/bin/python3} -B tests/interface_list.py '$(CC)' include >tests/interface.txt

@@ -317,7 +317,8 @@ static void tell_dimension(scene_run *run, const char *dimension, size_t n)
   char *name = NULL;
   read_shown(run, dimension, &(line_of){n, 0, 1}, &t.along);
   if (n > MOST_PRINTED && t.along.units[0] == '\0') { /* points, samples: numbers of a list */
-    fprintf(run->table, "(%zu rows over %s are in the file, and --csv writes them)\n", n, dimension);
+    fprintf(run->table, "(%zu rows over %s are in the file, and --csv writes them)\n", n,
+            dimension);
     return;
   }
   read_words(run, &t.along);

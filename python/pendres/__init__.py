@@ -22,7 +22,7 @@ computes a deck, pendres.kinds() lists them, help(pendres.lyapunov_map) has thei
 from . import _curves, _noise, _scenes, _states
 from ._curves import (Boundary, Branch, Curve, Hysteresis, backbone, boundary, curves, cusp, fold,
                       saddle)
-from ._files import open, pint_units, si, words  # pylint: disable=redefined-builtin
+from ._files import open, pint_units, plot, si, words  # pylint: disable=redefined-builtin
 from ._handles import Context, ensemble, pendulum
 from ._library import (Error, Status, array, c, declared as _declared, dtype,
                        enumerations as _enumerations, errors as _errors, ffi, lib)

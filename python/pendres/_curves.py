@@ -4,7 +4,7 @@ import warnings
 import numpy as np
 
 from ._handles import as_numbers, as_pendulums, default_context, filled, one, one_pendulum, record
-from ._library import (Handle, array, c, enumerations, errors, ffi, lib, make, member, stacked,
+from ._library import (Handle, array, c, enumerations, errors, ffi, kept, lib, make, member, stacked,
                        structures, viewed)
 from ._shown import Shown, told, word
 
@@ -24,6 +24,9 @@ class Branch(Shown):
         self.bifurcations = stacked("pendres_bifurcation", [
             c.branch_bifurcation_get(pointer, i) for i in range(c.branch_bifurcation_count(pointer))])
         self.ends = c.branch_end_get(pointer, 0), c.branch_end_get(pointer, 1)
+
+    def __reduce__(self):
+        return kept(self)
 
     def _sentence(self):
         first, last = (word(END, end) for end in self.ends)
@@ -59,6 +62,9 @@ class Curve:
             c.curve_get(pointer, i) for i in range(c.curve_count(pointer))])
         self.cusps = stacked("pendres_cusp", [
             c.curve_cusp_get(pointer, i) for i in range(c.curve_cusp_count(pointer))])
+
+    def __reduce__(self):
+        return kept(self)
 
     def at(self, value, *, context=None):
         """The bifurcations of the curve at a value of its second parameter."""

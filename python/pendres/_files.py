@@ -1,7 +1,13 @@
 """Result files of the program `resonance`, as xarray sees them."""
+import functools
 import os
 
 import numpy as np
+
+
+# What is called otherwise in these units: {unit: (in the model's, in the laboratory's words)}.
+SAID = {"Hz": ("angular frequency", "frequency"), "A": ("constant torque", "current"),
+        "V": ("mean velocity of x", "mean voltage")}
 
 
 def engine():
@@ -22,15 +28,56 @@ def open(path, group=None):  # pylint: disable=redefined-builtin
     place of a file's name a Dataset will do that came from it."""
     reader = engine()
     import xarray
-    if isinstance(path, xarray.Dataset):
-        if not os.path.exists(path.encoding.get("source", "")):
-            raise FileNotFoundError("the Dataset's file is gone: groups are read from the Dataset "
-                                    "that a scene's function or pendres.open gave, while it lives")
-        path = path.encoding["source"]
+    path = _source_of(path)
     with xarray.open_dataset(path, engine=reader, group=group) as data:
         found = data.load()
     found.encoding["source"] = os.path.abspath(path)
+    _accessor()
     return found
+
+
+@functools.lru_cache(maxsize=None)
+def _accessor():
+    """Datasets get `dataset.pendres.plot()`."""
+    import xarray
+
+    @xarray.register_dataset_accessor("pendres")
+    class Results:  # pylint: disable=unused-variable
+        """What is asked of a Dataset that holds results."""
+
+        def __init__(self, data):
+            self._data = data
+
+        def plot(self, **chosen):
+            """As pendres.plot(dataset)."""
+            return plot(self._data, **chosen)
+
+
+def plot(data, **chosen):
+    """The picture of a scene's results, as plots/plot.py draws it: a matplotlib Figure, of an outer
+    axis a list of them if they are not one picture. data is what a scene's function or
+    pendres.open gave, or the name of a file.
+
+    Choices: size=(width, height) in inches, title=False, frequency=True (in place of periods),
+    unit (the natural frequency in Hz), boundary=False, ensemble=True, surface=True.
+    """
+    try:
+        from .plots.drawn import figures
+    except ImportError as why:
+        raise ImportError(f"pictures need {why.name}: pip install 'pendres[plots]' (Debian: "
+                          "python3-h5py python3-matplotlib)") from None
+    return figures(_source_of(data), **chosen)
+
+
+def _source_of(data):
+    """The file that a Dataset came from, or that is named."""
+    if isinstance(data, (str, os.PathLike)):
+        return os.fspath(data)
+    source = getattr(data, "encoding", {}).get("source", "")
+    if not os.path.exists(source):
+        raise FileNotFoundError("the Dataset's file is gone, or it has none: what a scene's function "
+                                "or pendres.open gave is wanted, while it lives")
+    return source
 
 
 def words(variable):
@@ -59,6 +106,9 @@ def si(data):
         if factor is not None:
             attributes = {**variable.attrs, "units": variable.attrs["si_units"]}
             del attributes["si_factor"], attributes["si_units"]
+            model, laboratory = SAID.get(attributes["units"], ("", ""))
+            if model and model in attributes.get("long_name", ""):
+                attributes["long_name"] = attributes["long_name"].replace(model, laboratory)
             made[name] = (variable.dims, variable.values * factor, attributes)
     return data.assign_coords({name: values for name, values in made.items()
                                if name in data.coords}).assign(

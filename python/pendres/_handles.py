@@ -155,9 +155,16 @@ def one(name, value):
     return np.ascontiguousarray(given.reshape(1))
 
 
-def as_ensemble(given=None):
-    """An ensemble of the caller's, or the paper's."""
-    return ensemble() if given is None else one("pendres_ensemble", given)
+def as_ensemble(given, p):
+    """An ensemble of the caller's, or the one that the response of these pendulums spans: of the
+    one that is driven most."""
+    if given is not None:
+        return one("pendres_ensemble", given)
+    several = np.ravel(p)
+    most = several[np.argmax(np.abs(several["drive_amplitude"]) /
+                             np.maximum(several["damping"], 1e-300))] if several.size else None
+    found = c.ensemble_of(None if most is None else most.reshape(1))
+    return np.asarray(copied("pendres_ensemble", ffi.new("pendres_ensemble *", found)))
 
 
 def as_numbers(value):

@@ -4,6 +4,7 @@ There is no second copy of any structure, constant or signature: what C programs
 Python reads. The headers are plain C with a few macros, which are expanded here, so that no
 compiler is needed.
 """
+import functools
 import os
 import re
 
@@ -44,8 +45,19 @@ class Declarations:
 
     def __init__(self, text):
         self.constants = {}  # of #define NAME VALUE: numbers and strings
-        self.cdef = self._expand(_without_comments(text))
-        self.functions = self._functions(text)
+        self._text = text
+        self.types, self.calls = "", {}  # the latter {function: its prototype}
+        for statement in self._statements(self._expand(_without_comments(text))):
+            head = re.match(r"[^{]*?\b(pendres_\w+)\s*\([^{]*\)\s*$", statement)
+            if head and not re.search(r"\btypedef\b", statement):
+                self.calls[head.group(1)] = statement + ";\n"
+            else:
+                self.types += statement + (";\n" if statement.strip() else "")
+
+    @functools.cached_property
+    def functions(self):
+        """{name: (which parameters are const, declaration, words)} of every public function."""
+        return self._functions(self._text)
 
     def _expand(self, text):
         """The text without directives, with macros expanded and bodies of functions removed."""
@@ -77,7 +89,6 @@ class Declarations:
             self.constants[name] = int(body.strip().rstrip("uUlL"), 0)
 
     def _functions(self, text):
-        """{name: (which parameters are const, declaration, words)} of every public function."""
         found = {}
         doc = re.compile(r"/\*\*(.*?)\*/", re.S)
         plain = re.sub(r"/\*(?!\*).*?\*/", " ", text, flags=re.S)
@@ -102,11 +113,12 @@ class Declarations:
         text = re.sub(r"#ifdef __cplusplus.*?#endif", " ", text.replace("\\\n", " "), flags=re.S)
         text = re.sub(r"^[ \t]*#.*$", " ", text, flags=re.M)
         statements, depth, start = [], 0, 0
-        for i, letter in enumerate(text):
+        for sign in re.finditer("[{};]", text):
+            letter = sign.group()
             depth += (letter == "{") - (letter == "}" and depth > 0)
             if letter == ";" and depth == 0:
-                statements.append(text[start:i])
-                start = i + 1
+                statements.append(text[start:sign.start()])
+                start = sign.end()
         return statements + [text[start:]]
 
 

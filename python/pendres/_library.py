@@ -70,6 +70,25 @@ def _candidates(constants):
     yield ctypes.util.find_library("pendres")
 
 
+class Library:
+    """The library as cffi has opened it. Its functions are declared once the first of them is
+    wanted, which halves the time of an import."""
+
+    def __init__(self, opened):
+        self._opened = opened
+
+    def __getattr__(self, name):
+        try:
+            found = getattr(self._opened, name)
+        except AttributeError:
+            if name not in declared.calls:
+                raise
+            ffi.cdef("".join(declared.calls.values()), override=True)
+            found = getattr(self._opened, name)
+        setattr(self, name, found)
+        return found
+
+
 def _open(ffi, constants):
     tried = []
     for path in _candidates(constants):
@@ -86,7 +105,7 @@ def _open(ffi, constants):
         if version != constants["PENDRES_VERSION"]:
             raise ImportError(f"{path} is version {version}, and this package was made for "
                               f"{constants['PENDRES_VERSION']}: install it anew")
-        return found
+        return Library(found)
     raise ImportError("libpendres was not found. Install it (make install, then ldconfig), put "
                       "PREFIX/bin on PATH, or say where it is: "
                       "PENDRES_LIBRARY=/folder/libpendres.so\n" + "\n".join(tried))
@@ -94,7 +113,8 @@ def _open(ffi, constants):
 
 declared = _headers.Declarations(headers())
 ffi = cffi.FFI()
-ffi.cdef(declared.cdef)
+ffi.cdef(declared.types + declared.calls["pendres_version"] +
+         declared.calls["pendres_status_message"])
 lib = _open(ffi, declared.constants)
 
 # ---- Enumerations and exceptions ---------------------------------------------------------------
@@ -296,6 +316,13 @@ def viewed(name, pointer, count, owner):
 # ---- Handles -----------------------------------------------------------------------------------
 
 
+def kept(thing):
+    """Refuse to pickle or copy what is the library's."""
+    name = type(thing).__name__
+    raise TypeError(f"a {name} is kept in the library and can be neither pickled nor copied: take "
+                    "its arrays, which can, or compute it where it is wanted")
+
+
 class Handle:
     """An object of the library's, freed with the last name for it."""
 
@@ -311,6 +338,9 @@ class Handle:
             self.interrupt = Interrupt()
             getattr(lib, self.ctype + "_set_interrupt")(self.pointer, self.interrupt.callback,
                                                         ffi.NULL)
+
+    def __reduce__(self):
+        return kept(self)
 
     def message(self):
         """The library's sentence on the last failure; "" if there was none."""

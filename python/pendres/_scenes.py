@@ -8,7 +8,6 @@ import base64
 import enum
 import functools
 import hashlib
-import importlib.metadata
 import inspect
 import keyword
 import numbers
@@ -42,6 +41,7 @@ TEXT = {"encoding": "utf-8", "errors": "surrogateescape"}  # whatever the enviro
 def _of_wheel():
     """The program that pip has put where the record beside this package says, or, by --target, into
     bin/ beside it. Others may write there: it is the one whose checksum the record has, or none."""
+    import importlib.metadata  # with all that it loads, for a wheel alone
     site = os.path.dirname(HERE)
     for wheel in importlib.metadata.distributions(name="pendres", path=[site]):
         for file in wheel.files or ():

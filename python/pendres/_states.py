@@ -75,7 +75,7 @@ def response(p, ensemble=None, *, context=None):
     pendulums = as_pendulums(p)
     out = array("pendres_response", pendulums.shape)
     c.response_find(default_context(context), pendulums.size, np.ascontiguousarray(pendulums),
-                       as_ensemble(ensemble), out)
+                    as_ensemble(ensemble, pendulums), out)
     return record(out)
 
 
@@ -87,9 +87,9 @@ def resonance(p, lowest=0.5, highest=1.2, ensemble=None, *, context=None):
     Frequencies are in units of that of small oscillations. pendres.NotFound: the area is largest
     at an end of the range.
     """
-    out = array("pendres_resonance")
-    c.resonance_find_ensemble(default_context(context), one_pendulum(p), lowest, highest,
-                              as_ensemble(ensemble), out)
+    out, pendulum = array("pendres_resonance"), one_pendulum(p)
+    c.resonance_find_ensemble(default_context(context), pendulum, lowest, highest,
+                              as_ensemble(ensemble, pendulum), out)
     return record(out)
 
 
@@ -107,7 +107,7 @@ def phase_line(p, ensemble=None, *, parameter="drive_frequency", spacing=0.0, co
             raise ValueError(f"the pendulums of a line differ in {parameter} alone, not in {name}")
     grid = array("pendres_phase_grid", 1)
     filled("pendres_phase_options", {"parameter": parameter, "spacing": spacing,
-                                     "ensemble": as_ensemble(ensemble)[()]}, grid["options"][0])
+                                     "ensemble": as_ensemble(ensemble, pendulums)[()]}, grid["options"][0])
     filled("pendres_phase_grid", {
         "pendulum": pendulums[0], "values": values.size, "value": values.ctypes.data,
         "across": "damping", "lines": 1, "line_value": dampings.ctypes.data}, grid)
@@ -144,7 +144,6 @@ class Basins(Shown):
         kept = ffi.gc(sums[0], c.basin_sums_free)
         c.basin_sums_add(kept, x.size, state)
         c.basin_sums_result(kept, self.statistics, self.fraction, self.fraction_error)
-
 
     def _sentence(self):
         return (f"basins, attractors: {len(self.attractors)}, on {self.x.size} x {self.v.size} "

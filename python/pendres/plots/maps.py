@@ -5,9 +5,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
-from curves import bifurcation_curves, column_of, exponent_axis, unit_of_x
-from curves import draw_response as curve_response
-from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
+from .curves import bifurcation_curves, column_of, exponent_axis, unit_of_x
+from .curves import draw_response as curve_response
+from .style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
                    WIDE, WIDTH, amplitude_axis, colours_of, figure, frequency, legend,
                    page, parameter_axis, parameter_text, plt)
 

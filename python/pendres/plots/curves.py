@@ -4,7 +4,7 @@ import os
 import h5py
 import numpy as np
 
-from style import (EXACT, FREE, LA, SA, Run, amplitude_axis, around, colours_of, drive_axis, figure,
+from .style import (EXACT, FREE, LA, SA, Run, amplitude_axis, around, colours_of, drive_axis, figure,
                    free_frequency, frequency, legend, parameter_axis, parameter_text, plt)
 
 

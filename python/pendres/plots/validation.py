@@ -1,7 +1,7 @@
 """Pictures of what the program is measured against: speed beside error, hard cases."""
 import numpy as np
 
-from style import EXACT, FREE, LA, SA, plt, strings
+from .style import EXACT, FREE, LA, SA, plt, strings
 
 LOST = 0.1  # an error beyond which a pendulum is somewhere else: speed says nothing then
 MARKERS = "osD^v<>Ph*Xd"

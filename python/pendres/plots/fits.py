@@ -3,7 +3,7 @@ import re
 
 import numpy as np
 
-from style import UNRESOLVED, around, figure, legend, plt, words
+from .style import UNRESOLVED, around, figure, legend, plt, words
 
 MARKS = "^v"        # of data measured while the axis grew, and while it fell
 MOST_PANELS = 3     # of observables; residuals are below them

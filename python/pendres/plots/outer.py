@@ -2,9 +2,8 @@
 or a picture of each value."""
 import numpy as np
 
-import curves
-import maps
-from style import (MORE, NAMED, LA, SA, Run, amplitude_axis, around, colours_of, figure, frequency,
+from . import curves, maps
+from .style import (MORE, NAMED, LA, SA, Run, amplitude_axis, around, colours_of, figure, frequency,
                    legend, parameter_axis, parameter_text)
 
 MOST_PICTURES = 20

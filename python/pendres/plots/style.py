@@ -5,9 +5,6 @@ every picture. tests/plots_colours.py measures how far apart they are.
 """
 import re
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.transforms import ScaledTranslation
@@ -20,14 +17,14 @@ FREE, EXACT = "0.45", "black"
 NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved", "escape",
          "quasi_periodic", "unstable"]
 
-plt.rcParams.update({
+SETTINGS = {
     "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,
     "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 7),
     "legend.fontsize": 7.5, "lines.linewidth": 1.2, "savefig.bbox": None,
     "lines.solid_capstyle": "butt", "legend.handlelength": 1.6, "legend.borderpad": 0.3,
     "xtick.direction": "in", "ytick.direction": "in", "axes.labelpad": 2.5,
     "axes.prop_cycle": plt.cycler(color=[SA, LA, "#009E73", "#CC79A7", "#56B4E9", "#E69F00"]),
-})
+}
 
 
 class Run:
