@@ -152,7 +152,9 @@ run CONTRIBUTING.md "make -n CHECKS= $(echo $goals)"
 
 # In the text of the README.
 for command in 'resonance --list' 'resonance --explain=damping' 'resonance --explain=loop_area' \
-  'resonance --init=basins' \
+  'resonance --init=basins' 'resonance --init=resonator >init.nml && resonance -q init.nml' \
+  'resonance --init=junction >init.nml && resonance -q --force init.nml' \
+  'resonance --init=two_wells >init.nml && resonance -q --force init.nml' \
   'resonance --dump-namelist input/f01.nml' 'resonance -q input/f02.nml ensemble.members=8
     pendulum.drive_amplitude=0.15 sweep.damping_range=0.1,0.4,4 -o text.h5'; do
   run README.md "$(echo $command)"

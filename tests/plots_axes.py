@@ -77,3 +77,19 @@ check("fit", labels("fit.h5")[1][-1], "fit")
 # Several attractors of one kind have their numbers in the file and on the terminal.
 names = maps.attractor_styles({"attractor_label": np.array([2, 2, 4])})[0]
 check("names", names, ["periodic 0", "periodic 1", "chaotic"])
+
+# A lone orbit has the name of its branch: beside two states that of the nearer amplitude, beside a
+# lone one the same, and none where the two sides disagree.
+from plots.outer import named_by_branch  # noqa: E402
+
+none = float("nan")
+for labels, amplitudes, expected in (
+        ([[2, -1], [2, -1], [0, 1], [2, -1]], [[1, none], [1.1, none], [0.4, 1.2], [0.13, none]],
+         [[1, -1], [1, -1], [0, 1], [0, -1]]),
+        ([[0, 1], [2, -1], [0, 1]], [[0.5, 1.2], [1, none], [0.2, 0.9]],
+         [[0, 1], [1, -1], [0, 1]]),
+        ([[0, 1], [2, -1], [0, 1]], [[0.9, 3.0], [1, none], [0.2, 1.1]],
+         [[0, 1], [2, -1], [0, 1]]),
+        ([[2, -1], [2, -1]], [[1, none], [2, none]], [[2, -1], [2, -1]])):
+    got = named_by_branch(np.array(labels), np.ones_like(labels), np.array(amplitudes))
+    check(f"names of {labels}", got.tolist(), expected)

@@ -561,6 +561,10 @@ def test_plot():
     assert dict(matplotlib.rcParams) == before
     assert "no 'sise'" in raised(TypeError, pendres.plot, data, sise=1)
     assert "file is gone" in raised(FileNotFoundError, pendres.plot, 3)
+    for start in ("sa", "la"):  # where one state exists it is meant
+        lone = pendres.hysteresis(force=[1, 0, 1], damping=0.1, drive_amplitude=0.3, start=start,
+                                  drive_frequency=[1.2, 1.21])
+        assert abs(lone.amplitude.values[0, 0] - 0.994) < 1e-2
     laboratory = pendres.si(pendres.hysteresis(
         units={"critical_current": "10 uA", "resistance": "10 ohm", "capacitance": "0.5 pF"},
         drive_amplitude=0, drive_frequency=1, torque_range=("0 uA", "5 uA", 3), x=1.6))

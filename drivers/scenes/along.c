@@ -36,8 +36,9 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, req
   for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
     const pendres_attractor *a = pendres_attractors_get(set, i);
     const char *label = pendres_name_get(PENDRES_NAMES_LABEL, a->label);
-    if (number > 0 ? (long)i + 1 != number : strcmp(label, start) != 0)
-      continue;
+    /* A lone orbit is the branch of whatever name. */
+    const int lone = pendres_attractors_count(set) == 1 && a->label == PENDRES_LABEL_PERIODIC;
+    if (number > 0 ? (long)i + 1 != number : strcmp(label, start) != 0 && !lone) continue;
     *out = *a;
     chosen = i;
     status = PENDRES_OK;

@@ -462,13 +462,14 @@ def write_steps(ax, h, x, unit):
     """Above each wide step of a junction its number, the voltage in drive frequencies, and its width
     if the sweep has left it at both ends. unit: of velocities in the picture."""
     names = ("winding", "period", "mean_velocity", "lower", "upper", "width")
-    factor = parameter_axis(h, 1.0, "torque")[0]
+    factor, label = parameter_axis(h, 1.0, "torque")
+    units = " " + label.split(" (")[1].rstrip(")") if " (" in label else ""
     for p, q, turns, first, last, width in zip(*(h["step_" + name] for name in names)):
         if (last - first) * factor < 0.04 * np.ptp(x):
             continue
         text = f"{p / q:g}" if p % q == 0 else f"{p}/{q}"
         if np.isfinite(width):
-            text += f" ({width * factor:.4g})"
+            text += f" ({width * factor:.4g}{units})"
         wide = (last - first) * factor > 0.15 * np.ptp(x)
         at = first + (0.55 * (last - first) if wide else last - first)
         ax.annotate(text, (at * factor, turns * unit), ha="right", va="bottom",

@@ -141,6 +141,31 @@ def draw_sweeps(run, path):
     return fig
 
 
+SMALL, LARGE, PERIODIC = range(3)  # labels of attractors
+
+
+def named_by_branch(label, period, amplitude):
+    """Labels of [value, attractor] with one name along a branch: a lone orbit, which has no other
+    name than periodic, has that of the one before it, or of the one among two whose amplitude is
+    nearer. Where the names from both sides differ it stays periodic."""
+    lone = (np.sum(label >= 0, axis=1) == 1) & np.any((label == PERIODIC) & (period == 1), axis=1)
+    found = []
+    for order in (range(len(label)), range(len(label) - 1, -1, -1)):
+        names, known = np.full(len(label), -1), {}
+        for k in order:
+            if lone[k]:
+                mine = amplitude[k][label[k] == PERIODIC][0]
+                names[k] = min(known, key=lambda n: abs(np.log(known[n] / mine)), default=-1)
+                known = {names[k]: mine} if names[k] >= 0 else {}
+            else:
+                known = {n: amplitude[k][label[k] == n][0] for n in (SMALL, LARGE)
+                         if np.any(label[k] == n)}
+        found.append(names)
+    one, other = found
+    names = np.where(one < 0, other, np.where((other < 0) | (other == one), one, -1))
+    return np.where((label == PERIODIC) & (names >= 0)[:, None], names[:, None], label)
+
+
 def draw_shares(run, path):
     """Shares of the basins by label, and how mixed they are, against the outer axis."""
     name = run.text("outer_axis")
@@ -148,7 +173,8 @@ def draw_shares(run, path):
     if len(x) < 2:
         return None
     fig, (top, below) = figure(run, 4.0, 2, 1, sharex=True)
-    labels, share = run["attractor_label"], run["basin_fraction"]
+    labels, share = named_by_branch(run["attractor_label"], run["attractor_period"],
+                                    run["attractor_amplitude"]), run["basin_fraction"]
     marks = dict(marker="o", ms=3) if len(x) < 30 else {}
     colours = {0: SA, 1: LA}
     for kind in np.unique(labels[labels >= 0]):
@@ -156,7 +182,7 @@ def draw_shares(run, path):
         error = np.sqrt(np.nansum(np.where(labels == kind, run["basin_fraction_error"], 0) ** 2, axis=1))
         top.errorbar(x, total, yerr=error, color=colours.get(kind, MORE[(kind - 2) % len(MORE)]),
                      label=NAMED[kind], elinewidth=0.7, **marks)
-    if "escape_fraction" in run:
+    if "escape_fraction" in run and np.nanmax(run["escape_fraction"], initial=0) > 0:
         top.plot(x, run["escape_fraction"], color="0.5", label="escape", **marks)
     top.set(ylabel="share of the window", ylim=(-0.03, 1.03))
     if "basin_entropy" in run:
