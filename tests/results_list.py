@@ -20,7 +20,8 @@ Every variable that a file may have, by its name, with the scenes that write it 
 over, and of angles the unit. Each that has an error has it beside it, as `NAME_error`. Parameters that the
 deck holds fixed are coordinates without dimension. `resonance --explain=loop_area` prints what stands here of a
 variable, and of those whose names begin with it. Of switching, `..._la_sa` is from LA to SA, `..._1_2` from
-attractor 1 to 2, `..._well_sa` from SA to another well.
+attractor 1 to 2, `..._well_sa` from SA to another well. Over an outer axis `NAME_length` is how long dimension
+NAME is at each value, and `..._failed` says why there is no whole result.
 
 | result | of | over | what |
 |---|---|---|---|
@@ -95,9 +96,19 @@ def families(rows):
         key = (name, said)
         if of_states(said) != said and all(some == ["switching"] for some in places.values()):
             key = ("", of_states(said))
+        elif re.match("(bifurcation|fold|flip|branch|jump|step|attractor|cusp)_", name):
+            key = ("", said)  # of each place
+        elif name.startswith("bias_cov_"):
+            key = ("", re.sub(r"_(xx|xv|vv)\b", "_...", said))
         found.setdefault((*key, names), []).append((name, places))
-    return sorted((members[0][0], [name for name, _ in members], said, names, members[0][1])
-                  for (_, said, names), members in found.items())
+    rows = []
+    for (_, said, names), members in found.items():
+        places = {}
+        for _, own in members:
+            for over, kinds in own.items():
+                places.setdefault(over, []).extend(kinds)
+        rows.append((members[0][0], [name for name, _ in members], said, names, places))
+    return sorted(rows, key=lambda row: row[0])
 
 
 def main(program, decks):
@@ -116,6 +127,8 @@ def main(program, decks):
     print(HEAD, end="")
     listed = {}
     for name, members, said, names, places in families(known["rows"]):
+        if name.endswith("_length") and said.startswith("length of the dimension"):
+            continue
         over = sorted({", ".join(dimensions) for dimensions in places})
         kinds = sorted({kind for some in places.values() for kind in some})
         cells = (", ".join(f"`{member}`" for member in members), ", ".join(kinds), " or ".join(o for o in over if o),

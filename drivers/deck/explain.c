@@ -408,6 +408,28 @@ static void reference_kind(FILE *out, deck_kind kind)
   fprintf(out, "Takes %s.\n", others);
 }
 
+/* Whether all keys of a group are for the same scenes, which its heading tells then. */
+static int is_for_the_same(const deck_key *one)
+{
+  for (size_t i = 0; i < deck_table_size; i++)
+    if (strcmp(deck_table[i].group, one->group) == 0 && deck_table[i].scenes != 0 &&
+        deck_table[i].scenes != one->scenes)
+      return 0;
+  return 1;
+}
+
+static void reference_group(FILE *out, const deck_key *first)
+{
+  char cell[SENTENCE] = "";
+  fprintf(out, "\n### &%s\n\n", first->group);
+  if (is_for_the_same(first)) {
+    add_scenes(cell, first->scenes);
+    fprintf(out, "Scenes: %s.\n\n", cell);
+  }
+  fprintf(out, "| key | meaning | unit | takes | default |%s\n|---|---|---|---|---|%s\n",
+          is_for_the_same(first) ? "" : " scenes |", is_for_the_same(first) ? "" : "---|");
+}
+
 static void reference_key(FILE *out, const deck_key *key)
 {
   const deck_key *words = deck_table_words(key);
@@ -426,8 +448,10 @@ static void reference_key(FILE *out, const deck_key *key)
   write_cell(out, cell);
   add_need(cell, key, 0);
   write_cell(out, cell);
-  add_scenes(cell, key->scenes);
-  write_cell(out, cell);
+  if (!is_for_the_same(key)) {
+    add_scenes(cell, key->scenes);
+    write_cell(out, cell);
+  }
   fputs("\n", out);
 }
 
@@ -441,9 +465,7 @@ void deck_reference(FILE *out)
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if (key->scenes == 0) continue;
-    if (group == NULL || strcmp(group, key->group) != 0)
-      fprintf(out, "\n### &%s\n\n| key | meaning | unit | takes | default | scenes |\n"
-                   "|---|---|---|---|---|---|\n", key->group);
+    if (group == NULL || strcmp(group, key->group) != 0) reference_group(out, key);
     group = key->group;
     reference_key(out, key);
   }
