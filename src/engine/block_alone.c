@@ -1,5 +1,4 @@
-/* block_alone.c -- periods without ARKODE, in single precision or by splitting; see
-   block_internal.h. */
+/* block_alone.c -- periods without ARKODE; see block_internal.h. */
 #include "engine/block.h"
 
 #include <math.h>
@@ -11,51 +10,35 @@
 #include "base/instructions.h"
 #include "base/sine.h"
 #include "engine/block_internal.h"
-#include "engine/kernels/tables.h"
 #include "model/model.h"
 
-/* ---- single precision ---- */
+/* ---- a Nystrom method ---- */
 
-static void add_term(pendres_float_sum *q, int stage, double coefficient)
+int pendres_block_nystrom_prepare(pendres_nystrom_steps *s, int steps)
 {
-  if (coefficient == 0.0) return;
-  q->term[q->terms].stage = stage;
-  q->term[q->terms++].c = (float)coefficient;
-}
-
-int pendres_block_float_prepare(pendres_float_steps *s, int steps)
-{
-  const pendres_tables_method *m = pendres_tables_get(pendres_tables_float);
-  int stages = m->stages;
+  enum { STAGES = PENDRES_NYSTROM_STAGES };
   if (s->steps == steps) return 0;
-  while (m->b[stages - 1] == 0.0) stages--;
   s->steps = 0;
-  if (!pendres_regrow(&s->cosine, (size_t)steps * (size_t)stages, sizeof *s->cosine)) return -1;
-  const double step = two_pi / steps;
-  for (int i = 0; i <= stages; i++) s->sum[i].terms = 0;
-  for (int k = 0; k < m->entries; k++)
-    if (m->a[k].row < stages)
-      add_term(&s->sum[m->a[k].row], m->a[k].column, step * m->a[k].value);
-  for (int i = 0; i < stages; i++) add_term(&s->sum[stages], i, step * m->b[i]);
-  float *cosine = s->cosine;
-  for (int k = 0; k < steps; k++)
-    for (int i = 0; i < stages; i++) *cosine++ = (float)cos(step * (k + m->c[i]));
+  if (!pendres_regrow(&s->cosine, (size_t)steps * STAGES, sizeof *s->cosine)) return -1;
+  for (int k = 0; k < STAGES * steps; k++)
+    s->cosine[k] = cos(two_pi * (k / STAGES + pendres_nystrom_node[k % STAGES] / 20.0) / steps);
   s->steps = steps;
-  s->stages = stages;
-  s->step = (float)step;
   return 0;
 }
 
-int pendres_block_run_float(pendres_block *b)
+int pendres_block_run_nystrom(pendres_block *b, int single)
 {
   const pendres_lanes_shape *s = &b->shape;
-  if (b->drive.steps < 1 || b->load != PENDRES_FLOW_ERRORS || s->model != PENDRES_MODEL_PLAIN)
+  if (b->drive.steps < 1 || s->rows != PENDRES_ROWS_STATE || b->load == PENDRES_FLOW_TANGENTS ||
+      (single && s->model != PENDRES_MODEL_PLAIN))
     return PENDRES_BLOCK_CANNOT;
-  if (pendres_block_float_prepare(&b->in_float, b->drive.steps) != 0) return PENDRES_BLOCK_STARVED;
-  const pendres_float_lanes lanes = {.lanes = s->stride, .y = b->rows, .w = b->rows + s->stride,
-                                     .k = s->coefficients, .off = s->off};
-  PENDRES_INSTRUCTIONS_BEST(pendres_kernels_float)->run(&b->in_float, &lanes);
-  return b->drive.steps * b->in_float.stages;
+  if (pendres_block_nystrom_prepare(&b->nystrom, b->drive.steps) != 0) return PENDRES_BLOCK_STARVED;
+  const pendres_nystrom_lanes lanes = {.lanes = s->stride, .model = s->model, .y = b->rows,
+                                       .w = b->rows + s->stride, .k = s->coefficients,
+                                       .off = s->off};
+  const pendres_kernels_nystrom *kernels = PENDRES_INSTRUCTIONS_BEST(pendres_kernels_nystrom);
+  (single ? kernels->run_single : kernels->run)(&b->nystrom, &lanes);
+  return b->drive.steps * PENDRES_NYSTROM_STAGES;
 }
 
 /* ---- splitting ---- */
@@ -109,7 +92,7 @@ void pendres_block_split_state(const pendres_pendulum *p, int steps, int back, d
 
 void pendres_block_alone_free(pendres_block *b)
 {
-  free(b->in_float.cosine);
+  free(b->nystrom.cosine);
   free(b->split.cosine);
   free(b->split.sine);
 }

@@ -9,7 +9,7 @@
 
 #include <stddef.h>
 
-#include "engine/kernels/kernels_float.h"
+#include "engine/kernels/kernels_nystrom.h"
 #include "engine/kernels/kernels_split.h"
 #include "engine/sundials/lanes.h"
 #include "engine/sundials/lanes_replay.h"
@@ -76,8 +76,8 @@ struct pendres_block {
   pendres_flow_load load; /* what is carried, */
   double *off[CARRIED];   /* in these; NULL until anything is */
   pendres_block_drive drive;
-  pendres_float_steps in_float;   /* steps in single precision, once there are any */
-  pendres_split_steps split;      /* steps by splitting, likewise */
+  pendres_nystrom_steps nystrom;  /* steps without ARKODE, once there are any, */
+  pendres_split_steps split;      /* and by splitting */
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
@@ -88,14 +88,14 @@ struct pendres_block {
 };
 
 /* Make the steps of a period, unless they are there; 0, or -1 if out of memory. */
-int pendres_block_float_prepare(pendres_float_steps *s, int steps);
+int pendres_block_nystrom_prepare(pendres_nystrom_steps *s, int steps);
 int pendres_block_split_prepare(pendres_split_steps *s, int steps);
 
-/* block_alone.c: the lanes of a block over a period without ARKODE, in single precision or by
-   splitting. Returns how many right-hand sides that took for each lane; if negative, nothing was
-   done: there is no memory, or such a block cannot. */
+/* block_alone.c: the lanes of a block over a period without ARKODE. Returns how many right-hand
+   sides that took for each lane; if negative, nothing was done: there is no memory, or such a block
+   cannot. */
 enum { PENDRES_BLOCK_STARVED = -2, PENDRES_BLOCK_CANNOT = -1 };
-int pendres_block_run_float(struct pendres_block *b);
+int pendres_block_run_nystrom(struct pendres_block *b, int single);
 int pendres_block_run_split(struct pendres_block *b);
 void pendres_block_alone_free(struct pendres_block *b);
 

@@ -5,6 +5,8 @@
 
 #include "engine/context_internal.h"
 #include "engine/kernels/coordinates.h"
+#include "engine/kernels/tables.h"
+#include "engine/steps.h"
 
 #define PLACE(value, name) [value] = &pendres_method_##name,
 static const pendres_method_functions *const methods[PENDRES_METHOD_COUNT] = {
@@ -14,6 +16,21 @@ static const pendres_method_functions *const methods[PENDRES_METHOD_COUNT] = {
 const pendres_method_functions *pendres_method_of(const pendres_context *ctx)
 {
   return methods[ctx->options.method];
+}
+
+pendres_flow_way pendres_strobe_way(const pendres_context *ctx, const pendres_pendulum *p)
+{
+  const pendres_options *o = &ctx->options;
+  const int asked = o->method != PENDRES_BLOCK_FIXED || o->steps_per_period > 0 ||
+                    pendres_tables_get(o->table) != pendres_tables_get(PENDRES_TABLE_DEFAULT);
+  return asked || p->drive_amplitude == 0.0 ? PENDRES_FLOW_TABLE : PENDRES_FLOW_NYSTROM;
+}
+
+pendres_status pendres_strobe_choose(pendres_context *ctx, double speed, double tolerance,
+                                     pendres_strobe_lane *lane)
+{
+  lane->way = pendres_strobe_way(ctx, lane->pendulum);
+  return pendres_steps_choose(ctx, lane->pendulum, speed, tolerance, &lane->steps);
 }
 
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v)

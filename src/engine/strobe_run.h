@@ -33,6 +33,16 @@ pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance,
                                          pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                          void *arg);
 
+/*
+ * Choose the steps of a lane as pendres_steps_choose() does, and the fastest way that is as exact
+ * in so many: for bulk work, from which no published digit comes.
+ */
+pendres_status pendres_strobe_choose(pendres_context *ctx, double speed, double tolerance,
+                                     pendres_strobe_lane *lane);
+/* That way: a Nystrom method (kernels_nystrom.h), unless the caller has asked for a method, a table
+   or steps. Without a drive, what is at rest stays there by tables alone. */
+pendres_flow_way pendres_strobe_way(const pendres_context *ctx, const pendres_pendulum *p);
+
 /* A lane at a state (x, v), without its whole turns; the caller sets steps and errors. */
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v);
 /* The present state of a lane. */

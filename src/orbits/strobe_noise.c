@@ -22,9 +22,9 @@ double pendres_strobe_noise_of_step(pendres_table table)
 }
 
 /* Single precision has 29 bits less. */
-double pendres_strobe_noise_of_step_in_float(void)
+double pendres_strobe_noise_of_single_step(void)
 {
-  return 0x1p29 * pendres_strobe_noise_of_step(pendres_tables_float);
+  return 0x1p29 * 2.0 * last_place_of_one;
 }
 
 double pendres_strobe_noise_fastest(const pendres_context *ctx, const pendres_pendulum *p)
@@ -37,12 +37,15 @@ double pendres_strobe_noise_fastest(const pendres_context *ctx, const pendres_pe
   return may ? fastest : -1.0;
 }
 
-void pendres_strobe_noise_choose(double speed, double fastest, double accuracy, double rounding,
+void pendres_strobe_noise_choose(double speed, double fastest, double accuracy,
                                  pendres_strobe_lane *lane)
 {
-  const int may = speed <= fastest && accuracy * accuracy >= lane->steps * rounding * rounding;
-  lane->way = may ? PENDRES_FLOW_FLOAT : PENDRES_FLOW_TABLE;
-  if (may) lane->added += rounding * rounding;
+  const double rounding = pendres_strobe_noise_of_single_step(), added = rounding * rounding;
+  if (lane->way != PENDRES_FLOW_NYSTROM || !(speed <= fastest) ||
+      !(accuracy * accuracy >= lane->steps * added))
+    return;
+  lane->way = PENDRES_FLOW_SINGLE;
+  lane->added += added;
 }
 
 double pendres_strobe_noise_of(double drive_frequency, const pendres_flow_error *carried)

@@ -18,8 +18,8 @@
    to be random and independent: each step adds the square of this to the variance. */
 double pendres_strobe_noise_of_step(pendres_table table);
 
-/* The same in single precision, with the table for that (tables.h). */
-double pendres_strobe_noise_of_step_in_float(void);
+/* The same of a Nystrom method in single precision (kernels_nystrom.h). */
+double pendres_strobe_noise_of_single_step(void);
 
 /*
  * Plain pendulums may be run in single precision up to this speed at the start; -1: not at all. The
@@ -31,7 +31,7 @@ double pendres_strobe_noise_fastest(const pendres_context *ctx, const pendres_pe
 
 /* Let a lane that starts with this speed, and whose steps are known, run in single precision if
    these are no more exact than what steps in it round by, that much each. */
-void pendres_strobe_noise_choose(double speed, double fastest, double accuracy, double rounding,
+void pendres_strobe_noise_choose(double speed, double fastest, double accuracy,
                                  pendres_strobe_lane *lane);
 
 /* The larger of the standard errors of y and v, from the covariance that a lane has carried;

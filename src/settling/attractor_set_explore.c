@@ -74,7 +74,7 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
     /* A low accuracy is enough: initial guesses only have to come near an orbit. */
     const double speed = pendres_steps_speed(p, guesses[i].y + pendres_model_origin(p),
                                              guesses[i].w * p->drive_frequency);
-    status = pendres_steps_choose(ctx, p, speed, pendres_accuracy_to_follow(ctx), &lanes[i].steps);
+    status = pendres_strobe_choose(ctx, speed, pendres_accuracy_to_follow(ctx), &lanes[i]);
   }
   guess_run s = {.guesses = guesses, .angle = angle, .periods = periods,
                  .attractor_sets = attractor_sets};

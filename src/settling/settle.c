@@ -85,7 +85,6 @@ static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_s
                                  pendres_outcome *outcome, pendres_strobe_lane *lanes)
 {
   const double exact = pendres_accuracy_to_settle(ctx), rough = pendres_accuracy_to_settle_soon();
-  const double rounding = pendres_strobe_noise_of_step_in_float();
   pendres_status status = PENDRES_OK;
   size_t before = SIZE_MAX; /* the latest one; of starts as fast as that the steps are the same */
   double speed = NAN, last;
@@ -103,8 +102,7 @@ static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_s
       status =
         pendres_settle_load(ctx, c, from->x[i], from->v[i], roughly ? rough : exact, &lanes[i]);
       if (roughly)
-        pendres_strobe_noise_choose(speed, pendres_strobe_noise_fastest(ctx, p), rough, rounding,
-                                    &lanes[i]);
+        pendres_strobe_noise_choose(speed, pendres_strobe_noise_fastest(ctx, p), rough, &lanes[i]);
     }
     before = i;
   }
@@ -253,7 +251,6 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
   const double fastest =
     budget == PENDRES_SETTLE_SHORT ? pendres_strobe_noise_fastest(ctx, p) : -1.0;
   const double driven = pendres_settle_driven(c);
-  const double rounding = pendres_strobe_noise_of_step_in_float();
   double added = 0.0;
   speed_table *table = calloc(1, sizeof *table);
   if (table == NULL)
@@ -267,7 +264,8 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
     if (i == 0 || lane[-1].steps != lane->steps)
       added = pendres_settle_added(ctx, accuracy, lane->steps);
     lane->added = added;
-    pendres_strobe_noise_choose(speed, fastest, accuracy, rounding, lane);
+    lane->way = pendres_strobe_way(ctx, p);
+    pendres_strobe_noise_choose(speed, fastest, accuracy, lane);
   }
   free(table);
   return status;

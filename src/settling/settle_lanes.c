@@ -60,7 +60,7 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_attractor
   const pendres_pendulum *p = &c->pendulum;
   const double speed = fmax(pendres_settle_driven(c), pendres_steps_speed(p, x, v));
   *lane = pendres_strobe_lane_at(p, x, v);
-  const pendres_status status = pendres_steps_choose(ctx, p, speed, accuracy, &lane->steps);
+  const pendres_status status = pendres_strobe_choose(ctx, speed, accuracy, lane);
   if (status == PENDRES_OK) lane->added = pendres_settle_added(ctx, accuracy, lane->steps);
   return status;
 }

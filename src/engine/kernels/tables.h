@@ -10,13 +10,6 @@
 
 enum { PENDRES_TABLES_MOST_STAGES = 16 };
 
-/*
- * The table of steps in single precision, whatever the context's. Terms in the weights and stages
- * of those of order 8 cancel, so that their rounding is 15 times as large, and more than pictures
- * allow. With as many steps, its order of 9 is exact enough.
- */
-static const pendres_table pendres_tables_float = PENDRES_TABLE_VERN9;
-
 /* a[i][j] at row i, column j, zero elsewhere. */
 typedef struct pendres_tables_entry {
   signed char row, column;

@@ -189,6 +189,13 @@ static pendres_status average_class(pendres_context *ctx, runner *runners, long 
   return status;
 }
 
+/* Beside a Nystrom method there are no tangents. */
+static pendres_flow_way way_of(const runner *r)
+{
+  const int both = r->lane.way == PENDRES_FLOW_NYSTROM && r->beside == PENDRES_BESIDE_TANGENTS;
+  return both ? PENDRES_FLOW_TABLE : r->lane.way;
+}
+
 /* Those with one thing beside them. */
 static pendres_status average(pendres_context *ctx, size_t n, runner *runners, long batch,
                               pendres_runner_beside beside)
@@ -202,7 +209,7 @@ static pendres_status average(pendres_context *ctx, size_t n, runner *runners, l
     if (runners[i].state == PENDRES_RUNNER_MOVING && runners[i].beside == beside)
       rank[count++] = (pendres_rank){.count = 1, .steps = runners[i].lane.steps,
                                      .model = pendres_model_kind(runners[i].lane.pendulum),
-                                     .way = runners[i].lane.way,
+                                     .way = way_of(&runners[i]),
                                      .index = i};
   pendres_rank_order(count, rank);
   for (size_t first = 0, some; first < count && status == PENDRES_OK; first += some) {

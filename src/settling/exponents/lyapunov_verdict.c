@@ -63,7 +63,7 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const job *j = arg;
   pendres_runner *r = &j->runner[index];
-  const int exactly = lane->way == PENDRES_FLOW_TABLE;
+  const int exactly = lane->way != PENDRES_FLOW_SPLIT;
   if (exactly) pendres_runner_trust(r, lane, pendres_settle_error_ratio(lane->worst));
   if (r->followed && !(r->doubt <= 1.0)) pendres_runner_pass(r, lane);
   if (pendres_runner_leaves(r, lane)) return 1;
@@ -274,8 +274,8 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
   r->rotates = pendres_lyapunov_may_rotate(p);
   r->beside = j->care == PENDRES_CARE_CLOSE ? PENDRES_BESIDE_NOTHING : PENDRES_BESIDE_TANGENTS;
   double accuracy = usual;
-  pendres_status status = pendres_steps_choose(ctx, p, speed, usual, &r->steps);
-  r->lane.steps = r->steps;
+  pendres_status status = pendres_strobe_choose(ctx, speed, usual, &r->lane);
+  r->steps = r->lane.steps;
   if (status == PENDRES_OK && wanted < usual) {
     status = pendres_steps_choose(ctx, p, speed, wanted, &r->lane.steps);
     if (status == PENDRES_OK) accuracy = wanted;
@@ -291,10 +291,10 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
 }
 
 /* After a run by other steps: with its own again. */
-static void go_on_exactly(pendres_runner *r)
+static void go_on_exactly(const pendres_context *ctx, pendres_runner *r)
 {
   r->lane.steps = r->steps;
-  r->lane.way = PENDRES_FLOW_TABLE;
+  r->lane.way = pendres_strobe_way(ctx, r->lane.pendulum);
 }
 
 /* Run all lanes that are moving until they come back, or their time is over, or their errors have
@@ -315,7 +315,7 @@ static pendres_status run_lanes(pendres_context *ctx, const job *j)
     status = pendres_strobe_run_some(ctx, moving, which, lanes, visit, (void *)j);
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     j->runner[i].lane = lanes[i];
-    go_on_exactly(&j->runner[i]);
+    go_on_exactly(ctx, &j->runner[i]);
   }
   return pendres_room_close(&room, status);
 }
@@ -420,7 +420,7 @@ static pendres_status look(pendres_context *ctx, const job *j, const round_of *n
 {
   pendres_status status = choose_steps(ctx, j, now);
   if (status == PENDRES_OK) status = pendres_runners_average(ctx, j->n, j->runner, now->batch);
-  for (size_t i = 0; i < j->n; i++) go_on_exactly(&j->runner[i]);
+  for (size_t i = 0; i < j->n; i++) go_on_exactly(ctx, &j->runner[i]);
   grow_errors(j);
   if (status == PENDRES_OK) status = tell_away(ctx, j);
   if (status == PENDRES_OK) status = pendres_lyapunov_settle_caught(ctx, j);

@@ -351,11 +351,10 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_pendulum 
   const int turns = pendres_model_of(p->force)->period > 0.0;
   r->lane = (pendres_strobe_lane){.pendulum = p};
   const pendres_status status =
-    pendres_steps_choose(ctx, p, turns ? 0.0 : speed, accuracy, &r->lane.steps);
+    pendres_strobe_choose(ctx, turns ? 0.0 : speed, accuracy, &r->lane);
   if (!many)
     pendres_strobe_noise_choose(speed, pendres_strobe_noise_fastest(ctx, p),
-                                trapping_beside * accuracy,
-                                pendres_strobe_noise_of_step_in_float(), &r->lane);
+                                trapping_beside * accuracy, &r->lane);
   return status;
 }
 

@@ -90,7 +90,8 @@ typedef struct disk {
 } disk;
 
 /* Lay the points of a disk. */
-static void lay(disk *d, pendres_strobe_lane *lanes, const pendres_pendulum *p)
+static void lay(disk *d, pendres_strobe_lane *lanes, const pendres_pendulum *p,
+                pendres_flow_way way)
 {
   double factor[3];
   pendres_trapping_factor(&d->ellipse, factor);
@@ -99,7 +100,7 @@ static void lay(disk *d, pendres_strobe_lane *lanes, const pendres_pendulum *p)
     const double angle = two_pi * (i % LEVEL_RAYS) / LEVEL_RAYS;
     d->from[i][0] = r * cos(angle);
     d->from[i][1] = r * sin(angle);
-    lanes[i] = (pendres_strobe_lane){.pendulum = p, .steps = d->steps};
+    lanes[i] = (pendres_strobe_lane){.pendulum = p, .steps = d->steps, .way = way};
     pendres_trapping_state(&d->ellipse, factor, d->radius * d->from[i][0],
                            d->radius * d->from[i][1], &lanes[i].y, &lanes[i].w);
   }
@@ -303,7 +304,7 @@ static pendres_status follow(pendres_context *ctx, size_t *n, disk **disks,
     status = pendres_steps_choose(ctx, p, speed, pendres_trapping_tolerance(margin), &d->steps);
     if (status == PENDRES_TOLERANCE_UNREACHABLE) continue; /* its ellipse has to do */
     if (status != PENDRES_OK) return status;
-    lay(d, lanes + count * POINTS, p);
+    lay(d, lanes + count * POINTS, p, pendres_strobe_way(ctx, p));
     disks[count++] = d;
   }
   *n = count;
