@@ -11,7 +11,7 @@ int main()
   const std::size_t n = 256;
   std::vector<pendres_pendulum> pendulums(n);
   std::vector<double> x(n), v(n, 0.0), error(n);
-  std::vector<pendres_outcome> outcome(n);
+  std::vector<pendres_settled> outcome(n);
   int count[PENDRES_LABEL_COUNT] = {0};
   pendres_context *raw = nullptr;
 
@@ -29,7 +29,7 @@ int main()
     std::fprintf(stderr, "%s\n", pendres_context_message(ctx.get()));
     return 1;
   }
-  for (const pendres_outcome &o : outcome) count[o.label]++;
+  for (const pendres_settled &o : outcome) count[o.label]++;
   for (int label = 0; label < PENDRES_LABEL_COUNT; label++)
     if (count[label])
       std::printf("%s: %d of %zu\n", pendres_name_get(PENDRES_NAMES_LABEL, label), count[label],

@@ -19,7 +19,7 @@ enum { MEMBERS = 200 };
 typedef struct ensemble {
   pendres_pendulum p[MEMBERS];
   double x[MEMBERS], v[MEMBERS];
-  pendres_outcome outcome[MEMBERS];
+  pendres_settled outcome[MEMBERS];
   pendres_attractors *set;
 } ensemble;
 

@@ -17,7 +17,7 @@ static inline double member_x(const pendres_ensemble *e, size_t k)
 /* Settle one pendulum from (x, v) in a context of its own: the attractors, of which it is on
    outcome->attractor. */
 static inline pendres_attractors *settle_one(const pendres_pendulum *p, double x, double v,
-                                             pendres_outcome *outcome)
+                                             pendres_settled *outcome)
 {
   pendres_context *ctx = NULL;
   pendres_attractors *set = NULL;

@@ -49,7 +49,7 @@ static size_t compare_starts(const pendres_pendulum *p, pendres_label label, dou
                              double *drift_error)
 {
   pendres_attractors *set = NULL;
-  pendres_outcome outcome[STARTS];
+  pendres_settled outcome[STARTS];
   double x[STARTS], v[STARTS];
   pendres_pendulum all[STARTS];
   size_t turning = 0;
@@ -97,7 +97,7 @@ static void by_averages(void **state)
   const pendres_pendulum p[] = {{.damping = 0.1, .torque = 0.5, .drive_frequency = 1.0},
                                 {.damping = 0.1, .torque = 0.5, .drive_frequency = 1.0}};
   const double x[] = {2.0, 2.0}, v[] = {0.0, 5.0};
-  pendres_lyapunov told[2];
+  pendres_settled told[2];
   pendres_rotation exact;
   (void)state;
   pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
@@ -126,8 +126,8 @@ static void hardly_turning(void **state)
     const pendres_hysteresis_path along = {PENDRES_TORQUE, 1, &torque[k]};
     pendres_attractors *set = NULL;
     pendres_hysteresis *path = NULL;
-    pendres_outcome outcome;
-    pendres_lyapunov told;
+    pendres_settled outcome;
+    pendres_settled told;
     pendres_rotation exact;
     assert_int_equal(pendres_rotation_find(&p, &exact, NULL), PENDRES_OK);
     const double turns = exact.mean_velocity / p.drive_frequency;
@@ -248,8 +248,8 @@ static void slow_or_weak(void **state)
   enum { N = sizeof p / sizeof *p };
   const double x[N] = {2.0, 1.0, 1.0}, v[N] = {1.0, 0.0, 3.3};
   pendres_attractors *set = NULL;
-  pendres_outcome outcome[N];
-  pendres_lyapunov told[N];
+  pendres_settled outcome[N];
+  pendres_settled told[N];
   (void)state;
   pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-8});
   assert_int_equal(pendres_settle(ctx, N, p, x, v, outcome, &set), PENDRES_OK);

@@ -67,7 +67,7 @@ static void settling(void **state)
   fixture *f = *state;
   f->wrong = 0;
   const double x = 1.0, v = 0.0;
-  pendres_outcome out;
+  pendres_settled out;
   pendres_attractors *found = NULL;
   REFUSED(pendres_settle(f->ctx, 1, NULL, &x, &v, &out, NULL));
   REFUSED(pendres_settle(f->ctx, 1, &good, NULL, &v, &out, NULL));

@@ -132,7 +132,7 @@ static void exponents(void **state)
   const pendres_lyapunov_options bad[] = { { .size = 4 }, { .transient = -1 }, { .periods = -1 },
                                            { .transient = LONG_MAX }, { .periods = LONG_MAX } };
   pendres_pendulum undamped = good;
-  pendres_lyapunov l;
+  pendres_settled l;
   undamped.damping = 0.0;
   REFUSED(pendres_lyapunov_find(f->ctx, 1, NULL, &zero, &zero, NULL, &l));
   REFUSED(pendres_lyapunov_find(f->ctx, 1, &good, NULL, &zero, NULL, &l));

@@ -80,7 +80,7 @@ static void mirror_image(void **state)
   for (size_t k = 0; k < 3; k++) {
     pendres_pendulum p[N], q[N];
     double x[N], v[N], mx[N], mv[N];
-    pendres_outcome a[N], b[N];
+    pendres_settled a[N], b[N];
     pendres_attractors *set = NULL, *mirror = NULL;
     uint64_t z = 5;
     for (int i = 0; i < N; i++) {
@@ -148,7 +148,7 @@ static void mirror_of_one(void **state)
   const pendres_pendulum p = {
     .damping = 0.5, .drive_amplitude = 1.35, .drive_frequency = 2.0 / 3.0};
   const double x = 0.3, v = 0.1;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_attractors *set = NULL;
   check_ok(pendres_settle(*state, 1, &p, &x, &v, &outcome, &set));
   assert_int_equal(pendres_attractors_count(set), 2);
@@ -159,7 +159,7 @@ static void mirror_of_one(void **state)
 
 /* ---- promises ---- */
 
-static int same_outcome(const pendres_outcome *a, const pendres_outcome *b)
+static int same_outcome(const pendres_settled *a, const pendres_settled *b)
 {
   return a->label == b->label && a->well == b->well && a->settling_periods == b->settling_periods;
 }
@@ -171,7 +171,7 @@ static void independent_of_company(void **state)
   static const double dampings[SETS] = {0.06, 0.12, 0.3};
   pendres_pendulum *p = malloc(N * sizeof *p);
   double *x = malloc(N * sizeof *x), *v = calloc(N, sizeof *v);
-  pendres_outcome *together = malloc(N * sizeof *together);
+  pendres_settled *together = malloc(N * sizeof *together);
   assert_true(p != NULL && x != NULL && v != NULL && together != NULL);
   for (int i = 0; i < N; i++) {
     p[i] = fig7;
@@ -203,7 +203,7 @@ static void independent_of_order(void **state)
                                 .force = PENDRES_FORCE_POLYNOMIAL,
                                 .force_coefficients = {1.0, 0.0, 1.0}},
                          p[] = {one, one};
-  pendres_outcome first[2], second[2];
+  pendres_settled first[2], second[2];
   check_ok(pendres_settle(*state, 2, p, x, v, first, NULL));
   check_ok(pendres_settle(*state, 2, p, turned, v, second, NULL));
   for (int i = 0; i < 2; i++) {
@@ -218,7 +218,7 @@ static void independent_of_order(void **state)
 static void known_attractors(void **state)
 {
   ensemble e;
-  pendres_outcome again[MEMBERS];
+  pendres_settled again[MEMBERS];
   pendres_attractors *set = NULL;
   settle_row(*state, &fig7, -0.5 * pi, 1.5 * pi, &e);
   check_ok(pendres_attractors_find(*state, &fig7, 0, NULL, NULL, &set));
@@ -291,7 +291,7 @@ static void strong_damping(void **state)
     const double exact = root2 > 0.0 ? -1.0 / (half + sqrt(root2)) : -half;
     const pendres_pendulum p = {.damping = damping[i / 3], .drive_frequency = frequency[i % 3]};
     const double x = 0.5 * pi + 0.1, v = 0.0;
-    pendres_outcome outcome;
+    pendres_settled outcome;
     pendres_attractors *set = NULL;
     check_ok(pendres_settle(*state, 1, &p, &x, &v, &outcome, &set));
     assert_int_equal(pendres_attractors_count(set), 1);
@@ -341,7 +341,7 @@ static void budget(void **state)
   pendres_context *ctx = context_with(&(pendres_options){.period_budget = 1});
   pendres_attractors *set = NULL;
   const double x[2] = {2.1, -1.0}, v[2] = {0.1, 0.0};
-  pendres_outcome outcome[2];
+  pendres_settled outcome[2];
   check_ok(pendres_attractors_find(*state, &fig7, 0, NULL, NULL, &set));
   check_ok(pendres_attractors_settle(ctx, set, 2, x, v, outcome));
   assert_int_equal(outcome[0].label, PENDRES_LABEL_SA);
@@ -363,7 +363,7 @@ static void mistakes(void **state)
 {
   pendres_context *ctx = *state;
   pendres_attractors *set = NULL;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_pendulum p = fig7;
   double x = NAN, v = 0.0;
   assert_int_equal(pendres_settle(ctx, 1, &p, &x, &v, &outcome, &set), PENDRES_INVALID_ARGUMENT);
@@ -411,7 +411,7 @@ static void weak_damping(void **state)
   const pendres_pendulum p = {
     .damping = 1e-5, .drive_amplitude = 1e-5, .drive_frequency = 0.9};
   const double x = 0.0, v = 0.0, omega = p.drive_frequency;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_attractors *set = NULL;
   pendres_cost cost;
   check_ok(pendres_settle(*state, 1, &p, &x, &v, &outcome, &set));

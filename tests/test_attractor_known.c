@@ -184,7 +184,7 @@ static void two_chaotic_attractors(void **state)
   assert_true(members[0] > 20 && members[1] > 20);
   for (int k = 0; k < 2; k++) { /* a point on either is on no other */
     pendres_state at;
-    pendres_outcome outcome;
+    pendres_settled outcome;
     check_ok(pendres_attractors_point_find(*state, e.set, (size_t)chaotic[k], &at));
     check_ok(pendres_attractors_settle(*state, e.set, 1, &at.x, &at.v, &outcome));
     assert_int_equal(outcome.attractor, chaotic[k]);
@@ -206,7 +206,7 @@ static void slow_settling(void **state)
     .damping = 0.0782919, .drive_amplitude = 0.2, .drive_frequency = 0.616};
   const double points[4][2] = {{-0.4481041690, 0.5700733179}, {0.8402249793, 1.8247585773},
                                {-0.4624529486, 0.6167606003}, {0.5993949086, 1.7360158212}};
-  pendres_outcome outcome;
+  pendres_settled outcome;
   double nearest = INFINITY;
   (void)state;
   pendres_attractors *set = settle_one(&p, -1.0681415022205296, 0.0, &outcome);

@@ -137,7 +137,7 @@ static void test_long_orbits(void **state)
     {.damping = 0.5, .drive_amplitude = 1.47, .drive_frequency = 2.0 / 3.0}};
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_outcome outcome[N];
+  pendres_settled outcome[N];
   pendres_attractors *all = NULL, *alone = NULL;
   pendres_context *ctx = NULL;
   size_t seen = 0, longs = 0;

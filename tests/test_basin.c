@@ -43,11 +43,11 @@ static void cutting(void **state)
 
 /* How far a state is from one that goes elsewhere: within a factor 2, above 1e-9. */
 static double distance_from_boundary(pendres_context *ctx, const pendres_attractors *set, double x,
-                                     double v, const pendres_outcome *own)
+                                     double v, const pendres_settled *own)
 {
   enum { AROUND = 16 };
   double px[AROUND], pv[AROUND];
-  pendres_outcome outcome[AROUND];
+  pendres_settled outcome[AROUND];
   for (double r = 1e-9; r < 1.0; r *= 2.0) {
     for (int i = 0; i < AROUND; i++) {
       px[i] = x + r * cos(2.0 * pi * i / AROUND);
@@ -71,7 +71,7 @@ static void check_labels(double tolerance, size_t most, double near)
   portrait p;
   compute(loose, &fig7, N, N, 2.5, &p);
   double *x = malloc(N * N * sizeof *x), *v = malloc(N * N * sizeof *v);
-  pendres_outcome *outcome = malloc(N * N * sizeof *outcome);
+  pendres_settled *outcome = malloc(N * N * sizeof *outcome);
   assert_true(x != NULL && v != NULL && outcome != NULL);
   for (size_t k = 0; k < N * N; k++) {
     x[k] = p.x[k / N];
@@ -286,7 +286,7 @@ static void refined(void **state)
   release(&p);
 }
 
-/* Wells that 32 bits number are those of pendres_outcome; beyond them nothing is told. */
+/* Wells that 32 bits number are those of pendres_settled; beyond them nothing is told. */
 static void distant_wells(void **state)
 {
   pendres_context *ctx = *state;
@@ -295,7 +295,7 @@ static void distant_wells(void **state)
   const size_t index[N] = {0, 1, 2, 3};
   const pendres_basin_grid grid = {.nx = N, .nv = 1, .x = x, .v = v};
   pendres_attractors *set = NULL;
-  pendres_outcome outcome[N];
+  pendres_settled outcome[N];
   pendres_basin_state s[N];
   check_ok(pendres_attractors_find(ctx, &fig7, 0, NULL, NULL, &set));
   check_ok(pendres_attractors_settle(ctx, set, N, x, still, outcome));

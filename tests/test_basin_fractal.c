@@ -38,7 +38,7 @@ static void wada_basins(void **state)
   for (size_t k = 0; k + 1 < N * N && pairs < 40; k += 371) {
     if (k % N == N - 1 || p.state[k].attractor == p.state[k + 1].attractor) continue;
     double x[FINE], v[FINE];
-    pendres_outcome outcome[FINE];
+    pendres_settled outcome[FINE];
     int seen[3] = {0};
     for (int i = 0; i < FINE; i++) {
       x[i] = p.x[k / N];
@@ -108,7 +108,7 @@ static void fractal_labels(void **state)
   enum { SAMPLE = 100 };
   pendres_attractors *set = NULL;
   double x[SAMPLE], v[SAMPLE];
-  pendres_outcome outcome[SAMPLE];
+  pendres_settled outcome[SAMPLE];
   uint64_t z = 99;
   int differ = 0;
   check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
@@ -299,7 +299,7 @@ static size_t refine_crossings(pendres_context *ctx, const pendres_attractors *s
                                double width, size_t known, double *at)
 {
   double px[3 * PARTS + 1], v[3 * PARTS + 1], found[MOST_CROSSINGS];
-  pendres_outcome outcome[3 * PARTS + 1];
+  pendres_settled outcome[3 * PARTS + 1];
   const double step = width / PARTS;
   size_t n = 0;
   for (size_t i = 0; i < known; i++) {
@@ -331,7 +331,7 @@ static void strands_of_fig7(void **state)
   pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-13});
   pendres_attractors *set = NULL;
   double *x = malloc(START * sizeof *x), *v = malloc(START * sizeof *v), at[MOST_CROSSINGS];
-  pendres_outcome *outcome = malloc(START * sizeof *outcome);
+  pendres_settled *outcome = malloc(START * sizeof *outcome);
   double seen[LEVELS + 1] = {0.0};
   (void)state;
   assert_true(x != NULL && v != NULL && outcome != NULL);

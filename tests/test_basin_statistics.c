@@ -364,7 +364,7 @@ static void wells_by_reference(void **state)
   const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 1.0, .drive_frequency = 1.0};
   pendres_pendulum all[N];
   pendres_attractors *set = NULL;
-  pendres_outcome outcome[N];
+  pendres_settled outcome[N];
   double x[N], v[N];
   uint64_t seed = 12;
   int compared = 0;

@@ -103,7 +103,7 @@ static void check_sides(const fixture *f, const pendres_boundary_options *window
   assert_true(b->bound > 0.0);
 
   double *px = malloc(2 * n * sizeof *px), *pv = malloc(2 * n * sizeof *pv);
-  pendres_outcome *outcome = malloc(2 * n * sizeof *outcome);
+  pendres_settled *outcome = malloc(2 * n * sizeof *outcome);
   assert_true(px != NULL && pv != NULL && outcome != NULL);
   size_t m = 0;
   for (size_t i = 1; i + 1 < n; i += 5) {

@@ -17,7 +17,7 @@ static const double feigenbaum = 4.66920160910299067;
 static pendres_orbit orbit_at(pendres_context *ctx, const pendres_pendulum *p)
 {
   const double x = 1.6, v = 0.0;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_attractors *found = NULL;
   check_ok(pendres_settle(ctx, 1, p, &x, &v, &outcome, &found));
   assert_true(outcome.attractor >= 0);

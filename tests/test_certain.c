@@ -105,7 +105,7 @@ static void true_labels(void **state)
     pendres_context *ctx = context(tolerance[t]);
     pendres_pendulum p[MEMBERS];
     double x[MEMBERS], v[MEMBERS];
-    pendres_outcome outcome[MEMBERS];
+    pendres_settled outcome[MEMBERS];
     pendres_attractors *set = NULL;
     int certain = 0;
     for (size_t k = 0; k < MEMBERS; k++) {
@@ -158,7 +158,7 @@ static void two_tolerances(void **state)
   enum { DRAWS = 100 };
   static pendres_pendulum p[DRAWS];
   static double x[DRAWS], v[DRAWS];
-  static pendres_outcome outcome[2][DRAWS];
+  static pendres_settled outcome[2][DRAWS];
   pendres_attractors *set[2];
   uint64_t s = 20;
   (void)state;
@@ -206,7 +206,7 @@ static void other_steps(void **state)
     pendres_context *ctx = NULL;
     pendres_pendulum p[MEMBERS];
     double x[MEMBERS], v[MEMBERS];
-    pendres_outcome outcome[MEMBERS];
+    pendres_settled outcome[MEMBERS];
     pendres_attractors *set = NULL;
     int certain = 0;
     check_ok(pendres_context_create(&options[t], &ctx));
@@ -233,7 +233,7 @@ static void ends(void **state)
   const pendres_pendulum p = {.damping = 0.24, .drive_amplitude = 0.2, .drive_frequency = 0.9};
   const double x[] = {0.5 * pi, 1.0}, v[] = {0.0, 0.0};
   pendres_context *ctx = NULL;
-  pendres_outcome outcome[2];
+  pendres_settled outcome[2];
   pendres_attractors *set = NULL;
   (void)state;
   check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8, .period_budget = 1}, &ctx));
@@ -259,7 +259,7 @@ static void lost_early(void **state)
   enum { N = 64 };
   static pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_outcome outcome[N];
+  pendres_settled outcome[N];
   pendres_attractors *set = NULL;
   pendres_cost cost;
   int certain = 0;

@@ -17,7 +17,7 @@ enum { SIDE = 8, STATES = SIDE * SIDE };
 
 /* A grid of starts, and what became of them. */
 typedef struct grid {
-  pendres_outcome outcome[STATES];
+  pendres_settled outcome[STATES];
   pendres_attractors *set;
   double pendulum_periods; /* that it took */
 } grid;
@@ -110,7 +110,7 @@ static void long_period(void **state)
 {
   const pendres_pendulum p = {.damping = 0.001, .drive_amplitude = 0.2, .drive_frequency = 1.1};
   const pendres_ensemble e = pendres_ensemble_default();
-  pendres_outcome outcome;
+  pendres_settled outcome;
   (void)state;
   pendres_attractors *set = settle_one(&p, member_x(&e, 163), 0.0, &outcome);
   const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
@@ -324,7 +324,7 @@ static void all_chaotic(void **state)
 static void narrow_bands(void **state)
 {
   const pendres_pendulum p = {.damping = 0.095, .drive_amplitude = 0.2, .drive_frequency = 0.606};
-  pendres_outcome outcome;
+  pendres_settled outcome;
   (void)state;
   pendres_attractors *set = settle_one(&p, -0.59690260418206076, 0.0, &outcome);
   assert_int_equal(outcome.label, PENDRES_LABEL_CHAOTIC);

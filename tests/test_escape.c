@@ -104,7 +104,7 @@ static void inverted(void **state)
   (void)state;
   pendres_pendulum many[SIDE];
   double x[SIDE], v[SIDE];
-  pendres_outcome o[SIDE];
+  pendres_settled o[SIDE];
   pendres_context *ctx = context();
   for (int i = 0; i < SIDE; i++) {
     many[i] = p;
@@ -190,7 +190,7 @@ static void own_force(void **state)
   (void)state;
   pendres_pendulum many[SIDE * SIDE];
   double x[SIDE * SIDE], v[SIDE * SIDE];
-  pendres_outcome o[SIDE * SIDE];
+  pendres_settled o[SIDE * SIDE];
   int away = 0, uncertain = 0;
   pendres_context *ctx = context();
   for (int i = 0; i < SIDE * SIDE; i++) {

@@ -41,7 +41,7 @@ static pendres_hysteresis *sweep(pendres_context *ctx, pendres_pendulum p,
 
 static pendres_attractor settled(pendres_context *ctx, pendres_pendulum p, double x, double v)
 {
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_attractors *found = NULL;
   check_ok(pendres_settle(ctx, 1, &p, &x, &v, &outcome, &found));
   assert_true(outcome.attractor >= 0);

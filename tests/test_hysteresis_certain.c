@@ -69,7 +69,7 @@ static void share_of_trials(void **state)
   enum { N = PENDRES_HYSTERESIS_TRIALS };
   const pendres_ensemble e = pendres_ensemble_default();
   pendres_pendulum p[N];
-  pendres_outcome outcome[N];
+  pendres_settled outcome[N];
   double x[N], v[N] = {0.0};
   int first = 0;
   for (size_t i = 0; i < N; i++) {

@@ -189,7 +189,7 @@ static void mean_velocity(void **state)
   };
   enum { N = sizeof p / sizeof *p };
   const double x[N] = {1.6, 1.6, 1.6, 1.6}, v[N] = {3.0, -3.0, 8.0, 4.0};
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
   for (int i = 0; i < N; i++) {
     assert_int_equal(l[i].label, PENDRES_LABEL_QUASI_PERIODIC);
@@ -212,7 +212,7 @@ static void slow_sweep(void **state)
   pendres_hysteresis *h = NULL;
   double value[2 * N], x[N], v[N];
   pendres_pendulum p[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   int locked = 0, told = 0;
   for (int i = 0; i < N; i++) value[i] = value[2 * N - 1 - i] = 2.2787 - 0.0091 * i;
   check_ok(pendres_hysteresis_find(*state, &junction, &(pendres_state){0.0, 7.5},
@@ -256,7 +256,7 @@ static void known_means(void **state)
   static const double off[N] = {1e-12, 1e-12, 1e-7};
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   for (int i = 0; i < N; i++) {
     p[i] = (pendres_pendulum){.damping = 0.5, .drive_amplitude = 3.0, .drive_frequency = 2.0,
                               .torque = torque[i]};
@@ -292,7 +292,7 @@ static void slips(void **state)
   enum { N = 12 };
   pendres_pendulum p[N];
   double x[N], v[N], distance[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   int told = 0;
   for (int i = 0; i < N; i++) {
     distance[i] = pow(10.0, -4.0 - 2.0 * (i / 3));
@@ -328,7 +328,7 @@ static void overdamped(void **state)
     const double gamma = k == 0 ? 10.0 : 20.0;
     pendres_pendulum p[N];
     const double x[N] = {0.0}, v[N] = {0.0};
-    pendres_lyapunov l[N];
+    pendres_settled l[N];
     for (int i = 0; i < N; i++)
       p[i] = (pendres_pendulum){.damping = gamma, .drive_amplitude = 1e-5, .drive_frequency = 0.83,
                                 .torque = torque[i]};
@@ -362,7 +362,7 @@ static void others(void **state)
   enum { N = sizeof known / sizeof *known };
   pendres_pendulum p[N];
   const double x[N] = {1.6, 1.6, 1.8, 1.6}, v[N] = {6.0, 0.0, 0.1, 0.0};
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   for (int i = 0; i < N; i++) p[i] = known[i].p;
   check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
   for (int i = 0; i < N; i++) assert_int_equal(l[i].label, known[i].label);

@@ -158,7 +158,7 @@ static pendres_orbit first_orbit(pendres_context *ctx)
     .damping = 0.5, .drive_amplitude = 1.05, .drive_frequency = 2.0 / 3.0};
   const double x = 1.6, v = 0.0;
   pendres_attractors *found = NULL;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   check_ok(pendres_settle(ctx, 1, &p, &x, &v, &outcome, &found));
   const pendres_orbit o = pendres_attractors_get(found, 0)->orbit;
   pendres_attractors_free(found);

@@ -61,7 +61,7 @@ static void map(void **state)
 {
   enum { FREQUENCIES = 21, AMPLITUDES = 16, N = FREQUENCIES * AMPLITUDES };
   pendres_pendulum p[N];
-  pendres_lyapunov found[N];
+  pendres_settled found[N];
   double x[N], v[N];
   int growing = 0;
   pendres_context *ctx = context();
@@ -121,7 +121,7 @@ static void mathieu(void **state)
             oscillator(damping, low * (1.0 + way * inwards * off * (n < 3 ? 1.0 : 0.01)),
                        amplitudes[k]);
           const double x = 0.1, v = 0.0;
-          pendres_lyapunov found;
+          pendres_settled found;
           check_ok(pendres_lyapunov_find(ctx, 1, &p, &x, &v, NULL, &found));
           if (way < 0) check_near(found.exponent, -0.5 * damping, found.exponent_error + 1e-12);
           else assert_true(found.exponent > -0.5 * damping + 10.0 * found.exponent_error);
@@ -138,7 +138,7 @@ static void all_escape(void **state)
   (void)state;
   for (int grows = 0; grows < 2; grows++) {
     pendres_pendulum p[N];
-    pendres_outcome outcome[N];
+    pendres_settled outcome[N];
     pendres_attractors *set = NULL;
     double x[N], v[N];
     for (int i = 0; i < N; i++) {

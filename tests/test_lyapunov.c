@@ -18,7 +18,7 @@ static void weak_drives(void **state)
   enum { N = 40 };
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   for (int i = 0; i < N; i++) {
     p[i] = (pendres_pendulum){
       .damping = 0.01 + 0.03 * i, .drive_amplitude = 0.001 * i, .drive_frequency = 0.5 + 0.02 * i};
@@ -47,7 +47,7 @@ static void other_forces(void **state)
   /* The last one starts a whole turn of the pendulum away from its left well: no turn is taken
      off. */
   const double x[N] = {1.6, 1.6, -1.0 + two_pi}, v[N] = {0.0};
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
   for (int i = 0; i < N; i++) {
     assert_int_equal(l[i].label, PENDRES_LABEL_PERIODIC);
@@ -66,7 +66,7 @@ static void models_side_by_side(void **state)
   pendres_pendulum p[N] = {plain, plain};
   const double x[N] = {1.6, 1.6}, v[N] = {0.0};
   const pendres_lyapunov_options options = {.transient = 40, .periods = 64};
-  pendres_lyapunov together[N], alone;
+  pendres_settled together[N], alone;
   p[1].torque = 0.05;
   check_ok(pendres_lyapunov_find(*state, N, p, x, v, &options, together));
   for (int i = 0; i < N; i++) {
@@ -84,7 +84,7 @@ static void orbits(void **state)
   enum { N = sizeof drive / sizeof *drive };
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   for (int i = 0; i < N; i++) {
     p[i] = (pendres_pendulum){
       .damping = 0.5, .drive_amplitude = drive[i], .drive_frequency = 2.0 / 3.0};
@@ -94,7 +94,7 @@ static void orbits(void **state)
   check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
   for (int i = 0; i < N; i++) {
     pendres_attractors *set = NULL;
-    pendres_outcome outcome;
+    pendres_settled outcome;
     check_ok(pendres_settle(*state, 1, &p[i], &x[i], &v[i], &outcome, &set));
     const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
     assert_non_null(a);
@@ -175,7 +175,7 @@ static void shortest_period(void **state)
   enum { N = sizeof of / sizeof *of };
   static const int period[N] = {1, 5, 3, 1, 2}; /* the first three were called twice that */
   pendres_pendulum p[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   double x[N], v[N] = {0.0};
   for (int i = 0; i < N; i++) {
     p[i] = (pendres_pendulum){.damping = of[i].damping, .drive_amplitude = of[i].drive,
@@ -209,7 +209,7 @@ static void chaos(void **state)
   };
   enum { N = sizeof p / sizeof *p };
   static const double x[N] = {1.8, 1.8, 1.8}, v[N] = {0.1, 0.1, 0.1};
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   const pendres_lyapunov_options options = {.transient = 300, .periods = 1600};
   check_ok(pendres_lyapunov_find(*state, N, p, x, v, &options, l));
   for (int i = 0; i < N; i++) {
@@ -230,7 +230,7 @@ static void chaos(void **state)
 static unsigned same_for_longer(pendres_context *ctx, size_t n, const pendres_pendulum *p)
 {
   double x[64], v[64];
-  pendres_lyapunov once[64], more[64];
+  pendres_settled once[64], more[64];
   const pendres_lyapunov_options options = {.transient = 2000, .periods = 5120};
   unsigned chaotic = 0;
   assert_true(n <= 64);
@@ -295,7 +295,7 @@ static void unstable_orbit(void **state)
                                .x = 1.6, .period = 1};
   pendres_orbit orbit;
   pendres_status outcome;
-  pendres_lyapunov l;
+  pendres_settled l;
   for (int i = 1; i <= 23; i++) {
     guess.pendulum.drive_amplitude = 0.05 * i;
     check_ok(pendres_orbit_find(*state, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
@@ -315,7 +315,7 @@ static void neighbours(void **state)
   enum { N = 60 };
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_lyapunov all[N], one;
+  pendres_settled all[N], one;
   const pendres_lyapunov_options options = {.periods = 64};
   for (int i = 0; i < N; i++) {
     p[i] = (pendres_pendulum){.damping = 0.5, .drive_amplitude = 0.9 + 0.01 * i,
@@ -342,7 +342,7 @@ static void caught_and_let_go(void **state)
                               .drive_frequency = 0.7018867924528301};
   const pendres_options options = {.tolerance = 1e-6};
   const double x = 1.6, v = 0.0;
-  pendres_lyapunov one = {.label = PENDRES_LABEL_SA}, two = {.label = PENDRES_LABEL_LA};
+  pendres_settled one = {.label = PENDRES_LABEL_SA}, two = {.label = PENDRES_LABEL_LA};
   pendres_context *ctx = NULL;
   (void)state;
   check_ok(pendres_context_create(&options, &ctx));
@@ -363,7 +363,7 @@ static void escapes(void **state)
                                  .force_coefficients = {1.0, -1.0}};
   pendres_pendulum p[N] = {well, well, well, well};
   const double x[N] = {0.1, 0.1, 0.1, 3.0}, v[N] = {0.0};
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   p[1].drive_amplitude = 0.5;
   p[2].force_coefficients[1] = p[3].force_coefficients[1] = 0.0;
   p[2].force_coefficients[2] = p[3].force_coefficients[2] = -1.0;

@@ -109,7 +109,7 @@ static void rounding_decides(void **state)
                                 .parametric_amplitude = -1.1244206502883256};
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   int both = 0;
   for (int i = 0; i < N; i++) {
     p[i] = one;
@@ -135,7 +135,7 @@ static void images_are_alike(void **state)
   const pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 1.46, .drive_frequency = 0.65};
   for (int i = 0; i < 5; i++) {
     const double x = 1.4 + 0.1 * i, v = 0.0;
-    pendres_lyapunov l;
+    pendres_settled l;
     check_ok(pendres_lyapunov_find(*state, 1, &p, &x, &v, NULL, &l));
     assert_int_equal(l.label, PENDRES_LABEL_PERIODIC);
     assert_true(l.period == 5 && l.winding == 0 && l.certain);
@@ -156,7 +156,7 @@ static void chaos_changes(void **state)
                                 .parametric_amplitude = 0.23009914875885595};
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   for (int i = 0; i < N; i++) {
     p[i] = one;
     x[i] = 2.153064 + 1e-7 * i;
@@ -189,7 +189,7 @@ static void drawn(void **state)
   enum { N = 40, POLYNOMIALS = 12 };
   pendres_pendulum p[N];
   double x[N], v[N];
-  pendres_lyapunov l[N];
+  pendres_settled l[N];
   unsigned long long seed = 20;
   size_t certain = 0, left = 0;
   for (int i = 0; i < N; i++) {

@@ -291,7 +291,7 @@ static void more_than_are_listed(void **state)
 {
   enum { ATTRACTORS = 12, ALL = ATTRACTORS * (ATTRACTORS + 1) / 2 + 3 };
   static pendres_attractor attractors[ATTRACTORS];
-  static pendres_outcome outcome[ALL];
+  static pendres_settled outcome[ALL];
   static signed char where[ALL];
   pendres_context *ctx = NULL;
   pendres_response r;
@@ -305,12 +305,12 @@ static void more_than_are_listed(void **state)
                                           .cosine = {2.0}};
     most = fmax(most, attractors[a].orbit.loop_area);
     for (int k = 0; k <= a; k++) {
-      outcome[n++] = (pendres_outcome){.attractor = a, .certain = 1};
+      outcome[n++] = (pendres_settled){.attractor = a, .certain = 1};
       area += attractors[a].orbit.loop_area;
     }
   }
   const size_t settled = n;
-  while (n < ALL) outcome[n++] = (pendres_outcome){.attractor = -1};
+  while (n < ALL) outcome[n++] = (pendres_settled){.attractor = -1};
   const pendres_attractor_set c = {.pendulum = two_states, .count = ATTRACTORS,
                                .attractors = attractors};
   check_ok(pendres_context_create(NULL, &ctx));

@@ -156,7 +156,7 @@ static void map(void **state)
                                 .force = PENDRES_FORCE_POLYNOMIAL,
                                 .force_coefficients = {a1[i / 3], 0.0, a3[i % 3]}};
     const double x = 0.3, v = 0.0;
-    pendres_lyapunov l;
+    pendres_settled l;
     check_ok(pendres_lyapunov_find(ctx, 1, &p, &x, &v, &options, &l));
     assert_true(exponent[i] == l.exponent);
   }

@@ -118,7 +118,7 @@ static void lyapunov_map(void **state)
                                 .drive_frequency = 0.66};
     const double x = 1.2, v = 0.0;
     const pendres_lyapunov_options options = {.transient = 40, .periods = 32};
-    pendres_lyapunov l;
+    pendres_settled l;
     check_ok(pendres_lyapunov_find(ctx, 1, &p, &x, &v, &options, &l));
     assert_int_equal(label[i], l.label);
     assert_true(exponent[i] == l.exponent);

@@ -82,7 +82,7 @@ static void test_too_far(void **state)
         .pendulum = p, .x = cases[i].x, .v = cases[i].v, .period = 1 };
       pendres_context *ctx = context(&o);
       double x = cases[i].x, v = cases[i].v, xs[3], vs[3];
-      pendres_outcome outcome;
+      pendres_settled outcome;
       pendres_orbit orbit;
       pendres_status how;
       for (int call = 0; call < 4; call++) {

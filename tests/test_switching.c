@@ -91,7 +91,7 @@ static void counts_are_what_plain_counting_gives(void **state)
     int home = 1;
     long home_well = 0;
     double since = 0.0;
-    pendres_outcome end;
+    pendres_settled end;
     for (long k = 0; k < PERIODS; k++) {
       long well;
       check_ok(pendres_langevin_advance(ctx, RUN(1, &p, &id, k, 1, NULL), &x, &v));

@@ -10,7 +10,7 @@ static void ask_attractors(const problem *q)
 {
   enum { N = 20 };
   double x[N], v[N];
-  pendres_outcome outcome[N];
+  pendres_settled outcome[N];
   pendres_attractors *set = NULL;
   pendres_state point = {NAN, NAN};
   notes *to = q->to;
@@ -30,6 +30,9 @@ static void ask_attractors(const problem *q)
   for (int i = 0; i < N; i++) {
     NOTE(outcome[i].attractor, 0, 0);
     NOTE(outcome[i].settling_periods, 0, 0);
+    NOTE(outcome[i].exponent, 0, -1);
+    NOTE(outcome[i].exponent_error, 0, -1);
+    NOTE(outcome[i].rotation, 0, 0);
   }
   pendres_attractors_free(set);
 }
@@ -208,7 +211,7 @@ static void ask_path(const problem *q, pendres_parameter parameter, int l, int t
 
 static void ask_lyapunov(const problem *q)
 {
-  pendres_lyapunov out;
+  pendres_settled out;
   const double x = 0.1 * q->u.length, v = 0.0;
   notes *to = q->to;
   check_ok(pendres_lyapunov_find(q->ctx, 1, &q->p, &x, &v, NULL, &out));

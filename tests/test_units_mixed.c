@@ -47,12 +47,12 @@ static void motions(void **state)
 static void attractors(void **state)
 {
   many m = make();
-  pendres_outcome outcome[N], alone;
+  pendres_settled outcome[N], alone;
   pendres_attractors *found = NULL, *one = NULL;
   pendres_orbit_guess guess[N];
   pendres_orbit orbit[N], refined;
   pendres_status status[N];
-  pendres_lyapunov exponent[N], own;
+  pendres_settled exponent[N], own;
   (void)state;
   check_ok(pendres_settle(m.ctx, N, m.p, m.x, m.v, outcome, &found));
   check_ok(pendres_lyapunov_find(m.ctx, N, m.p, m.x, m.v, NULL, exponent));
@@ -63,6 +63,7 @@ static void attractors(void **state)
     assert_non_null(a);
     assert_memory_equal(a, b, sizeof *a);
     assert_int_equal(outcome[i].settling_periods, alone.settling_periods);
+    assert_true(outcome[i].exponent == alone.exponent && outcome[i].exponent == a->lyapunov);
     guess[i] = (pendres_orbit_guess){m.p[i], a->orbit.x, a->orbit.v, a->orbit.period, 0};
     pendres_attractors_free(one);
     check_ok(pendres_lyapunov_find(m.ctx, 1, &m.p[i], &m.x[i], &m.v[i], NULL, &own));

@@ -28,7 +28,7 @@ enum { SCALES = sizeof scales / sizeof *scales };
 static pendres_orbit orbit_of(const problem *q)
 {
   const double x = 0.2 * q->u.length, v = 0.0;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_attractors *found = NULL;
   check_ok(pendres_settle(q->ctx, 1, &q->p, &x, &v, &outcome, &found));
   assert_true(outcome.attractor >= 0);
@@ -112,12 +112,12 @@ static void chaos(void **state)
   const pendres_pendulum wells = {.damping = 0.25, .drive_amplitude = 0.4, .drive_frequency = 1.0,
                                   .force = PENDRES_FORCE_POLYNOMIAL,
                                   .force_coefficients = {-1.0, 0.0, 1.0}};
-  pendres_lyapunov first = {.exponent = 0.0};
+  pendres_settled first = {.exponent = 0.0};
   (void)state;
   for (int k = 0; k < SCALES; k++) {
     const problem q = in_any_units(scales[k], &wells);
     const double x = 0.1 * q.u.length, v = 0.0, rate = factor(q.u, 0, -1);
-    pendres_lyapunov out;
+    pendres_settled out;
     check_ok(pendres_lyapunov_find(q.ctx, 1, &q.p, &x, &v, NULL, &out));
     if (k == 0) first = out;
     assert_int_equal(out.label, PENDRES_LABEL_CHAOTIC);

@@ -44,7 +44,7 @@ static void stays(void **state)
   const pendres_pendulum *const cases[] = {&saddle, &tongue};
   for (size_t c = 0; c < 2; c++) {
     pendres_pendulum p[N];
-    pendres_outcome first[N], known[N];
+    pendres_settled first[N], known[N];
     pendres_attractors *found = NULL;
     for (int i = 0; i < N; i++) p[i] = *cases[c];
     check_ok(pendres_settle(*state, N, p, x, v, first, &found));
@@ -70,7 +70,7 @@ static void upright(void **state)
   const double x[3] = {1.5 * pi, 1.5 * pi - 2e-15, 1.0}, v[3] = {0.0};
   const pendres_basin_grid grid = {.nx = 3, .nv = 1, .x = x, .v = v};
   pendres_basin_state picture[3];
-  pendres_outcome outcome[3];
+  pendres_settled outcome[3];
   pendres_attractors *found = NULL;
   check_ok(pendres_attractors_find(*state, &p, 3, x, v, &found));
   check_ok(pendres_attractors_settle(*state, found, 3, x, v, outcome));
@@ -88,7 +88,7 @@ static void driven(void **state)
 {
   pendres_pendulum p = saddle;
   const double x = 0.0, v = 0.0;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   p.drive_amplitude = 1e-9;
   check_ok(pendres_settle(*state, 1, &p, &x, &v, &outcome, NULL));
   assert_int_equal(outcome.label, PENDRES_LABEL_PERIODIC);
@@ -113,7 +113,7 @@ static void by_averages(void **state)
 {
   pendres_pendulum p[2] = {saddle, tongue};
   const double x[2] = {0.0}, v[2] = {0.0}, exact = -0.15 + sqrt(0.15 * 0.15 + 1.0);
-  pendres_lyapunov l[2];
+  pendres_settled l[2];
   p[1].parametric_amplitude = 0.3;
   check_ok(pendres_lyapunov_find(*state, 2, p, x, v, NULL, l));
   for (int i = 0; i < 2; i++) {

@@ -158,7 +158,7 @@ typedef struct problem {
 static inline pendres_attractor settled(const problem *q, double x0)
 {
   const double x = x0 * q->u.length, v = 0.0;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_attractors *found = NULL;
   notes *to = q->to;
   check_ok(pendres_settle(q->ctx, 1, &q->p, &x, &v, &outcome, &found));

@@ -161,7 +161,7 @@ static pendres_status count_labels(hard_sheet *sheet, const pendres_attractors *
                                    const starts *s, int t, count *c)
 {
   const pendres_options o = { .tolerance = tolerances[t] };
-  pendres_outcome outcome[MOST];
+  pendres_settled outcome[MOST];
   pendres_context *ctx = NULL;
   pendres_status status = hard_context(sheet, &o, &ctx);
   if (status != PENDRES_OK) return status;

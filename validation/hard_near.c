@@ -105,7 +105,7 @@ static int in_vicinity(const place *l, double x, double v)
   return hypot(dx, v - (double)l->at.v) < vicinity;
 }
 
-static int labelled_here(const place *l, const pendres_attractors *set, const pendres_outcome *o)
+static int labelled_here(const place *l, const pendres_attractors *set, const pendres_settled *o)
 {
   const pendres_attractor *a =
     o->attractor >= 0 ? pendres_attractors_get(set, (size_t)o->attractor) : NULL;
@@ -117,7 +117,7 @@ static int labelled_here(const place *l, const pendres_attractors *set, const pe
 /* What starts at positions at[0] and velocities at[1] settle on; *found is freed by the caller,
    also after a failure. */
 static pendres_status settle_starts(hard_sheet *sheet, const truth *t, double tolerance,
-                                    const double at[2][STARTS], pendres_outcome outcome[STARTS],
+                                    const double at[2][STARTS], pendres_settled outcome[STARTS],
                                     pendres_attractors **found)
 {
   const pendres_pendulum p[STARTS] = { t->p, t->p, t->p, t->p };
@@ -138,7 +138,7 @@ static pendres_status count_ghosts(hard_sheet *sheet, const place *l, const trut
 {
   const double x0 = (double)l->at.y + half_pi, v0 = (double)l->at.v;
   const double at[2][STARTS] = { { x0, x0 + 0.02, x0 - 0.02, x0 + 1e-6 }, { v0, v0, v0, v0 } };
-  pendres_outcome outcome[STARTS];
+  pendres_settled outcome[STARTS];
   pendres_attractors *found = NULL;
   const pendres_status status = settle_starts(sheet, t, tolerance, at, outcome, &found);
   for (size_t i = 0; status == PENDRES_OK && i < pendres_attractors_count(found); i++) {
@@ -288,7 +288,7 @@ static pendres_status label_starts(hard_sheet *sheet, const place *l, const trut
   const double guess_x[GUESSES] = { (double)t->node.y + half_pi, half_pi, 0.0 };
   const double guess_v[GUESSES] = { (double)t->node.v, 0.0, 0.0 };
   double x[STARTS], v[STARTS], here = NAN;
-  pendres_outcome outcome[STARTS];
+  pendres_settled outcome[STARTS];
   pendres_attractors *found = NULL;
   pendres_context *ctx = NULL;
   place_starts(t, x, v);
@@ -386,7 +386,7 @@ static pendres_status count_others(hard_sheet *sheet, const place *l, const trut
 {
   const double x0 = (double)l->at.y + half_pi, v0 = (double)l->at.v;
   const double at[2][STARTS] = { { x0, x0 + 0.05, x0 - 0.05, half_pi }, { v0, v0, v0, 0.0 } };
-  pendres_outcome outcome[STARTS];
+  pendres_settled outcome[STARTS];
   pendres_attractors *found = NULL;
   const pendres_status status = settle_starts(sheet, t, tightest, at, outcome, &found);
   /* It must be found, too. */

@@ -131,7 +131,7 @@ static pendres_status add_orbit(hard_sheet *sheet, double damping)
 {
   pendres_pendulum p[STARTS];
   double x[STARTS], v[STARTS];
-  pendres_outcome outcome[STARTS];
+  pendres_settled outcome[STARTS];
   pendres_attractors *found = NULL;
   pendres_context *ctx = NULL;
   reference_cycle exact;

@@ -108,7 +108,7 @@ static pendres_status weak_wait(hard_sheet *sheet, pendres_context *ctx, const w
 static pendres_status weak_settle(hard_sheet *sheet, pendres_context *ctx, const weak *w,
                                   double *wrong)
 {
-  pendres_outcome outcome[WEAK];
+  pendres_settled outcome[WEAK];
   pendres_attractors *found = NULL;
   const pendres_status status = pendres_settle(ctx, WEAK, w->p, w->x, w->v, outcome, &found);
   if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);

@@ -93,7 +93,7 @@ static pendres_status add_chaos(hard_sheet *sheet, double drive)
 {
   pendres_pendulum p[CHAOTIC_STARTS];
   double x[CHAOTIC_STARTS], v[CHAOTIC_STARTS], naive = NAN;
-  pendres_outcome outcome[CHAOTIC_STARTS];
+  pendres_settled outcome[CHAOTIC_STARTS];
   pendres_attractors *found = NULL;
   pendres_context *ctx = NULL;
   exponent exact = { NAN, NAN }, ours = { NAN, NAN };

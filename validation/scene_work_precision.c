@@ -53,7 +53,7 @@ static pendres_status settle(const scene_some *some)
   pendres_context *ctx = some->ctx;
   settling *out = some->rows;
   const size_t n = w->unit.n;
-  pendres_outcome *outcome = malloc(n * sizeof *outcome);
+  pendres_settled *outcome = malloc(n * sizeof *outcome);
   double *v = calloc(n, sizeof *v), resolved = 0.0;
   pendres_cost cost;
   pendres_status status = PENDRES_OUT_OF_MEMORY;

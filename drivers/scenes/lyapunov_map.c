@@ -33,7 +33,7 @@ static void leave_out(const scene_points *p, size_t point, void *out)
   ((row *)out)->label = PENDRES_LABEL_UNRESOLVED;
 }
 
-static row row_of(const pendres_lyapunov *l)
+static row row_of(const pendres_settled *l)
 {
   const double closed = l->period > 0 ? 0.0 : NAN;
   const int uncertain = l->label != PENDRES_LABEL_UNRESOLVED && !l->certain;
@@ -61,7 +61,7 @@ static pendres_status compute(const scene_some *some)
   const size_t n = some->n;
   row *rows = some->rows;
   pendres_pendulum *p = scene_room_take(some->room, n, sizeof *p);
-  pendres_lyapunov *found = scene_room_take(some->room, n, sizeof *found);
+  pendres_settled *found = scene_room_take(some->room, n, sizeof *found);
   double *x = scene_room_take(some->room, 2 * n, sizeof *x);
   if (p == NULL || found == NULL || x == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) {

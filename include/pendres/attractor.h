@@ -24,7 +24,7 @@
  * What has not settled within its budget of periods is unresolved, never guessed.
  *
  * The error of the integration is propagated with each pendulum. Only if it is small against the
- * ellipse, and was small on the way, is the label certain (pendres_outcome.certain); pendulums for
+ * ellipse, and was small on the way, is the label certain (pendres_settled.certain); pendulums for
  * which it is not are integrated again, more and more exactly, down to rounding.
  *
  * Attractors are numbered by amplitude, then by their Poincaré point, never by the order in which
@@ -114,30 +114,41 @@ enum {
 };
 
 /**
- * The outcome for a pendulum. It has escaped where the force drives it outwards for ever, whatever
- * the drive does: for |b| < 1 to the right, with phi(x) = -f(x), beyond an X such that for all
- * x >= X phi(x) > 0 and phi(x) (1 - |b|) + I - |F0| > 0, and v >= 0; to the left likewise. There v
- * cannot fall below 0 again, since at v = 0 the acceleration is positive, and x goes to infinity. X
- * comes from the force's model (pendres_model, `outward`): for a polynomial it is Fujiwara's bound
- * of the zeros of both expressions, for a force with a header of its own the value that this
- * gives; without it there are no escapes. Under a linear force, a polynomial with a1 only, all
- * motions have the same Floquet multipliers. If one of these is larger than 1 by more than its
- * error, as in a tongue of parametric resonance, all pendulums have escaped before their first
- * period, including those exactly on the unstable orbit, which are not distinguished.
+ * What a pendulum settles on: the one answer of pendres_settle(), pendres_attractors_settle() and
+ * pendres_lyapunov_find(). Plain data.
+ *
+ * It has escaped where the force drives it outwards for ever, whatever the drive does: for |b| < 1
+ * to the right, with phi(x) = -f(x), beyond an X such that for all x >= X phi(x) > 0 and
+ * phi(x) (1 - |b|) + I - |F0| > 0, and v >= 0; to the left likewise. There v cannot fall below 0
+ * again, since at v = 0 the acceleration is positive, and x goes to infinity. X comes from the
+ * force's model (pendres_model, `outward`): for a polynomial it is Fujiwara's bound of the zeros of
+ * both expressions, for a force with a header of its own the value that this gives; without it
+ * there are no escapes. Under a linear force, a polynomial with a1 only, all motions have the same
+ * Floquet multipliers. If one of these is larger than 1 by more than its error, as in a tongue of
+ * parametric resonance, all pendulums have escaped before their first period, including those
+ * exactly on the unstable orbit, which are not distinguished.
  */
-typedef struct pendres_outcome {
+typedef struct pendres_settled {
   pendres_label label;   /**< that of its attractor; ESCAPE, UNSTABLE or UNRESOLVED if there is
                               none */
-  int attractor;         /**< index in the set, or PENDRES_ATTRACTOR_UNKNOWN,
-                              PENDRES_ATTRACTOR_ESCAPED or PENDRES_ATTRACTOR_UNSTABLE */
-  long well;             /**< well that it settled in; 0 for running and chaotic ones */
+  int attractor;         /**< index in the set, or PENDRES_ATTRACTOR_UNKNOWN (also where there is no
+                              set), PENDRES_ATTRACTOR_ESCAPED or PENDRES_ATTRACTOR_UNSTABLE */
+  long well;             /**< well that it settled in; 0 for running and chaotic ones, and without a
+                              set */
   long settling_periods; /**< drive periods until it was inside the ellipse or, with weak
-                              damping, a larger region about it, or had escaped; -1: unresolved, or
-                              unstable */
-  int certain;           /**< 1: the error that it carried into the ellipse was small against the
-                            ellipse, so that it could not have ended elsewhere; 0 also if
-                            unresolved */
-} pendres_outcome;
+                              damping, a larger region about it, or had escaped; without a set until
+                              its strobe points repeated; -1: unresolved, unstable, or not known */
+  int certain;           /**< 1: no error of the integration could have led it elsewhere; 0 also if
+                              unresolved */
+  int period;            /**< q, drive periods until the orbit closes; 0 of others */
+  int winding;           /**< p, whole turns in them; 0 of others */
+  double exponent;       /**< largest Lyapunov exponent per unit time; NaN where there is none */
+  double exponent_error; /**< of orbits their multiplier's, else one standard error; of rotations
+                              that do not close, whose exponent is exactly 0, this is 0, too */
+  double rotation;       /**< mean whole turns a drive period; NaN where there are none */
+  double rotation_error; /**< its error; of quasi-periodic rotations a bound, of a chaotic attractor
+                              with a confidence of 99.9 % */
+} pendres_settled;
 
 /**
  * Find the attractors of one parameter set from n initial guesses x[n], v[n] at drive phase 0 (n =
@@ -155,7 +166,7 @@ pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendu
  */
 pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_attractors *set,
                                          size_t n, const double *x, const double *v,
-                                         pendres_outcome *outcome);
+                                         pendres_settled *outcome);
 
 /**
  * A point at drive phase 0 on attractor number i of a set of one parameter set: that of a closed
@@ -188,7 +199,7 @@ double pendres_attractors_weakest_multiplier(const pendres_attractors *set);
  * PENDRES_OK also when some are unresolved: their outcome says so.
  */
 pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                              const double *x, const double *v, pendres_outcome *outcome,
+                              const double *x, const double *v, pendres_settled *outcome,
                               pendres_attractors **found);
 
 #pragma GCC visibility pop

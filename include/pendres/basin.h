@@ -52,13 +52,13 @@ typedef enum pendres_basin_how {
   PENDRES_BASIN_FILLED = 1,  /**< copied from its neighbours (only in refinement) */
   PENDRES_BASIN_DEFERRED = 2, /**< not settled within the short budget of pendres_basin_rows */
   PENDRES_BASIN_UNCERTAIN = 3, /**< integrated, but may belong to another basin: the errors that it
-                                    carried were not small (pendres_outcome.certain) */
+                                    carried were not small (pendres_settled.certain) */
   PENDRES_BASIN_HOW_COUNT      /**< how many there are */
 } pendres_basin_how;
 
 /** The outcome for a state; compact, since there are many. */
 typedef struct pendres_basin_state {
-  int32_t well;             /**< as in pendres_outcome; a state that settles in a well whose number
+  int32_t well;             /**< as in pendres_settled; a state that settles in a well whose number
                                  needs more than 32 bits is unresolved */
   int32_t settling_periods; /**< -1: unresolved; -2: filled */
   int16_t attractor;        /**< index in the set; PENDRES_ATTRACTOR_UNKNOWN (deferred, too),

@@ -34,29 +34,13 @@ typedef struct pendres_lyapunov_options {
                        before which chaos is followed for longer */
 } pendres_lyapunov_options;
 
-/** What a pendulum does in the long run. Plain data. */
-typedef struct pendres_lyapunov {
-  pendres_label label;   /**< PERIODIC, RUNNING, QUASI_PERIODIC, CHAOTIC, ESCAPE (as in
-                              attractor.h; its numbers are NaN, but
-                              for the exponent under a linear force) or UNRESOLVED; SA and LA are
-                              not told apart */
-  double exponent;       /**< largest Lyapunov exponent per unit time */
-  double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,
-                              the exponent is the mean so far; of quasi-periodic rotations, whose
-                              exponent is exactly 0, this is 0, too */
-  double rotation;       /**< mean whole turns a drive period */
-  double rotation_error; /**< its error, likewise; of quasi-periodic rotations a bound */
-  int period;            /**< q, drive periods until an orbit closes; 0 of others */
-  int winding;           /**< p, whole turns in them; 0 of others */
-  int certain;           /**< 1: no error of the integration could have led it elsewhere; 0 also if
-                              unresolved */
-} pendres_lyapunov;
-
 /**
  * The exponents of n pendulums that start from x[n], v[n] at drive phase 0. All arrays are the
- * caller's; out[n] is written. Each result depends on its own pendulum and the tolerance alone. The
- * drive's amplitude may be 0, the damping must be above 0. An odd number of steps a period is made
- * even.
+ * caller's; out[n] is written. There is no set of attractors: SA and LA are not told apart
+ * (PERIODIC). The exponent of an unresolved pendulum is the mean so far; the error of a chaotic
+ * one's rotation is one standard error. Each result depends on its own pendulum and the tolerance
+ * alone. The drive's amplitude may be 0, the damping must be above 0. An odd number of steps a
+ * period is made even.
  *
  * options may be NULL. Errors: PENDRES_INVALID_ARGUMENT (the message names the pendulum),
  * PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED, those of the integration. PENDRES_OK also where some
@@ -65,7 +49,7 @@ typedef struct pendres_lyapunov {
 pendres_status pendres_lyapunov_find(pendres_context *ctx, size_t n,
                                      const pendres_pendulum *pendulums, const double *x,
                                      const double *v, const pendres_lyapunov_options *options,
-                                     pendres_lyapunov *out);
+                                     pendres_settled *out);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

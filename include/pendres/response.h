@@ -70,7 +70,7 @@ typedef struct pendres_response {
   pendres_attractor state[PENDRES_RESPONSE_STATES]; /**< [states] the attractors listed */
   size_t state_members[PENDRES_RESPONSE_STATES];    /**< [states] how many members are on each */
   size_t uncertain;                 /**< members among them that may belong to another state
-                                         (pendres_outcome.certain); means count them where they
+                                         (pendres_settled.certain); means count them where they
                                          were found, errors allow for any other state */
   size_t unlisted;                  /**< members on attractors beyond those that are listed; in
                                          the means of pendres_response_find like all others */

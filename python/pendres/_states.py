@@ -37,9 +37,10 @@ class Attractors(Shown, Handle):
 
     def settle(self, x, v, *, context=None):
         """What pendulums at x (rad), v settle on, of these attractors alone: an array of
-        label, attractor (its row, -1: unresolved), well, settling_periods, certain."""
+        label, attractor (its row, -1: unresolved), well, settling_periods, certain, period,
+        winding, exponent and rotation with their errors."""
         xs, vs = np.broadcast_arrays(as_numbers(x), as_numbers(v))
-        outcome = array("pendres_outcome", xs.shape)
+        outcome = array("pendres_settled", xs.shape)
         c.attractors_settle(default_context(context), self, xs.size, np.ascontiguousarray(xs),
                             np.ascontiguousarray(vs), outcome)
         return record(outcome)
@@ -58,11 +59,12 @@ def settle(p, x, v, *, context=None):
     """What each of many pendulums settles on, whatever their parameters: (outcome, attractors).
 
     outcome has label (pendres.Label), attractor (row of the second result, -1: unresolved), well,
-    settling_periods (drive periods) and certain. Pendulums of equal parameters should be
+    settling_periods (drive periods), certain, period and winding of an orbit, exponent (a time unit)
+    and rotation (turns a drive period) with their errors. Pendulums of equal parameters should be
     neighbours: they share what is found out.
     """
     shape, (pendulums, xs, vs) = spread(p, x, v)
-    outcome = array("pendres_outcome", xs.shape)
+    outcome = array("pendres_settled", xs.shape)
     found = make(Attractors, c.settle, default_context(context), xs.size, pendulums, xs, vs,
                  outcome)
     return record(outcome.reshape(shape)), found.table

@@ -78,7 +78,7 @@ pendres_model_units pendres_model_units_of(const pendres_pendulum *p);
 /* The distance of two states with these differences, in units of p. */
 double pendres_model_distance(const pendres_pendulum *p, double x, double v);
 
-/* Whether a pendulum in a state is certainly on its way to infinity; see pendres_outcome. */
+/* Whether a pendulum in a state is certainly on its way to infinity; see pendres_settled. */
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
 
 /* Whether the equation depends on the drive's phase; otherwise its frequency is but a clock. */

@@ -66,7 +66,7 @@ extern const pendres_dimensions pendres_dim_pendulum, pendres_dim_state, pendres
   pendres_dim_curve_options, pendres_dim_curve_point, pendres_dim_cascade, pendres_dim_ensemble,
   pendres_dim_response, pendres_dim_response_noise, pendres_dim_resonance, pendres_dim_search,
   pendres_dim_turn, pendres_dim_hysteresis_point, pendres_dim_jump, pendres_dim_step,
-  pendres_dim_lyapunov, pendres_dim_ramp_jump, pendres_dim_phase_options, pendres_dim_phase_point,
+  pendres_dim_settled, pendres_dim_ramp_jump, pendres_dim_phase_options, pendres_dim_phase_point,
   pendres_dim_boundary_options, pendres_dim_window, pendres_dim_statistics,
   pendres_dim_langevin_request, pendres_dim_cloud, pendres_dim_bias, pendres_dim_linear,
   pendres_dim_covariance, pendres_dim_whole_cloud, pendres_dim_tally, pendres_dim_rate,

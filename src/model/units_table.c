@@ -85,7 +85,7 @@ RECORD(attractor, pendres_attractor, PART(pendres_attractor, orbit, orbit),
        ROW(pendres_attractor, trap_radius, POSITION), OWNS(pendres_attractor, lyapunov));
 typedef pendres_attractor attractor_type;
 
-RECORD(lyapunov, pendres_lyapunov, ROWS(pendres_lyapunov, exponent, RATE));
+RECORD(settled, pendres_settled, ROWS(pendres_settled, exponent, RATE));
 
 /* ---- branches and curves: arclength is counted in canonical units ---- */
 

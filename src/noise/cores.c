@@ -42,7 +42,7 @@ static pendres_status settles(pendres_context *ctx, const pendres_attractors *se
   const double lower[3] = {sqrt(cloud->xx), cloud->xv / sqrt(cloud->xx),
                            sqrt(cloud->vv - cloud->xv * cloud->xv / cloud->xx)};
   double x[CORES_RING], v[CORES_RING];
-  pendres_outcome outcome[CORES_RING];
+  pendres_settled outcome[CORES_RING];
   size_t n = 0;
   for (int k = 0; k < CORES_RING; k++) {
     const double c = reach * cos(two_pi * k / CORES_RING), s = reach * sin(two_pi * k / CORES_RING);

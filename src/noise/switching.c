@@ -187,7 +187,7 @@ static pendres_status look_at_ends(pendres_context *ctx, const pendres_switching
   const size_t all = q->trajectories;
   size_t n = 0;
   pendres_room room = pendres_room_open(ctx, "trajectories");
-  pendres_outcome *outcome = pendres_room_take(&room, all, sizeof *outcome);
+  pendres_settled *outcome = pendres_room_take(&room, all, sizeof *outcome);
   double *x = pendres_room_take(&room, all, sizeof *x);
   double *v = pendres_room_take(&room, all, sizeof *v);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);

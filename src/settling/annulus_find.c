@@ -241,7 +241,7 @@ static pendres_status find_wide(pendres_context *ctx, const pendres_attractor_se
 static pendres_status find_turns(pendres_context *ctx, const pendres_attractor_set *c,
                                  pendres_open_measures *m, int *found)
 {
-  pendres_lyapunov told;
+  pendres_settled told;
   pendres_orbit orbit;
   const pendres_lyapunov_motion motion = {.n = 1, .pendulum = &c->pendulum, .x = &m->x, .v = &m->v,
                                           .out = &told, .orbit = &orbit, .points = 1};

@@ -44,7 +44,7 @@ pendres_arrival pendres_arrival_at(const pendres_pendulum *p, double x, double v
 pendres_attractor pendres_arrival_orbit(const pendres_orbit *o)
 {
   pendres_attractor a = pendres_arrival_nothing(&o->pendulum);
-  pendres_lyapunov l;
+  pendres_settled l;
   pendres_lyapunov_take_orbit(o, &l);
   a.orbit = *o;
   a.label = l.label;
@@ -63,7 +63,7 @@ pendres_arrival pendres_arrival_turning(const pendres_pendulum *p, const pendres
 /* ---- by averages --------------------------------------------------------------------------- */
 
 /* What averages have told. */
-static void take_verdict(const pendres_lyapunov *l, const pendres_orbit *orbit, pendres_arrival *s)
+static void take_verdict(const pendres_settled *l, const pendres_orbit *orbit, pendres_arrival *s)
 {
   if (orbit->period > 0) {
     s->attractor = pendres_arrival_orbit(orbit);
@@ -185,7 +185,7 @@ static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const s
                                          pendres_arrival *s)
 {
   pendres_pendulum p[PENDRES_ARRIVALS] = {{0}};
-  pendres_outcome outcome[PENDRES_ARRIVALS];
+  pendres_settled outcome[PENDRES_ARRIVALS];
   double x[PENDRES_ARRIVALS] = {0.0}, v[PENDRES_ARRIVALS] = {0.0};
   pendres_attractors *found = NULL;
   for (size_t k = 0; k < n; k++) {

@@ -167,9 +167,29 @@ pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendu
   return PENDRES_DOOR_END(&d, attractors_find(&d, p, n, x, v, out));
 }
 
+/* What is told of pendulums by the attractors that they are on, of one set. */
+static void describe(const pendres_attractor_set *c, size_t n, pendres_settled *out)
+{
+  for (size_t i = 0; i < n; i++) {
+    pendres_settled *o = &out[i];
+    o->exponent = o->exponent_error = o->rotation = o->rotation_error = NAN;
+    if (o->attractor < 0) continue;
+    const pendres_attractor *a = &c->attractors[o->attractor];
+    o->exponent = a->lyapunov;
+    o->exponent_error = a->lyapunov_error;
+    o->rotation = a->drift;
+    o->rotation_error = a->drift_error;
+    if (!pendres_attractor_closes(a)) continue;
+    o->period = a->orbit.period;
+    o->winding = a->orbit.winding;
+    o->rotation = (double)o->winding / o->period;
+    o->rotation_error = last_place_of_one * fabs(o->rotation);
+  }
+}
+
 static pendres_status attractors_settle(pendres_context *ctx, const pendres_attractors *set,
                                         size_t n, const double *x, const double *v,
-                                        pendres_outcome *outcome)
+                                        pendres_settled *outcome)
 {
   if (set == NULL || (n > 0 && (x == NULL || v == NULL || outcome == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "attractors, x, v and outcome");
@@ -179,17 +199,20 @@ static pendres_status attractors_settle(pendres_context *ctx, const pendres_attr
   pendres_status status = check_states(ctx, n, &set->attractor_sets[0].pendulum, 0, x, v);
   if (status != PENDRES_OK || n == 0) return status;
   const pendres_settle_starts starts = {.n = n, .x = x, .v = v};
-  return pendres_settle_known(ctx, set->attractor_sets, &starts, pendres_accuracy_to_settle(ctx),
-                              PENDRES_SETTLE_FULL, outcome);
+  status = pendres_settle_known(ctx, set->attractor_sets, &starts, pendres_accuracy_to_settle(ctx),
+                                PENDRES_SETTLE_FULL, outcome);
+  if (status == PENDRES_OK) describe(set->attractor_sets, n, outcome);
+  return status;
 }
 
 pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_attractors *set,
                                          size_t n, const double *x, const double *v,
-                                         pendres_outcome *outcome)
+                                         pendres_settled *outcome)
 {
   pendres_door d = pendres_attractors_open(ctx, set);
   PENDRES_DOOR_IN(&d, length, n, x);
   PENDRES_DOOR_IN(&d, speed, n, v);
+  PENDRES_DOOR_OUT(&d, settled, n, outcome);
   return PENDRES_DOOR_END(&d, attractors_settle(ctx, set, n, x, v, outcome));
 }
 
@@ -197,7 +220,7 @@ static pendres_status attractors_point(pendres_context *ctx, const pendres_attra
                                        size_t i, pendres_state *out)
 {
   double x[GUESS_CHAOS], v[GUESS_CHAOS];
-  pendres_outcome outcome[GUESS_CHAOS];
+  pendres_settled outcome[GUESS_CHAOS];
   if (set == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractors and out");
   const pendres_attractor *a = pendres_attractors_get(set, i);
   if (a == NULL)
@@ -246,7 +269,7 @@ pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractor
 {
   pendres_room room = pendres_room_open(ctx, "attractors");
   size_t *zero = pendres_room_take(&room, n, sizeof *zero);
-  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  pendres_settled *outcome = pendres_room_take(&room, n, sizeof *outcome);
   const pendres_settle_starts starts = {
     .n = n, .set = zero, .x = x, .v = v, .wanted = PENDRES_SETTLE_NOTHING};
   pendres_status status = room.status;
@@ -270,7 +293,7 @@ typedef struct settling {
   size_t n;
   const pendres_pendulum *pendulums;
   const double *x, *v;
-  pendres_outcome *outcome;
+  pendres_settled *outcome;
   pendres_attractors *all;
   size_t sets;   /* those of earlier stretches, */
   size_t offset; /* and their attractors */
@@ -308,8 +331,10 @@ static pendres_status settle_stretch(pendres_door *d, settling *s)
       starts[k] = s->offset;
       s->offset += c[k].count;
     }
-    for (size_t i = first; i < last && status == PENDRES_OK; i++)
+    for (size_t i = first; i < last && status == PENDRES_OK; i++) {
+      describe(&c[set[i]], 1, &s->outcome[i]);
       if (s->outcome[i].attractor >= 0) s->outcome[i].attractor += (int)starts[set[i]];
+    }
   }
   free(set);
   return status;
@@ -363,7 +388,7 @@ static pendres_status settle_begin(pendres_context *ctx, settling *s, int starts
 }
 
 pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                              const double *x, const double *v, pendres_outcome *outcome,
+                              const double *x, const double *v, pendres_settled *outcome,
                               pendres_attractors **found)
 {
   settling s = {.n = n, .pendulums = pendulums, .x = x, .v = v, .outcome = outcome};
@@ -376,7 +401,7 @@ pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pend
     s.pendulums = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
     s.x = pendres_door_in_run(&d, &pendres_dim_length, x);
     s.v = pendres_door_in_run(&d, &pendres_dim_speed, v);
-    s.outcome = PENDRES_DOOR_AT(outcome, d.first);
+    s.outcome = pendres_door_out_run(&d, &pendres_dim_settled, outcome);
     PENDRES_DOOR_CALL(&d, starts ? settle_from_all_sides(&d, &s) : settle_stretch(&d, &s));
   }
   if (d.status == PENDRES_OK && index_sets(s.all) != 0)

@@ -82,7 +82,7 @@ static int is_plain(const pendres_pendulum *p)
  */
 static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_set *attractor_sets,
                                  const pendres_settle_starts *from, int soon,
-                                 pendres_outcome *outcome, pendres_strobe_lane *lanes)
+                                 pendres_settled *outcome, pendres_strobe_lane *lanes)
 {
   const double exact = pendres_accuracy_to_settle(ctx), rough = pendres_accuracy_to_settle_soon();
   pendres_status status = PENDRES_OK;
@@ -126,7 +126,7 @@ static void set_budgets(const pendres_context *ctx, size_t sets,
 /* Put attractors into their physical order, and renumber outcomes accordingly. */
 static pendres_status order_all(pendres_context *ctx, size_t sets,
                                 pendres_attractor_set *attractor_sets,
-                                size_t n, const size_t *set, pendres_outcome *outcome)
+                                size_t n, const size_t *set, pendres_settled *outcome)
 {
   size_t most = 0;
   for (size_t s = 0; s < sets; s++)
@@ -149,7 +149,7 @@ static pendres_status order_all(pendres_context *ctx, size_t sets,
 /* Labels of pendulums that were integrated as slow as they started are not certain where attractors
    have turned out to be faster: they are integrated once more. */
 static void doubt(const pendres_attractor_set *attractor_sets, const pendres_settle_starts *from,
-                  pendres_outcome *outcome, double *error_ratio)
+                  pendres_settled *outcome, double *error_ratio)
 {
   double driven = 0.0;
   for (size_t i = 0; i < from->n; i++) {
@@ -164,7 +164,7 @@ static void doubt(const pendres_attractor_set *attractor_sets, const pendres_set
 
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_attractor_set *attractor_sets,
-                                    const pendres_settle_starts *from, pendres_outcome *outcome)
+                                    const pendres_settle_starts *from, pendres_settled *outcome)
 {
   const size_t n = from->n, *set = from->set;
   const double accuracy = pendres_accuracy_to_settle(ctx);
@@ -278,7 +278,7 @@ static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set
  */
 static pendres_status settle_left(pendres_context *ctx, const pendres_attractor_set *attractor_set,
                                   const pendres_settle_starts *starts, double accuracy,
-                                  pendres_outcome *outcome)
+                                  pendres_settled *outcome)
 {
   const double exact = pendres_accuracy_to_settle(ctx);
   size_t left = 0;
@@ -288,7 +288,7 @@ static pendres_status settle_left(pendres_context *ctx, const pendres_attractor_
   pendres_room room = pendres_room_open(ctx, "pendulums");
   double *x = pendres_room_take(&room, left, sizeof *x);
   double *v = pendres_room_take(&room, left, sizeof *v);
-  pendres_outcome *now = pendres_room_take(&room, left, sizeof *now);
+  pendres_settled *now = pendres_room_take(&room, left, sizeof *now);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t i = 0, k = 0; i < starts->n; i++)
     if (!pendres_settle_ended(&outcome[i])) {
@@ -306,7 +306,7 @@ static pendres_status settle_left(pendres_context *ctx, const pendres_attractor_
 pendres_status pendres_settle_known(pendres_context *ctx,
                                     const pendres_attractor_set *attractor_set,
                                     const pendres_settle_starts *starts, double accuracy,
-                                    pendres_settle_budget budget, pendres_outcome *outcome)
+                                    pendres_settle_budget budget, pendres_settled *outcome)
 {
   const size_t n = starts->n;
   pendres_room room = pendres_room_open(ctx, "pendulums");

@@ -13,7 +13,7 @@
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_attractor_set *attractor_sets,
                                     const pendres_settle_starts *starts,
-                                    pendres_outcome *outcome);
+                                    pendres_settled *outcome);
 
 /* For how many periods pendulums are followed that may only settle on known attractors. */
 typedef enum pendres_settle_budget {
@@ -26,6 +26,6 @@ typedef enum pendres_settle_budget {
 pendres_status pendres_settle_known(pendres_context *ctx,
                                     const pendres_attractor_set *attractor_set,
                                     const pendres_settle_starts *starts, double accuracy,
-                                    pendres_settle_budget budget, pendres_outcome *outcome);
+                                    pendres_settle_budget budget, pendres_settled *outcome);
 
 #endif

@@ -15,11 +15,11 @@ typedef struct uncertain_labels {
   size_t *index; /* in the batch */
   size_t *set;
   pendres_strobe_lane *lanes;
-  pendres_outcome *outcome;
+  pendres_settled *outcome;
   double *error_ratio, *accuracy; /* of the latest run */
 } uncertain_labels;
 
-static int is_uncertain(const pendres_outcome *o)
+static int is_uncertain(const pendres_settled *o)
 {
   return pendres_settle_ended(o) && !o->certain;
 }
@@ -144,7 +144,7 @@ static pendres_status compare(pendres_context *ctx, const pendres_settle_labelli
 {
   pendres_settle_labelling other = *job;
   pendres_room room = pendres_room_open(ctx, "pendulums");
-  pendres_outcome *own = other.outcome = pendres_room_take(&room, from->n, sizeof *own);
+  pendres_settled *own = other.outcome = pendres_room_take(&room, from->n, sizeof *own);
   pendres_status status = room.status;
   if (status == PENDRES_OK && from->n > 0) memcpy(own, job->outcome, from->n * sizeof *own);
   while (d->count > 0 && status == PENDRES_OK) {
@@ -154,7 +154,7 @@ static pendres_status compare(pendres_context *ctx, const pendres_settle_labelli
       d->accuracy[k] = pendres_settle_tighter(d->accuracy[k], d->error_ratio[k]);
   }
   for (size_t i = 0; i < from->n && status == PENDRES_OK; i++) {
-    pendres_outcome *o = &job->outcome[i];
+    pendres_settled *o = &job->outcome[i];
     o->certain = pendres_settle_ended(o) && own[i].certain && own[i].attractor == o->attractor &&
                  own[i].well == o->well;
   }

@@ -138,7 +138,7 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_at
   if (streak % STREAK_SCALE < SETTLE_CHAOTIC_STREAK) return 0;
   if (lane->period < pendres_settle_first_budget(&c->pendulum)) return 0;
   l->outcome[i] =
-    (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
+    (pendres_settled){.label = PENDRES_LABEL_CHAOTIC,
                       .attractor = c->cover[streak / STREAK_SCALE]->attractor,
                       .settling_periods = lane->period - streak % STREAK_SCALE + 1};
   judge(l, i, lane->added > 0.0 ? pendres_settle_error_ratio(l->entry[i]) : NAN);
@@ -148,7 +148,7 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_at
 static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
                    const pendres_strobe_lane *lane)
 {
-  pendres_outcome *o = &l->outcome[i];
+  pendres_settled *o = &l->outcome[i];
   const pendres_trapping_ellipse *in = pendres_attractor_set_ellipse(c, lane->y, lane->w);
   if (in == NULL) return 0;
   o->attractor = pendres_attractor_set_locate(c, in, lane, &o->well);
@@ -172,7 +172,7 @@ static int rotates(const pendres_settle_labelling *l, size_t i, const pendres_at
                    const pendres_strobe_lane *lane)
 {
   if (turns_over(l, i, c, lane)) {
-    l->outcome[i] = (pendres_outcome){.label = c->attractors[c->turning].label,
+    l->outcome[i] = (pendres_settled){.label = c->attractors[c->turning].label,
                                       .attractor = c->turning,
                                       .settling_periods = lane->period};
     judge(l, i, lane->period > 0 && lane->added == 0.0 ? NAN
@@ -185,7 +185,7 @@ static int rotates(const pendres_settle_labelling *l, size_t i, const pendres_at
   const double room = pendres_annulus_room(in, lane->y, lane->w, &slope);
   const double off = fabs(slope) * sqrt(lane->off.yy) + sqrt(lane->off.ww);
   const double before = pendres_settle_error_ratio(lane->worst);
-  l->outcome[i] = (pendres_outcome){.label = c->attractors[in->attractor].label,
+  l->outcome[i] = (pendres_settled){.label = c->attractors[in->attractor].label,
                                     .attractor = in->attractor,
                                     .settling_periods = lane->period};
   judge(l, i, lane->period > 0 && lane->added == 0.0 ? NAN : fmax(before, surely * off / room));
@@ -202,7 +202,7 @@ static pendres_settle_place place_of(const pendres_strobe_lane *lane)
 static void note_escape(const pendres_settle_labelling *l, size_t i,
                         const pendres_strobe_lane *lane, double worst)
 {
-  l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_ESCAPE,
+  l->outcome[i] = (pendres_settled){.label = PENDRES_LABEL_ESCAPE,
                                     .attractor = PENDRES_ATTRACTOR_ESCAPED,
                                     .settling_periods = lane->period};
   judge(l, i, lane->added > 0.0 ? pendres_settle_error_ratio(worst) : NAN);
@@ -476,7 +476,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
   pendres_status status = run_lanes(ctx, left, which, lanes, l);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
     const size_t i = which[k];
-    pendres_outcome *o = &l->outcome[i];
+    pendres_settled *o = &l->outcome[i];
     if (pendres_settle_ended(o)) continue;
     *o = pendres_settle_unresolved;
     if (open && pendres_escape_lost(lanes[i].y, lanes[i].w))

@@ -45,7 +45,7 @@ typedef struct pendres_settle_labelling {
                                are numbered */
   const size_t *set;        /* of each lane; NULL: all belong to the first set of attractors */
   long *budget;             /* of each set, periods in all */
-  pendres_outcome *outcome;
+  pendres_settled *outcome;
   pendres_settle_history *histories; /* NULL: not kept */
   double *error_ratio;      /* of each lane that settles: the ratio of the error that it carries to
                                the largest one that cannot change its label, which is certain up to

@@ -36,7 +36,7 @@ typedef struct lost_lanes {
   size_t *index; /* in the batch */
   size_t *set;
   pendres_strobe_lane *lanes;
-  pendres_outcome *outcome;
+  pendres_settled *outcome;
   pendres_settle_history *histories;
   pendres_initial_guess *guesses;
   const pendres_strobe_lane **suspects;

@@ -87,7 +87,7 @@ static void draw(accuracy_random *r, item *t)
 static void settle(pendres_context *ctx, item *t)
 {
   const pendres_orbit_guess *g = &t->guess;
-  pendres_outcome outcome;
+  pendres_settled outcome;
   pendres_attractors *found = NULL;
   if (pendres_settle(ctx, 1, &g->pendulum, &g->x, &g->v, &outcome, &found) == PENDRES_OK &&
       outcome.attractor >= 0) {

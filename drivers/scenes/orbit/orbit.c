@@ -69,7 +69,7 @@ static pendres_status find_from_start(const scene_some *some, orbit_found *out)
 {
   const orbit_work *w = some->of->arg;
   pendres_attractors *set = NULL;
-  pendres_outcome outcome = { .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1 };
+  pendres_settled outcome = { .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1 };
   /* Nothing attracts without friction. */
   if (!(pendres_pendulum_decay_rate(&w->pendulum) > 0.0)) return PENDRES_OK;
   const pendres_status status = pendres_settle(some->ctx, 1, &w->pendulum, &w->d->orbit.x,

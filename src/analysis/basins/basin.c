@@ -32,9 +32,9 @@ static pendres_status check_grid(pendres_context *ctx, const pendres_attractors 
 }
 
 /* A state whose well is beyond those that 32 bits can number is as good as unresolved. */
-static void compact(const pendres_outcome *from, pendres_basin_state *to)
+static void compact(const pendres_settled *from, pendres_basin_state *to)
 {
-  static const pendres_outcome beyond = {.label = PENDRES_LABEL_UNRESOLVED,
+  static const pendres_settled beyond = {.label = PENDRES_LABEL_UNRESOLVED,
                                          .attractor = PENDRES_ATTRACTOR_UNKNOWN,
                                          .settling_periods = -1};
   if (from->well != (int32_t)from->well || from->settling_periods > INT32_MAX) from = &beyond;
@@ -103,7 +103,7 @@ static pendres_status settle_states(const picture *of, size_t n, const size_t *i
   pendres_room room = pendres_room_open(of->ctx, "states");
   double *x = pendres_room_take(&room, n, sizeof *x);
   double *v = pendres_room_take(&room, n, sizeof *v);
-  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  pendres_settled *outcome = pendres_room_take(&room, n, sizeof *outcome);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t k = 0; k < n; k++) {
     x[k] = grid->x[index[k] / grid->nv];

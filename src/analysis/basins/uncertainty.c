@@ -31,13 +31,13 @@ static void place(const pendres_basin_window *w, const pendres_basin_sample *s, 
   }
 }
 
-static int are_unlike(const pendres_outcome *a, const pendres_outcome *b, pendres_basin_end by)
+static int are_unlike(const pendres_settled *a, const pendres_settled *b, pendres_basin_end by)
 {
   return a->attractor != b->attractor ||
          (by == PENDRES_BASIN_BY_WELL && a->attractor >= 0 && a->well != b->well);
 }
 
-static int is_unknown(const pendres_outcome *o)
+static int is_unknown(const pendres_settled *o)
 {
   return o->attractor == PENDRES_ATTRACTOR_UNKNOWN;
 }
@@ -45,11 +45,11 @@ static int is_unknown(const pendres_outcome *o)
 /* Count one state and its neighbours: outcome[0] its own, then two a distance. Each state is a
    group of its own, since states know nothing of one another. */
 static void count_sample(pendres_scatter *s, int scales, pendres_basin_end by,
-                         const pendres_outcome *outcome)
+                         const pendres_settled *outcome)
 {
   double unlike[PENDRES_SCATTER_QUANTITIES] = {0.0};
   for (int k = 0; k < scales; k++) {
-    const pendres_outcome *one = &outcome[1 + 2 * k], *two = one + 1;
+    const pendres_settled *one = &outcome[1 + 2 * k], *two = one + 1;
     unlike[k] = are_unlike(&outcome[0], one, by) || are_unlike(&outcome[0], two, by);
     if (is_unknown(&outcome[0]) || is_unknown(one) || is_unknown(two))
       s->unknown[k] += 1.0;
@@ -94,7 +94,7 @@ typedef struct sample {
   const pendres_basin_sample *of;
   size_t begin, each; /* number of the first state of those below; of a state and its neighbours */
   double *x, *v; /* a state and its neighbours, one after the other */
-  pendres_outcome *outcome;
+  pendres_settled *outcome;
 } sample;
 
 /* States of those that are settled next, by their numbers among these. */
@@ -119,7 +119,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
   const pendres_status status = pendres_threads_run(ctx, count, SAMPLE_TOGETHER, settle_part, a);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
-    const pendres_outcome *own = &a->outcome[i * a->each];
+    const pendres_settled *own = &a->outcome[i * a->each];
     out->unresolved += is_unknown(own);
     out->uncertain_states += !is_unknown(own) && !own->certain;
     count_sample(counts, out->scales, a->window->by, own);

@@ -115,7 +115,7 @@ static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum
   const double length = pendres_model_units_of(p).length;
   pendres_room room = pendres_room_open(ctx, "members");
   pendres_pendulum *pendulums = pendres_room_take(&room, n, sizeof *pendulums);
-  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  pendres_settled *outcome = pendres_room_take(&room, n, sizeof *outcome);
   pendres_attractors *set = NULL;
   s->n = 0;
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);

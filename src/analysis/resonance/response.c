@@ -205,7 +205,7 @@ static size_t most_members(size_t n, const size_t *members, const char *listed)
  * there are more attractors than can be listed, those with the most members are listed. members and
  * listed have one number for each attractor.
  */
-static void count_states(const pendres_attractor_set *c, size_t n, const pendres_outcome *outcome,
+static void count_states(const pendres_attractor_set *c, size_t n, const pendres_settled *outcome,
                          size_t *members, char *listed, pendres_response *r)
 {
   memset(r, 0, sizeof *r);
@@ -237,7 +237,7 @@ static void count_states(const pendres_attractor_set *c, size_t n, const pendres
 }
 
 /* The listed attractor that each member is on, or that it has none. */
-static void locate_members(size_t n, const pendres_outcome *outcome, const char *listed,
+static void locate_members(size_t n, const pendres_settled *outcome, const char *listed,
                            signed char *where)
 {
   for (size_t i = 0; i < n; i++) {
@@ -249,7 +249,7 @@ static void locate_members(size_t n, const pendres_outcome *outcome, const char 
 }
 
 pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_attractor_set *c,
-                                          size_t n, const pendres_outcome *outcome,
+                                          size_t n, const pendres_settled *outcome,
                                           signed char *where, pendres_response *r)
 {
   pendres_room room = pendres_room_open(ctx, "attractors");
@@ -273,7 +273,7 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
   double *x = pendres_room_take(&room, n, sizeof *x);
   double *v = pendres_room_take(&room, n, sizeof *v);
   size_t *set = pendres_room_take(&room, n, sizeof *set);
-  pendres_outcome *outcome = pendres_room_take(&room, n, sizeof *outcome);
+  pendres_settled *outcome = pendres_room_take(&room, n, sizeof *outcome);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t s = 0; s < sets; s++) {
     attractor_sets[s].pendulum = pendulums[s];

@@ -34,7 +34,7 @@ const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_en
  * a list of the attractors that most members are on; where[n] as above.
  */
 pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_attractor_set *c,
-                                          size_t n, const pendres_outcome *outcome,
+                                          size_t n, const pendres_settled *outcome,
                                           signed char *where, pendres_response *r);
 
 /* ---- averaged loops: orbits keep 24 harmonics, but a slow drive has hundreds ---- */

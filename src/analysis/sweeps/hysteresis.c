@@ -136,7 +136,7 @@ static pendres_status begin_path(path *w, double x, double v)
 {
   const pendres_arrival *s = &w->state;
   const int closed = pendres_attractor_closes(&s->attractor);
-  pendres_lyapunov l;
+  pendres_settled l;
   if (w->known || s->attractor.label == PENDRES_LABEL_UNRESOLVED) return PENDRES_OK;
   w->known = 1;
   w->certain = s->certain;

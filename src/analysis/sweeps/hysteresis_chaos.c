@@ -245,7 +245,7 @@ static pendres_status mean_lives(const search *w, const double value[2], const d
                                  const double *v, double life[2])
 {
   pendres_pendulum p[2 * LIVES];
-  pendres_outcome outcome[2 * LIVES];
+  pendres_settled outcome[2 * LIVES];
   double from_x[2 * LIVES], from_v[2 * LIVES];
   for (int i = 0; i < 2 * LIVES; i++) {
     p[i] = pendulum_at(w, value[i / LIVES]);

@@ -34,7 +34,7 @@ enum {
   AT_A_TIME = 4096 /* pendulums with copies: they need memory */
 };
 
-typedef pendres_lyapunov verdict;
+typedef pendres_settled verdict;
 
 static int in_doubt(const verdict *l)
 {
@@ -261,7 +261,7 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
 
 static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                     const double *x, const double *v,
-                                    const pendres_lyapunov_options *options, pendres_lyapunov *out)
+                                    const pendres_lyapunov_options *options, pendres_settled *out)
 {
   static const pendres_lyapunov_options defaults = {0};
   const pendres_lyapunov_options *o = options != NULL ? options : &defaults;
@@ -300,14 +300,14 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
 pendres_status pendres_lyapunov_find(pendres_context *ctx, size_t n,
                                      const pendres_pendulum *pendulums, const double *x,
                                      const double *v, const pendres_lyapunov_options *options,
-                                     pendres_lyapunov *out)
+                                     pendres_settled *out)
 {
   pendres_door d = pendres_door_open_many(ctx, n, pendulums, sizeof *pendulums);
   while (pendres_door_next(&d)) {
     const pendres_pendulum *p = pendres_door_in_run(&d, &pendres_dim_pendulum, pendulums);
     const double *x_in = pendres_door_in_run(&d, &pendres_dim_length, x);
     const double *v_in = pendres_door_in_run(&d, &pendres_dim_speed, v);
-    pendres_lyapunov *to = pendres_door_out_run(&d, &pendres_dim_lyapunov, out);
+    pendres_settled *to = pendres_door_out_run(&d, &pendres_dim_settled, out);
     PENDRES_DOOR_CALL(&d, lyapunov_find(ctx, d.count, p, x_in, v_in, options, to));
   }
   return pendres_door_close(&d);

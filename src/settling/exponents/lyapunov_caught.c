@@ -35,11 +35,11 @@ typedef struct caught_list {
   pendres_status *outcome;
 } caught_list;
 
-void pendres_lyapunov_take_orbit(const pendres_orbit *o, pendres_lyapunov *out)
+void pendres_lyapunov_take_orbit(const pendres_orbit *o, pendres_settled *out)
 {
   const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   const double time = two_pi * o->period / o->pendulum.drive_frequency;
-  *out = (pendres_lyapunov){
+  *out = (pendres_settled){
     .label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC,
     .exponent = log(modulus) / time,
     .exponent_error = o->multiplier_error / (modulus * time),
@@ -150,6 +150,7 @@ static void take(const job *j, const caught *c)
     c->runner->near *= caught_closer;
     return;
   }
+  c->runner->came = c->runner->lane.period;
   if (!is_surely_stable(c->on)) c->runner->doubt = INFINITY;
   pendres_lyapunov_take_orbit(c->on, &j->out[c->index]);
   if (j->orbit != NULL) j->orbit[c->index] = *c->on;

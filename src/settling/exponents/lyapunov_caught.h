@@ -10,7 +10,7 @@
 #include "settling/exponents/lyapunov_job.h"
 
 /* The verdict on what has come to this orbit. */
-void pendres_lyapunov_take_orbit(const pendres_orbit *o, pendres_lyapunov *out);
+void pendres_lyapunov_take_orbit(const pendres_orbit *o, pendres_settled *out);
 
 /* Take the orbits that runners were caught near; a runner goes on where there is no stable orbit
    near it. */

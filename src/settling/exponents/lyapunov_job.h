@@ -31,7 +31,7 @@ typedef struct pendres_lyapunov_job {
   pendres_runner *runner;           /* room; they stay where they are in the end */
   pendres_orbit *orbit;             /* that runners are on; NULL: not wanted */
   int points;                       /* nothing else of orbits is wanted (orbits/orbit_pair.h) */
-  pendres_lyapunov *out;            /* certain where the error of the integration stayed small */
+  pendres_settled *out;            /* certain where the error of the integration stayed small */
 } pendres_lyapunov_job;
 
 #endif

@@ -30,7 +30,7 @@ static double nearest(double mean, int most, int *q, int *p)
   return misses;
 }
 
-int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_lyapunov *out)
+int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_settled *out)
 {
   double off = 0.0, square_off = 0.0;
   int q = 0, p = 0;
@@ -54,7 +54,7 @@ int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_l
     r->state = PENDRES_RUNNER_CAUGHT;
     return 0;
   }
-  *out = (pendres_lyapunov){.label = PENDRES_LABEL_QUASI_PERIODIC, .rotation = turned,
+  *out = (pendres_settled){.label = PENDRES_LABEL_QUASI_PERIODIC, .rotation = turned,
                             .rotation_error = off};
   return 1;
 }
@@ -78,7 +78,7 @@ static pendres_status steps_of_finer(pendres_context *ctx, const pendres_runner 
   return status;
 }
 
-static void compare(pendres_runner *r, const pendres_runner *finer, pendres_lyapunov *out)
+static void compare(pendres_runner *r, const pendres_runner *finer, pendres_settled *out)
 {
   const double closer_by = pow((double)r->steps / finer->lane.steps, 4);
   double off = 0.0;
@@ -94,7 +94,7 @@ static void compare(pendres_runner *r, const pendres_runner *finer, pendres_lyap
 }
 
 pendres_status pendres_means_refine(pendres_context *ctx, size_t n, pendres_runner *runners,
-                                    long batch, pendres_lyapunov *out)
+                                    long batch, pendres_settled *out)
 {
   size_t count = 0, k = 0;
   pendres_status status = PENDRES_OK;

@@ -28,7 +28,7 @@ typedef struct pendres_lyapunov_motion {
   const pendres_pendulum *pendulum;
   double *x, *v;         /* starts; they become states at drive phase 0 that the pendulums are
                             in at the end, with the turns that they have made */
-  pendres_lyapunov *out; /* what they do, and ... */
+  pendres_settled *out; /* what they do, and ... */
   pendres_orbit *orbit;  /* ... the orbits that they have come to; of period 0 if to none */
   int points;            /* nothing else of orbits is wanted (orbits/orbit_pair.h) */
 } pendres_lyapunov_motion;

@@ -94,7 +94,7 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 {
   runner r = {.lane = *lane, .u = PENDRES_TANGENTS_BEGIN, .near = near, .next = LOOK_SOON,
               .open = pendres_escape_possible(lane->pendulum),
-              .before_y = lane->y, .before_w = lane->w,
+              .before_y = lane->y, .before_w = lane->w, .came = -1,
               .sure_y = lane->y, .sure_w = lane->w, .back = INFINITY};
   look_from(&r, lane);
   return r;

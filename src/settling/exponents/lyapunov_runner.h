@@ -42,6 +42,7 @@ typedef struct pendres_runner {
                           change where it goes; NaN: not known */
   double sure_y, sure_w; /* the last state before that was above 1, ... */
   double back;           /* ... and the smallest distance to that in averages */
+  long came;           /* the period at which it had come to an orbit, or escaped; -1: not known */
   long until;          /* the period at which its transient is over, or it has been followed */
   int followed;        /* after its transient */
   int open;            /* it may escape, */
@@ -87,7 +88,7 @@ double pendres_runner_extrapolate(pendres_runner *r, long batch);
 /* Whether a runner that has been averaged over this many periods is on such a rotation: its mean
    turns are known to `enough`. One whose mean is a fraction of small numbers is caught: it may be
    on its slow way to an orbit. */
-int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_lyapunov *out);
+int pendres_means_tell(pendres_runner *r, long periods, double enough, pendres_settled *out);
 
 /* Whether one that may be next to such a rotation is certainly on none: it is on chaos. */
 int pendres_means_scatter(const pendres_runner *r, long periods);
@@ -98,6 +99,6 @@ int pendres_means_scatter(const pendres_runner *r, long periods);
  * not agree is unresolved, and moves on.
  */
 pendres_status pendres_means_refine(pendres_context *ctx, size_t n, pendres_runner *runners,
-                                    long batch, pendres_lyapunov *out);
+                                    long batch, pendres_settled *out);
 
 #endif

@@ -23,7 +23,7 @@
 
 typedef pendres_lyapunov_job job;
 
-static const pendres_lyapunov unknown = {.label = PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
+static const pendres_settled unknown = {.label = PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
                                          .exponent_error = NAN, .rotation = NAN,
                                          .rotation_error = NAN};
 
@@ -89,6 +89,7 @@ static pendres_status tell_away(pendres_context *ctx, const job *j)
     r->state = PENDRES_RUNNER_DONE;
     j->out[i] = unknown;
     if (away) j->out[i].label = PENDRES_LABEL_ESCAPE;
+    if (away) r->came = r->lane.period;
   }
   return status;
 }
@@ -96,7 +97,7 @@ static pendres_status tell_away(pendres_context *ctx, const job *j)
 /* ---- linear forces ---- */
 
 /* All motions of a linear oscillator grow, or decay to one orbit, as Floquet's theory says. */
-static void take_linear(const pendres_linear *l, pendres_runner *r, pendres_lyapunov *out)
+static void take_linear(const pendres_linear *l, pendres_runner *r, pendres_settled *out)
 {
   r->state = PENDRES_RUNNER_DONE;
   r->doubt = 0.0;
@@ -106,7 +107,10 @@ static void take_linear(const pendres_linear *l, pendres_runner *r, pendres_lyap
     return;
   }
   *out = unknown;
-  if (l->fate == PENDRES_LINEAR_GROWS) out->label = PENDRES_LABEL_ESCAPE;
+  if (l->fate == PENDRES_LINEAR_GROWS) {
+    out->label = PENDRES_LABEL_ESCAPE;
+    r->came = 0;
+  }
   out->exponent = l->exponent;
   out->exponent_error = l->error;
 }
@@ -138,7 +142,7 @@ static pendres_status tell_unstable(pendres_context *ctx, const job *j)
   if (!undriven) return PENDRES_OK;
   pendres_room room = pendres_room_open(ctx, "lanes");
   pendres_strobe_lane *lanes = pendres_room_take(&room, j->n, sizeof *lanes);
-  pendres_outcome *outcome = pendres_room_take(&room, j->n, sizeof *outcome);
+  pendres_settled *outcome = pendres_room_take(&room, j->n, sizeof *outcome);
   pendres_orbit *state = pendres_room_take(&room, j->n, sizeof *state);
   pendres_status status = room.status;
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
@@ -170,7 +174,7 @@ static void tell_undriven(const job *j)
     if (!pendres_undriven_rotates(p, j->x[i], x) ||
         pendres_rotation_find(p, &found, NULL) != PENDRES_OK)
       continue;
-    j->out[i] = (pendres_lyapunov){
+    j->out[i] = (pendres_settled){
       .label = PENDRES_LABEL_RUNNING, .rotation = found.mean_velocity / p->drive_frequency,
       .rotation_error = found.mean_velocity_error / p->drive_frequency};
     r->state = PENDRES_RUNNER_DONE;
@@ -225,7 +229,7 @@ static void judge(const job *j, const round_of *now)
     const int by_table = !splits(j, r, now), roughly = !by_table && now->number == 0;
     const double weak = exponent_weak * fmax(1.0, 1.0 / r->lane.pendulum->drive_frequency);
     const int strong = chaotic && !(roughly && growth < weak);
-    j->out[i] = (pendres_lyapunov){
+    j->out[i] = (pendres_settled){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
       .rotation = turned, .rotation_error = turned_error};
@@ -471,7 +475,13 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
     if (now.number > 0) give_up(j, now.batch, 0);
     status = look(ctx, j, &now);
   }
-  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++)
-    j->out[i].certain = is_certain(&j->runner[i], j->out[i].label);
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    pendres_settled *out = &j->out[i];
+    out->certain = is_certain(&j->runner[i], out->label);
+    out->settling_periods = j->runner[i].came;
+    out->attractor = out->label == PENDRES_LABEL_ESCAPE     ? PENDRES_ATTRACTOR_ESCAPED
+                     : out->label == PENDRES_LABEL_UNSTABLE ? PENDRES_ATTRACTOR_UNSTABLE
+                                                            : PENDRES_ATTRACTOR_UNKNOWN;
+  }
   return status;
 }

@@ -85,7 +85,7 @@ static int watch(void *arg, size_t k, const pendres_strobe_lane *lane)
 }
 
 pendres_status pendres_settle_unstable(pendres_context *ctx, size_t n,
-                                       const pendres_strobe_lane *lanes, pendres_outcome *outcome,
+                                       const pendres_strobe_lane *lanes, pendres_settled *outcome,
                                        pendres_orbit *state)
 {
   resting r = {0};
@@ -112,7 +112,7 @@ pendres_status pendres_settle_unstable(pendres_context *ctx, size_t n,
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, r.n, r.copy, watch, &r);
   for (size_t k = 0; k < r.n && status == PENDRES_OK; k++) {
     if (!is_there(&r.orbit[k], &r.copy[k])) continue;
-    outcome[r.lane[k]] = (pendres_outcome){.label = PENDRES_LABEL_UNSTABLE,
+    outcome[r.lane[k]] = (pendres_settled){.label = PENDRES_LABEL_UNSTABLE,
                                            .attractor = PENDRES_ATTRACTOR_UNSTABLE,
                                            .settling_periods = -1,
                                            .certain = 1};

@@ -8,12 +8,12 @@
 
 #include "engine/strobe_run.h"
 
-static const pendres_outcome pendres_settle_unresolved = {
+static const pendres_settled pendres_settle_unresolved = {
   .label = PENDRES_LABEL_UNRESOLVED, .attractor = PENDRES_ATTRACTOR_UNKNOWN,
   .settling_periods = -1};
 
 /* Whether a lane is done: it is on an attractor, has escaped, or never leaves an unstable state. */
-static inline int pendres_settle_ended(const pendres_outcome *o)
+static inline int pendres_settle_ended(const pendres_settled *o)
 {
   return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
 }
@@ -25,7 +25,7 @@ static inline int pendres_settle_ended(const pendres_outcome *o)
  * labelled; may be NULL.
  */
 pendres_status pendres_settle_unstable(pendres_context *ctx, size_t n,
-                                       const pendres_strobe_lane *lanes, pendres_outcome *outcome,
+                                       const pendres_strobe_lane *lanes, pendres_settled *outcome,
                                        pendres_orbit *state);
 
 #endif
