@@ -17,7 +17,7 @@ shared=$(cd "$BUILD" && pwd)/libpendres.so
 # since a run writes to where a link leads. With their times: a page that is newer than what was made
 # of it has the program linked anew, under the feet of other checks.
 cp -rp examples input plots docs python "$scratch"
-for entry in .ci */ Makefile Doxyfile LICENSE CITATION.cff ./*.md ./*.map ./*.in; do
+for entry in .ci */ Makefile mkdocs.yml Doxyfile LICENSE CITATION.cff ./*.md ./*.map ./*.in; do
   entry=${entry%/}
   [ -e "$scratch/$entry" ] || ln -s "$PWD/$entry" "$scratch/$entry"
 done
@@ -95,6 +95,9 @@ try()
     './resonance input/duffing.nml')
       run "$1" "$2 --quiet --force"
       answers '^damping|^0|^cusp' || fail "README.md does not show what $2 prints" ;;
+    './resonance --init='*'>'*) run "$1" "$2" ;;
+    './resonance sweep.nml') run "$1" "$2 --quiet --force" ;; # of a fence below, written before
+    './resonance my.nml'*) run "$1" "$2 --quiet --force" ;;
     './resonance input/'*.nml)
       run "$1" "$2 --quiet --force $(settings_of "${2##*/}")" ;;
     './resonance input/'*.nml' '*=*) run "$1" "$2 --quiet --force" ;;
@@ -106,6 +109,7 @@ try()
     'resonance --merge deck.nml'*) run "$1" "$2" ; [ -s deck.h5 ] || fail "$1: no deck.h5" ;;
     'python3 plots/plot.py '*.h5) # plots_check draws each kind of run
       for file in ${2#*plot.py }; do
+        [ "$file" != my.h5 ] || continue # of a deck that was printed
         grep -q "input/${file%.h5}\.nml" "$1" || fail "$1: no command makes $file"
       done ;;
     'PYTHONPATH=python python3'*)
@@ -129,6 +133,16 @@ try()
     *) fail "$1 prints a command that is not tried: $2" ;;
   esac
 }
+
+# Decks in fences are read; the last of a page is there for its commands.
+for page in docs/*.md; do
+  awk -v page="$(basename "$page" .md)" '/^```/ { on = /fortran/; n += on; next }
+    on { print > ("fence-" page "-" n ".nml") }' "$page"
+done
+for deck in fence-*.nml; do
+  ! grep -q '^&scene' "$deck" || run "$deck" "resonance --dump-namelist $deck"
+done
+cp fence-lesson-1.nml sweep.nml
 
 computing=
 for candidate in "${PYTHON:-python3}" /usr/bin/python3; do
@@ -164,6 +178,7 @@ for deck in input/*.nml; do
   grep -q -e "\`${name%.nml}\`" -e "$deck" README.md docs/*.md || fail "no page tells of $deck"
 done
 for page in docs/*.md; do
+  grep -q ": ${page#docs/}\$" mkdocs.yml || fail "mkdocs.yml does not list $page"
   grep -q "(${page#docs/})" docs/README.md || [ "$page" = docs/README.md ] ||
     fail "docs/README.md does not list $page"
   for link in $(grep -o ']([^)#]*' "$page" | sed 's/^](//' | grep -v '^http'); do

@@ -1,13 +1,20 @@
-# documents.mk -- manuals, references and pictures: `make doc`, `man`, `decks-reference`,
+# documents.mk -- manuals, references and pictures: `make doc`, `docs`, `man`, `decks-reference`,
 # `results-reference`, `interface-list`, `python-stubs`, `figures`, `gallery`.
 
-.PHONY: doc python-stubs decks-reference results-reference interface-list figures gallery
+.PHONY: doc docs python-stubs decks-reference results-reference interface-list figures gallery
 
 doc:
 	@command -v doxygen >/dev/null || { echo 'make doc needs Doxygen (Debian: apt-get install' \
 	  'doxygen); without it, each header in include/pendres/ is its own manual' >&2; exit 1; }
 	@mkdir -p build
 	doxygen Doxyfile
+
+# Links out of docs/ lead nowhere there; they are for readers of the tree.
+docs:
+	@command -v mkdocs >/dev/null || { echo 'make docs needs MkDocs: make deps-doc' >&2; exit 1; }
+	@mkdir -p build
+	mkdocs build --quiet --clean --site-dir build/site
+	@echo 'build/site/index.html'
 
 man: $(PROGRAM)
 	@command -v help2man >/dev/null || { echo 'make man needs help2man (Debian: apt-get install' \
