@@ -354,33 +354,41 @@ static void cells(void **state)
 /* The shortest period that points repeat themselves with, and the turns that they take. */
 static void recurrences(void **state)
 {
-  double y[PENDRES_RECURRENCE_POINTS], w[PENDRES_RECURRENCE_POINTS];
-  pendres_recurrence r;
+  enum { N = PENDRES_RECURRENCE_POINTS };
+  const double turn = 2.0 * pi;
+  double y[N], w[N], later_y[N], later_w[N];
+  const pendres_recurrence all = {N, N, y, w}, one = {1, N, y, w};
+  const pendres_recurrence wrapped = {N + 40, N, later_y, later_w}; /* the same ones */
+  pendres_initial_guess r;
   (void)state;
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) {
     y[k] = 0.3 * (k % 3) - 2.0 * pi * k + pow(0.5, k);
     w[k] = 0.5 * (k % 3);
   }
-  assert_true(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
-  assert_int_equal(r.period, 3);
-  assert_int_equal(r.winding, -3);
-  assert_false(pendres_recurrence_find(1, 6.28318530717958647693, y, w, &r));
+  for (int k = 0; k < N; k++) {
+    later_y[(k + 40) % N] = y[k];
+    later_w[(k + 40) % N] = w[k];
+  }
+  for (int way = 0; way < 2; way++) {
+    assert_true(pendres_recurrence_find(way == 0 ? &all : &wrapped, turn, &r));
+    assert_int_equal(r.period, 3);
+    assert_int_equal(r.winding, -3);
+    assert_true(r.y == y[N - 1] && r.w == w[N - 1]);
+  }
+  assert_false(pendres_recurrence_find(&one, turn, &r));
   /* Of a long period only what comes back very closely: here by 1e-3, not by 0.1. */
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) {
     y[k] = 0.0;
     w[k] = k % 50 + 2e-5 * k;
   }
-  assert_true(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
+  assert_true(pendres_recurrence_find(&all, turn, &r));
   assert_int_equal(r.period, 50);
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) w[k] = k % 50 + 2e-3 * k;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w,
-                                       &r));
+  assert_false(pendres_recurrence_find(&all, turn, &r));
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) w[k] = k;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w,
-                                       &r));
+  assert_false(pendres_recurrence_find(&all, turn, &r));
   w[PENDRES_RECURRENCE_POINTS - 1] = NAN;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w,
-                                       &r));
+  assert_false(pendres_recurrence_find(&all, turn, &r));
 }
 
 /*

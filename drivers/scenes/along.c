@@ -48,9 +48,6 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, req
     status = pendres_attractors_point_find(ctx, set, chosen, &point);
     out->orbit.x = point.x;
     out->orbit.v = point.v;
-    if (status == PENDRES_NOT_FOUND)
-      snprintf(r->why, r->size, "no start is found that leads to the chaotic attractor '%s': give "
-               "one by 'x' and 'v'", start);
   } else if (status != PENDRES_OK) {
     char list[100];
     list_labels(set, list, sizeof list);

@@ -170,13 +170,10 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
 
 /**
  * A point at drive phase 0 on attractor number i of a set of one parameter set: that of a closed
- * orbit, one of a rotation, or of a chaotic attractor the state of a start that leads to it, once
- * that has settled.
- * 256 starts are tried, spread evenly over one turn and speeds up to 2. *out is written on
- * PENDRES_OK.
+ * orbit, one of a rotation, or of a chaotic attractor a state of one of the pendulums that have
+ * told it. *out is written on PENDRES_OK.
  *
- * Errors: PENDRES_INVALID_ARGUMENT; PENDRES_NOT_FOUND if no start leads to a chaotic attractor;
- * otherwise those of pendres_attractors_settle(). Thread safety: as for the context.
+ * Errors: PENDRES_INVALID_ARGUMENT. Thread safety: as for the context.
  */
 pendres_status pendres_attractors_point_find(pendres_context *ctx, const pendres_attractors *set,
                                              size_t i, pendres_state *out);

@@ -44,7 +44,7 @@ static double node(int k)
 static long fading(const pendres_attractor_set *c)
 {
   const double contracts = pendres_equation_shrinking(&c->pendulum);
-  return (long)fmin(ceil(exponent_forgets / contracts) + 1.0, settle_last_most);
+  return (long)fmin(ceil(exponent_forgets / contracts) + 1.0, settle_first_most);
 }
 
 /* ---- the curve ---- */

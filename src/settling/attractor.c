@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "settling/attractor_internal.h"
-#include "base/angles.h"
+#include "base/numbers.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
@@ -14,7 +14,6 @@
 #include "engine/kernels/coordinates.h"
 #include "model/equation.h"
 #include "model/model.h"
-#include "settling/numbers.h"
 
 enum { BATCH_SETS = 64 /* parameter sets worked on at a time */ };
 
@@ -219,32 +218,19 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
 static pendres_status attractors_point(pendres_context *ctx, const pendres_attractors *set,
                                        size_t i, pendres_state *out)
 {
-  double x[GUESS_CHAOS], v[GUESS_CHAOS];
-  pendres_settled outcome[GUESS_CHAOS];
   if (set == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractors and out");
   const pendres_attractor *a = pendres_attractors_get(set, i);
-  if (a == NULL)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "there is no attractor %zu", i);
-  if (a->label != PENDRES_LABEL_CHAOTIC) {
-    *out = (pendres_state){a->orbit.x, a->orbit.v};
-    return PENDRES_OK;
+  if (a == NULL || set->sets != 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "there is no attractor %zu of one parameter set", i);
+  const pendres_attractor_set *c = set->attractor_sets;
+  *out = (pendres_state){a->orbit.x, a->orbit.v};
+  for (size_t k = 0; k < c->covers; k++) {
+    const pendres_coordinates at = {.y = c->cover[k]->y, .w = c->cover[k]->w};
+    if (c->cover[k]->attractor == (int)i)
+      pendres_coordinates_out(&c->pendulum, &at, &out->x, &out->v);
   }
-  for (int k = 0; k < GUESS_CHAOS; k++) {
-    /* The two-dimensional golden ratio. */
-    x[k] = pi * (2.0 * fmod(0.5 + 0.7548776662466927 * k, 1.0) - 0.5);
-    v[k] = 4.0 * fmod(0.5 + 0.5698402909980532 * k, 1.0) - 2.0;
-  }
-  pendres_status status = attractors_settle(ctx, set, GUESS_CHAOS, x, v, outcome);
-  if (status != PENDRES_OK) return status;
-  for (int k = 0; k < GUESS_CHAOS; k++) {
-    double error;
-    if (outcome[k].attractor != (int)i) continue;
-    status = pendres_strobe_advance(ctx, 1, &set->attractor_sets[0].pendulum, &x[k], &v[k],
-                                    outcome[k].settling_periods, &error);
-    if (status == PENDRES_OK) *out = (pendres_state){x[k], v[k]};
-    return status;
-  }
-  return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no start is found that leads to it");
+  return PENDRES_OK;
 }
 
 pendres_status pendres_attractors_point_find(pendres_context *ctx, const pendres_attractors *set,

@@ -30,6 +30,7 @@ typedef struct pendres_cover {
   double w_most;                 /* cells span |w| <= w_most, and all angles */
   double span;                   /* width of the cells in y together, about 0; 0: a whole turn */
   double mean_y, mean_w;         /* over the attractor */
+  double y, w;                   /* one of its states */
   unsigned char cell[PENDRES_COVER_CELLS][PENDRES_COVER_CELLS];
 } pendres_cover;
 

@@ -12,7 +12,6 @@
 #include "model/model.h"
 #include "settling/exponents/growth.h"
 #include "settling/numbers.h"
-#include "settling/recurrence.h"
 #include "settling/settle_lanes.h"
 
 /* ---- replicas that are followed ---- */
@@ -62,6 +61,8 @@ static pendres_cover *create_cover(const pendres_pendulum *p, const ensemble *v)
       cover->mean_w += share * w;
     }
   widen(cover, v);
+  cover->y = v->a[0].y;
+  cover->w = v->a[0].w;
   return cover;
 }
 
@@ -164,23 +165,14 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_attractor_set *c
 {
   pendres_initial_guess guesses[PENDRES_MOST_GUESSES];
   size_t n = 0;
-  const long points = v->trace.filled < PENDRES_RECURRENCE_POINTS ? v->trace.filled
-                                                                  : PENDRES_RECURRENCE_POINTS;
   *settled = 0;
   for (size_t i = 0; i < REPLICAS; i++) {
-    double y[PENDRES_RECURRENCE_POINTS], w[PENDRES_RECURRENCE_POINTS];
-    pendres_recurrence r;
+    const pendres_recurrence r = {v->trace.filled, KEPT, v->y + i * KEPT, v->w + i * KEPT};
+    pendres_initial_guess guess;
     if (!(v->batch[i][v->batches - 1][PENDRES_REPLICA_GROWTH] < 0.0)) continue;
-    for (long k = 0; k < points; k++) {
-      const size_t at = i * KEPT + (size_t)((v->trace.filled - points + k) % KEPT);
-      y[k] = v->y[at];
-      w[k] = v->w[at];
-    }
-    if (!pendres_recurrence_find((int)points, pendres_model_turn(&c->pendulum), y, w, &r)) continue;
+    if (!pendres_recurrence_find(&r, pendres_model_turn(&c->pendulum), &guess)) continue;
     ++*settled;
-    if (n < PENDRES_MOST_GUESSES)
-      guesses[n++] = (pendres_initial_guess){.y = r.y, .w = r.w, .period = r.period,
-                                             .winding = r.winding};
+    if (n < PENDRES_MOST_GUESSES) guesses[n++] = guess;
   }
   return pendres_attractor_set_add(ctx, c, n, guesses);
 }

@@ -10,15 +10,11 @@
 /* ---- where orbits are looked for ---- */
 
 enum {
-  /* Positions across the turn of a pendulum, or across a well, each at rest and moving either
-     way. */
+  /* Positions across the turn of a pendulum, or across a well, each at rest and moving either way;
+     and as many of the pendulums of a parameter set, which are integrated before the others. */
   GUESS_ACROSS = 12,
   /* Places in a unit of length of a force at which wells are searched for. */
-  GUESS_FINENESS = 64,
-  /* Pendulums of a parameter set that are integrated before the others, to find what attracts. */
-  GUESS_PENDULUMS = 12,
-  /* Starts from which one is looked for that goes to a chaotic attractor. */
-  GUESS_CHAOS = 256
+  GUESS_FINENESS = 64
 };
 
 /* Guesses closer than this lead to the same orbit, so one of them is enough. */

@@ -15,15 +15,17 @@ static double least(const double *distance, int first, int last)
   return closest;
 }
 
-int pendres_recurrence_find(int points, double turn, const double *y, const double *w,
-                            pendres_recurrence *out)
+int pendres_recurrence_find(const pendres_recurrence *r, double turn, pendres_initial_guess *out)
 {
-  double distance[LONGEST_PERIOD + 1];
-  const int now = points - 1, longest = now < LONGEST_PERIOD ? now : LONGEST_PERIOD;
+  double distance[LONGEST_PERIOD + 1], advance[LONGEST_PERIOD + 1];
+  const long points = r->filled < r->length ? r->filled : r->length;
+  const int longest = points - 1 < LONGEST_PERIOD ? (int)points - 1 : LONGEST_PERIOD;
   const int few = longest < RECURRENCE_SHORT ? longest : RECURRENCE_SHORT;
+  const long now = (r->filled - 1) % r->length;
   for (int q = 1; q <= longest; q++) {
-    const double dy = pendres_less_turns(y[now] - y[now - q], turn);
-    distance[q] = hypot(dy, w[now] - w[now - q]);
+    const long then = (r->filled - 1 - q) % r->length;
+    advance[q] = r->y[now] - r->y[then];
+    distance[q] = hypot(pendres_less_turns(advance[q], turn), r->w[now] - r->w[then]);
   }
   double closest = least(distance, 1, few);
   const double far = least(distance, few + 1, longest);
@@ -36,8 +38,8 @@ int pendres_recurrence_find(int points, double turn, const double *y, const doub
   if (!(closest < recurrence_near)) return 0;
   for (int q = first; q <= longest; q++) {
     if (!(distance[q] <= fmax(recurrence_as_close * closest, orbit_same_point))) continue;
-    *out = (pendres_recurrence){.y = y[now], .w = w[now], .period = q,
-                                .winding = (int)rint((y[now] - y[now - q]) / turn)};
+    *out = (pendres_initial_guess){.y = r->y[now], .w = r->w[now], .period = q,
+                                   .winding = (int)rint(advance[q] / turn)};
     return 1;
   }
   return 0;

@@ -3,9 +3,6 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/angles.h"
 #include "engine/accuracy.h"
@@ -31,14 +28,14 @@ static pendres_status send_guesses(pendres_context *ctx, size_t sets,
   size_t count = 0;
   pendres_room room = pendres_room_open(ctx, "guesses");
   pendres_initial_guess *guesses =
-    pendres_room_take(&room, sets * (GUESS_PENDULUMS + BOTTOMS), sizeof *guesses);
+    pendres_room_take(&room, sets * (GUESS_ACROSS + BOTTOMS), sizeof *guesses);
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   for (size_t first = 0, last; first < n; first = last) {
     last = first;
     while (last < n && set[last] == set[first]) last++;
     if (attractor_sets[set[first]].grows) continue;
     const size_t members = last - first;
-    const size_t wanted = members < GUESS_PENDULUMS ? members : GUESS_PENDULUMS;
+    const size_t wanted = members < GUESS_ACROSS ? members : GUESS_ACROSS;
     for (size_t k = 0; k < wanted; k++) {
       const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
       guesses[count++] = (pendres_initial_guess){.set = set[first], .y = l->y, .w = l->w};
@@ -86,25 +83,17 @@ static pendres_status load_batch(pendres_context *ctx, const pendres_attractor_s
 {
   const double exact = pendres_accuracy_to_settle(ctx), rough = pendres_accuracy_to_settle_soon();
   pendres_status status = PENDRES_OK;
-  size_t before = SIZE_MAX; /* the latest one; of starts as fast as that the steps are the same */
-  double speed = NAN, last;
   for (size_t i = 0; i < from->n && status == PENDRES_OK; i++) {
     const pendres_attractor_set *c = &attractor_sets[from->set[i]];
     const pendres_pendulum *p = &c->pendulum;
+    const double x = from->x[i], v = from->v[i];
     if (pendres_settle_ended(&outcome[i]) && outcome[i].certain) continue;
     outcome[i] = pendres_settle_unresolved;
-    last = speed;
-    speed = pendres_steps_speed(p, from->x[i], from->v[i]);
     const int roughly = soon && is_plain(p);
-    if (before != SIZE_MAX && from->set[i] == from->set[before] && speed == last) {
-      lanes[i] = pendres_settle_load_like(&lanes[before], from->x[i], from->v[i]);
-    } else {
-      status =
-        pendres_settle_load(ctx, c, from->x[i], from->v[i], roughly ? rough : exact, &lanes[i]);
-      if (roughly)
-        pendres_strobe_noise_choose(speed, pendres_strobe_noise_fastest(ctx, p), rough, &lanes[i]);
-    }
-    before = i;
+    status = pendres_settle_load(ctx, c, x, v, roughly ? rough : exact, &lanes[i]);
+    if (roughly)
+      pendres_strobe_noise_choose(pendres_steps_speed(p, x, v),
+                                  pendres_strobe_noise_fastest(ctx, p), rough, &lanes[i]);
   }
   return status;
 }
@@ -204,29 +193,6 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
 
 /* ---- many pendulums of one parameter set ---- */
 
-enum { SPEEDS = 4096 /* places of the table of steps, a power of 2 */ };
-
-/* The steps chosen for speeds so far: the pendulums of a grid have few different speeds. */
-typedef struct speed_table {
-  double speed[SPEEDS];
-  int steps[SPEEDS]; /* 0: empty */
-} speed_table;
-
-static pendres_status steps_of(pendres_context *ctx, const pendres_pendulum *p, double speed,
-                               double accuracy, speed_table *t, int *steps)
-{
-  uint64_t bits;
-  memcpy(&bits, &speed, sizeof bits);
-  const size_t place = (size_t)((bits * UINT64_C(0x9e3779b97f4a7c15)) >> 52) % SPEEDS;
-  pendres_status status = PENDRES_OK;
-  if (t->steps[place] == 0 || t->speed[place] != speed) {
-    status = pendres_steps_choose(ctx, p, speed, accuracy, &t->steps[place]);
-    t->speed[place] = speed;
-  }
-  *steps = t->steps[place];
-  return status;
-}
-
 /* Put pendulums into the order of their numbers of steps, and of their own numbers. */
 static void order_by_steps(size_t n, const pendres_strobe_lane *lanes, size_t *order)
 {
@@ -241,66 +207,32 @@ static void order_by_steps(size_t n, const pendres_strobe_lane *lanes, size_t *o
   }
 }
 
-/* Put the pendulums of one parameter set at their starts, and choose their steps. */
-static pendres_status load_all(pendres_context *ctx, const pendres_attractor_set *c,
-                               const pendres_settle_starts *starts, double accuracy,
-                               pendres_settle_budget budget, pendres_strobe_lane *lanes)
+/* Settle those pendulums of one parameter set that are unresolved, from their starts. */
+static pendres_status settle_some(pendres_context *ctx, const pendres_settle_labelling *l,
+                                  const pendres_settle_starts *from, double accuracy, int soon,
+                                  pendres_strobe_lane *lanes)
 {
-  const pendres_pendulum *p = &c->pendulum;
+  const pendres_pendulum *p = &l->attractor_sets->pendulum;
+  const double fastest = soon ? pendres_strobe_noise_fastest(ctx, p) : -1.0;
+  size_t count = 0;
   pendres_status status = PENDRES_OK;
-  const double fastest =
-    budget == PENDRES_SETTLE_SHORT ? pendres_strobe_noise_fastest(ctx, p) : -1.0;
-  const double driven = pendres_settle_driven(c);
-  double added = 0.0;
-  speed_table *table = calloc(1, sizeof *table);
-  if (table == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a table of steps");
-  for (size_t i = 0; i < starts->n && status == PENDRES_OK; i++) {
-    const double x = starts->x[i], v = starts->v[i];
-    pendres_strobe_lane *lane = &lanes[i];
-    *lane = pendres_strobe_lane_at(p, x, v);
-    const double speed = fmax(driven, pendres_steps_speed(p, x, v));
-    status = steps_of(ctx, p, speed, accuracy, table, &lane->steps);
-    if (i == 0 || lane[-1].steps != lane->steps)
-      added = pendres_settle_added(ctx, accuracy, lane->steps);
-    lane->added = added;
-    lane->way = pendres_strobe_way(ctx, p);
-    pendres_strobe_noise_choose(speed, fastest, accuracy, lane);
+  for (size_t i = 0; i < from->n && status == PENDRES_OK; i++) {
+    if (pendres_settle_ended(&l->outcome[i])) continue;
+    status = pendres_settle_load(ctx, l->attractor_sets, from->x[i], from->v[i], accuracy,
+                                 &lanes[i]);
+    pendres_strobe_noise_choose(pendres_steps_speed(p, from->x[i], from->v[i]), fastest, accuracy,
+                                &lanes[i]);
+    l->error_ratio[i] = NAN;
+    count++;
   }
-  free(table);
-  return status;
-}
-
-/*
- * Pendulums that have settled nowhere are integrated as exactly as attractors are looked for. Where
- * they become much faster than they start, the steps of a picture may be too long for what they
- * settle on.
- */
-static pendres_status settle_left(pendres_context *ctx, const pendres_attractor_set *attractor_set,
-                                  const pendres_settle_starts *starts, double accuracy,
-                                  pendres_settled *outcome)
-{
-  const double exact = pendres_accuracy_to_settle(ctx);
-  size_t left = 0;
-  if (!(accuracy > exact) || !pendres_settle_carries(ctx)) return PENDRES_OK;
-  for (size_t i = 0; i < starts->n; i++) left += !pendres_settle_ended(&outcome[i]);
-  if (left == 0) return PENDRES_OK;
-  pendres_room room = pendres_room_open(ctx, "pendulums");
-  double *x = pendres_room_take(&room, left, sizeof *x);
-  double *v = pendres_room_take(&room, left, sizeof *v);
-  pendres_settled *now = pendres_room_take(&room, left, sizeof *now);
-  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  for (size_t i = 0, k = 0; i < starts->n; i++)
-    if (!pendres_settle_ended(&outcome[i])) {
-      x[k] = starts->x[i];
-      v[k++] = starts->v[i];
-    }
-  const pendres_settle_starts again = {.n = left, .x = x, .v = v};
-  const pendres_status status =
-    pendres_settle_known(ctx, attractor_set, &again, exact, PENDRES_SETTLE_FULL, now);
-  for (size_t i = 0, k = 0; i < starts->n && status == PENDRES_OK; i++)
-    if (!pendres_settle_ended(&outcome[i])) outcome[i] = now[k++];
-  return pendres_room_close(&room, status);
+  if (count == 0 || status != PENDRES_OK) return status;
+  order_by_steps(from->n, lanes, l->order);
+  pendres_settle_labelling job = *l;
+  status = pendres_settle_lanes(ctx, from->n, lanes, &job);
+  if (status == PENDRES_OK)
+    status = pendres_settle_unstable(ctx, from->n, lanes, l->outcome, NULL);
+  ctx->cost.settled_pendulums += (double)count;
+  return status == PENDRES_OK ? pendres_settle_certain(ctx, l, from, accuracy) : status;
 }
 
 pendres_status pendres_settle_known(pendres_context *ctx,
@@ -309,29 +241,24 @@ pendres_status pendres_settle_known(pendres_context *ctx,
                                     pendres_settle_budget budget, pendres_settled *outcome)
 {
   const size_t n = starts->n;
-  pendres_room room = pendres_room_open(ctx, "pendulums");
-  size_t *order = pendres_room_take(&room, n, sizeof *order);
-  pendres_strobe_lane *lanes = pendres_room_take(&room, n, sizeof *lanes);
-  double *error_ratio = pendres_room_take(&room, n, sizeof *error_ratio);
-  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  pendres_status status = load_all(ctx, attractor_set, starts, accuracy, budget, lanes);
-  if (status != PENDRES_OK) return pendres_room_close(&room, status);
-  order_by_steps(n, lanes, order);
-  for (size_t i = 0; i < n; i++) {
-    outcome[i] = pendres_settle_unresolved;
-    error_ratio[i] = NAN;
-  }
+  const double exact = pendres_accuracy_to_settle(ctx);
+  const int soon = budget == PENDRES_SETTLE_SHORT;
   long most = pendres_settle_last_budget(ctx, attractor_set);
-  const long soon = pendres_settle_first_budget(&attractor_set->pendulum);
-  if (budget == PENDRES_SETTLE_SHORT && soon < most) most = soon;
-  pendres_settle_labelling l = {.attractor_sets = attractor_set, .order = order, .budget = &most,
-                                .outcome = outcome, .error_ratio = error_ratio};
-  status = pendres_settle_lanes(ctx, n, lanes, &l);
-  if (status == PENDRES_OK)
-    status = pendres_settle_unstable(ctx, n, lanes, outcome, NULL);
-  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &l, starts, accuracy);
-  ctx->cost.settled_pendulums += (double)n;
-  if (status == PENDRES_OK && budget == PENDRES_SETTLE_FULL)
-    status = settle_left(ctx, attractor_set, starts, accuracy, outcome);
+  const long first = pendres_settle_first_budget(&attractor_set->pendulum);
+  if (soon && first < most) most = first;
+  pendres_room room = pendres_room_open(ctx, "pendulums");
+  pendres_strobe_lane *lanes = pendres_room_take(&room, n, sizeof *lanes);
+  const pendres_settle_labelling l = {
+    .attractor_sets = attractor_set, .order = pendres_room_take(&room, n, sizeof *l.order),
+    .budget = &most, .outcome = outcome,
+    .error_ratio = pendres_room_take(&room, n, sizeof *l.error_ratio)};
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  for (size_t i = 0; i < n; i++) outcome[i] = pendres_settle_unresolved;
+  pendres_status status = settle_some(ctx, &l, starts, accuracy, soon, lanes);
+  /* Those that have settled nowhere are integrated as exactly as attractors are looked for. Where
+     they become much faster than they start, the steps of a picture may be too long for what they
+     settle on. */
+  if (status == PENDRES_OK && !soon && accuracy > exact && pendres_settle_carries(ctx))
+    status = settle_some(ctx, &l, starts, exact, soon, lanes);
   return pendres_room_close(&room, status);
 }

@@ -40,7 +40,7 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_attrac
   const double most = settle_last_some + settle_last_times * pendres_model_settling(&c->pendulum) +
                       settle_least * fmin(slowest, settle_slowest) +
                       settle_times * fmin(c->transient, settle_slowest);
-  return (long)ceil(fmin(most, settle_last_most));
+  return (long)ceil(fmin(most, settle_last_times / settle_times * settle_first_most));
 }
 
 double pendres_settle_driven(const pendres_attractor_set *c)

@@ -41,7 +41,7 @@ typedef struct pendres_settle_starts {
 /* Arrays are by the numbers of lanes. */
 typedef struct pendres_settle_labelling {
   const pendres_attractor_set *attractor_sets;
-  const size_t *order;      /* numbers of the lanes in the order in which they run; NULL: as they
+  size_t *order;            /* numbers of the lanes in the order in which they run; NULL: as they
                                are numbered */
   const size_t *set;        /* of each lane; NULL: all belong to the first set of attractors */
   long *budget;             /* of each set, periods in all */

@@ -9,26 +9,6 @@
 #include "model/model.h"
 #include "settling/annulus_find.h"
 #include "settling/chaos.h"
-#include "settling/recurrence.h"
-
-/* Guess the orbit that a pendulum with this history is near; 0 if it does not come back. */
-static int recurrence(const pendres_settle_history *h, double turn, pendres_initial_guess *s)
-{
-  double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY];
-  pendres_recurrence r;
-  const long points = h->filled < PENDRES_SETTLE_HISTORY ? h->filled : PENDRES_SETTLE_HISTORY;
-  for (long k = 0; k < points; k++) {
-    const long at = (h->filled - points + k) % PENDRES_SETTLE_HISTORY;
-    y[k] = h->y[at];
-    w[k] = h->w[at];
-  }
-  if (!pendres_recurrence_find((int)points, turn, y, w, &r)) return 0;
-  s->y = r.y;
-  s->w = r.w;
-  s->period = r.period;
-  s->winding = r.winding;
-  return 1;
-}
 
 /* The pendulums of a batch that have not settled so far: they are called lost here. */
 typedef struct lost_lanes {
@@ -78,10 +58,11 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
   for (size_t i = 0; i < l->count; i++) {
     if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
     if (!searched(l, i) || l->histories[i].filled == 0) continue;
-    l->guesses[n].set = l->set[i];
+    const pendres_settle_history *h = &l->histories[i];
+    const pendres_recurrence r = {h->filled, PENDRES_SETTLE_HISTORY, h->y, h->w};
     const double turn = pendres_model_turn(&attractor_sets[l->set[i]].pendulum);
-    if (in_set < PENDRES_MOST_GUESSES && recurrence(&l->histories[i], turn, &l->guesses[n])) {
-      n++;
+    if (in_set < PENDRES_MOST_GUESSES && pendres_recurrence_find(&r, turn, &l->guesses[n])) {
+      l->guesses[n++].set = l->set[i];
       in_set++;
     }
   }

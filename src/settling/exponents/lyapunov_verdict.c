@@ -362,7 +362,7 @@ static double speed_of(const pendres_strobe_lane *lane)
 static pendres_status split(pendres_context *ctx, pendres_runner *r, double accuracy)
 {
   r->lane.way = PENDRES_FLOW_SPLIT;
-  r->near = fmin(r->near, caught_in_chaos);
+  r->near = fmin(r->near, caught_closer * caught_close_by); /* points come back by chance */
   return pendres_steps_choose_split(ctx, r->lane.pendulum, speed_of(&r->lane), accuracy,
                                     &r->lane.steps);
 }

@@ -15,8 +15,9 @@ enum {
   BATCHES = 16
 };
 
-/* Budgets have these bounds, which only dampings below 1e-6 meet. */
-static const double settle_first_most = 1e7, settle_last_most = 1e8;
+/* A first budget has this bound, and a last one as many times that as it is longer: only dampings
+   below 1e-6 meet it. */
+static const double settle_first_most = 1e7;
 
 /* What takes longer is not waited for: the slowest orbit, or rest that is hardly unstable. */
 static const double settle_slowest = 1e4;
@@ -91,9 +92,6 @@ enum {
    Each time that an orbit has turned out not to attract it, as the unstable one beside a fold does
    not, it must come closer, by the second factor. */
 static const double caught_close_by = 1e-4, caught_closer = 0.1;
-
-/* The same where it may be chaotic: there points come back by chance. */
-static const double caught_in_chaos = 1e-5;
 
 /* Copies of a pendulum that are caught this close to each other are next to the same orbit. */
 static const double caught_same_place = 1e-3;
