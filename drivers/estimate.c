@@ -71,11 +71,10 @@ static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 static double estimate_journal(const deck *d, const farm_trial *t)
 {
   const int partly = t->path > 0.0 && t->path < 1.0;
-  const double states = partly ? farm_states(t->seconds / runs_of(d)) : 0.0;
+  const double bytes = size_of(d)->journal * points_of(d) + 8.0 * values_of(d);
   if (t->what == NULL) return t->journal;
   if (t->journal > 0.0 && !partly) return t->journal * size_of(d)->stages;
-  return runs_of(d) * (1.0 + states) *
-         (size_of(d)->journal * points_of(d) + 8.0 * values_of(d));
+  return runs_of(d) * (bytes + (partly ? farm_states(t->seconds / runs_of(d), bytes) : 0.0));
 }
 
 /* How many times longer points take than at the usual damping, in the mean. */

@@ -388,13 +388,83 @@ static void no_room(void **state)
   journal_close(j);
 }
 
+static off_t size_now(void)
+{
+  struct stat s;
+  assert_int_equal(stat(path, &s), 0);
+  return s.st_size;
+}
+
+static void put_state(journal *j, uint64_t task, size_t size, unsigned char fill)
+{
+  char words[JOURNAL_WORDS];
+  farm_record r = { 0 };
+  unsigned char *data = farm_record_resize(&r, size);
+  assert_non_null(data);
+  memset(data, fill, size);
+  check_ok(journal_append(j, 7, task | JOURNAL_STATE, &r, words));
+  assert_string_equal(words, "");
+  free(r.data);
+}
+
+static void check_state(journal *j, uint64_t task, size_t size, unsigned char fill)
+{
+  farm_record r = { 0 };
+  check_ok(journal_read(j, 7, task | JOURNAL_STATE, &r));
+  assert_int_equal(r.size, size);
+  for (size_t k = 0; k < size; k++) assert_int_equal(((const unsigned char *)r.data)[k], fill);
+  free(r.data);
+}
+
+/* Forty states of a path, each larger than the one before, 8.2 MB together: those that are outdated
+   take no more than what counts, and a megabyte. Whatever the file is when the run is killed, all
+   that counts is in it; of a task that has come to its end no state is. */
+static void states_that_are_outdated(void **state)
+{
+  enum { STATES = 40, EACH = 10000 };
+  const int first = (int)(JOURNAL_HEAD + strlen(head)), entry = (int)sizeof(journal_entry);
+  char words[JOURNAL_WORDS];
+  journal *j = NULL;
+  off_t most = 0;
+  (void)state;
+  write_all(path);
+  const off_t records = size_now() - first;
+  save("run.journal.new", (const unsigned char *)"what a kill left", 16);
+  check_ok(journal_open(path, head, 1, &j, words));
+  put_state(j, 1, 100, 7); /* of another task, which goes on */
+  for (int i = 1; i <= STATES; i++) {
+    put_state(j, 0, (size_t)i * EACH, (unsigned char)i);
+    const off_t counts = first + records + 2 * entry + 100 + i * EACH, size = size_now();
+    assert_true(size <= 2 * counts + (1 << 20));
+    most = size > most ? size : most;
+  }
+  assert_true((double)most > 0.7 * (2.0 * STATES * EACH + (1 << 20)));
+  assert_int_equal(journal_states(j), 2);
+  for (int again = 0; again < 2; again++) {
+    check_state(j, 0, (size_t)STATES * EACH, STATES);
+    check_state(j, 1, 100, 7);
+    assert_int_equal(check_records(j), RECORDS);
+    assert_true(journal_alone(j));
+    journal_close(j);
+    check_ok(journal_open(path, head, 1, &j, words));
+    assert_string_equal(words, "");
+  }
+  assert_int_equal(access("run.journal.new", F_OK), -1);
+  farm_record r = make(3);
+  check_ok(journal_append(j, 7, 0, &r, words));
+  free(r.data);
+  assert_int_equal(journal_states(j), 1);
+  assert_int_equal(journal_read(j, 7, JOURNAL_STATE, &r), PENDRES_NOT_FOUND);
+  journal_remove(j);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(comes_back), cmocka_unit_test(replaced_meanwhile),
     cmocka_unit_test(another_head), cmocka_unit_test(cut_anywhere),
     cmocka_unit_test(flipped_bits), cmocka_unit_test(forged_numbers), cmocka_unit_test(several),
-    cmocka_unit_test(no_room),
+    cmocka_unit_test(no_room), cmocka_unit_test(states_that_are_outdated),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }

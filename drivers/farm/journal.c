@@ -1,11 +1,10 @@
 /* journal.c -- records of finished tasks on disk; see journal.h. */
-#define _XOPEN_SOURCE 700 /* fdatasync, tsearch */
+#define _XOPEN_SOURCE 700 /* fdatasync */
 #define _DEFAULT_SOURCE   /* flock */
 #include "farm/journal.h"
 
 #include <errno.h>
 #include <pthread.h>
-#include <search.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,13 +18,6 @@
 #include "system/file.h"
 #include "system/grow.h"
 
-/* The position of a record. */
-typedef struct slot {
-  uint64_t stage, task;
-  size_t file; /* number of the file that holds the record */
-  off_t at;    /* of its head */
-} slot;
-
 struct journal {
   char *path;
   char *head;
@@ -35,10 +27,8 @@ struct journal {
   } *file;          /* the first is written to */
   size_t files, room;
   off_t end;        /* of the first */
-  void *index;      /* a tree of slots, which takes no more memory than there are records, whatever
-                       their numbers are */
-  size_t count;
-  size_t own, states; /* records in the first file, and states, those that are outdated too */
+  journal_index index;
+  size_t own;       /* records in the first file */
   int locked;       /* the first, by this process */
   int broken;       /* nothing more is written to it */
   int named;        /* the user has named the folder: journals of others count */
@@ -49,54 +39,6 @@ struct journal {
   pthread_mutex_t lock; /* guards the file and, once threads append to it, the index */
 };
 
-/* ---- the index ----------------------------------------------------------------------------- */
-
-static int compare(const void *one, const void *other)
-{
-  const slot *a = one, *b = other;
-  if (a->stage != b->stage) return a->stage < b->stage ? -1 : 1;
-  return (a->task > b->task) - (a->task < b->task);
-}
-
-/* A record may be there twice: both have the same bytes. Of states the last counts. */
-static pendres_status note(journal *j, size_t file, const journal_entry *e, off_t at)
-{
-  slot *s = malloc(sizeof *s);
-  const int state = (e->task & JOURNAL_STATE) != 0;
-  if (s == NULL) return PENDRES_OUT_OF_MEMORY;
-  *s = (slot){ e->stage, e->task, file, at };
-  slot **found = tsearch(s, &j->index, compare);
-  if (found == NULL) {
-    free(s);
-    return PENDRES_OUT_OF_MEMORY;
-  }
-  j->states += state && file == 0;
-  if (*found == s) {
-    j->count += !state;
-    return PENDRES_OK;
-  }
-  **found = *s;
-  free(s);
-  return PENDRES_OK;
-}
-
-static void drop_index(journal *j)
-{
-  while (j->index != NULL) {
-    slot *s = *(slot **)j->index; /* of the root */
-    (void)tdelete(s, &j->index, compare);
-    free(s);
-  }
-}
-
-static const slot *find(const journal *j, uint64_t stage, uint64_t task)
-{
-  const slot wanted = { .stage = stage, .task = task };
-  if (j == NULL) return NULL;
-  slot *const *found = tfind(&wanted, &j->index, compare);
-  return found != NULL ? *found : NULL;
-}
-
 uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t record_size)
 {
   char text[200];
@@ -106,7 +48,7 @@ uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t re
 
 const char *journal_place(const journal *j, uint64_t stage, uint64_t task)
 {
-  const slot *s = find(j, stage, task);
+  const journal_slot *s = index_find(&j->index, stage, task);
   return s != NULL ? j->file[s->file].name : NULL;
 }
 
@@ -114,14 +56,14 @@ int journal_has(journal *j, uint64_t stage, uint64_t task)
 {
   if (j == NULL) return 0;
   pthread_mutex_lock(&j->lock);
-  const int has = find(j, stage, task) != NULL;
+  const int has = index_find(&j->index, stage, task) != NULL;
   pthread_mutex_unlock(&j->lock);
   return has;
 }
 
 size_t journal_count(const journal *j)
 {
-  return j->count;
+  return j->index.count;
 }
 
 size_t journal_own(const journal *j)
@@ -131,7 +73,7 @@ size_t journal_own(const journal *j)
 
 size_t journal_states(const journal *j)
 {
-  return j->states;
+  return j->index.states;
 }
 
 const char *journal_path(const journal *j)
@@ -164,8 +106,7 @@ static pendres_status load(journal *j, size_t file, off_t *end)
 {
   journal_entry e;
   for (off_t at = *end; journal_file_next(j->file[file].fd, at, &e); at = *end) {
-    const pendres_status status = note(j, file, &e, at);
-    if (status != PENDRES_OK) return status;
+    if (!index_note(&j->index, file, &e, at)) return PENDRES_OUT_OF_MEMORY;
     *end = at + (off_t)(sizeof e + e.stored);
   }
   return PENDRES_OK;
@@ -291,7 +232,7 @@ static pendres_status load_own(journal *j, char *words)
 {
   const pendres_status status = load(j, 0, &j->end);
   const off_t dropped = size_of(j->file[0].fd) - j->end;
-  j->own = j->count;
+  j->own = j->index.count;
   if (status != PENDRES_OK || dropped <= 0) return status;
   if (ftruncate(j->file[0].fd, j->end) != 0)
     return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
@@ -329,7 +270,7 @@ static void let_go(journal *j)
     close(j->file[i].fd);
     free(j->file[i].name);
   }
-  drop_index(j);
+  index_free(&j->index);
   free(j->file);
   free(j->head);
   free(j->path);
@@ -381,22 +322,87 @@ pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORD
 
 /* ---- records ------------------------------------------------------------------------------- */
 
-pendres_status journal_read(journal *j, uint64_t stage, uint64_t task, farm_record *record)
+static pendres_status read_record(const journal *j, uint64_t stage, uint64_t task,
+                                  farm_record *record)
 {
   journal_entry e;
-  pthread_mutex_lock(&j->lock);
-  const slot *found = find(j, stage, task), s = found != NULL ? *found : (slot){ 0 };
-  pthread_mutex_unlock(&j->lock);
-  if (found == NULL) return PENDRES_NOT_FOUND;
-  const int fd = j->file[s.file].fd;
-  if (!journal_file_entry(fd, s.at, &e) || e.size > SIZE_MAX / 2) return PENDRES_IO;
+  const journal_slot *s = index_find(&j->index, stage, task);
+  if (s == NULL) return PENDRES_NOT_FOUND;
+  const int fd = j->file[s->file].fd;
+  if (!journal_file_entry(fd, s->at, &e) || e.size > SIZE_MAX / 2) return PENDRES_IO;
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, (size_t)e.size) == NULL) return PENDRES_OUT_OF_MEMORY;
   record->cost = (pendres_cost){ e.cost[0], e.cost[1], e.cost[2], e.cost[3], e.cost[4] };
-  if (journal_file_data(fd, s.at, &e, record->data)) return PENDRES_OK;
+  if (journal_file_data(fd, s->at, &e, record->data)) return PENDRES_OK;
   free(record->data);
   record->data = NULL;
   return PENDRES_IO;
+}
+
+/* The file stays the same one until all is read: threads that append may replace it. */
+pendres_status journal_read(journal *j, uint64_t stage, uint64_t task, farm_record *record)
+{
+  pthread_mutex_lock(&j->lock);
+  const pendres_status status = read_record(j, stage, task, record);
+  pthread_mutex_unlock(&j->lock);
+  return status;
+}
+
+/* What counts of the first file, in its order, goes behind the head of another one; to < 0: that is
+   done, and the index learns the places. 0 on failure. */
+static int move_live(journal *j, int to, off_t *end)
+{
+  const int from = j->file[0].fd;
+  journal_entry e;
+  *end = JOURNAL_HEAD + (off_t)strlen(j->head);
+  for (off_t at = *end, length; at < j->end; at += length) {
+    if (!journal_file_entry(from, at, &e)) return 0;
+    length = (off_t)(sizeof e + e.stored);
+    journal_slot *s = index_find(&j->index, e.stage, e.task);
+    if (s == NULL || s->file != 0 || s->at != at) continue;
+    if (to < 0) s->at = *end;
+    else if (!journal_file_copy(from, at, to, *end, length)) return 0;
+    *end += length;
+  }
+  return 1;
+}
+
+/* The first file again without states that count no more, under its name: what is killed meanwhile
+   leaves the one that was there. The lock keeps others from doing the same. */
+static int replace_own(journal *j, const char *name)
+{
+  char words[FILE_WORDS];
+  off_t end = 0;
+  const int old = j->file[0].fd, fd = file_open(name, FILE_OWN, 0, words);
+  if (fd < 0) return 0;
+  file_like(fd, j->path);
+  const int whole = ftruncate(fd, 0) == 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 &&
+                    journal_file_begin(fd, j->head, &end) && move_live(j, fd, &end) &&
+                    fsync(fd) == 0 && file_is(old, j->path) && rename(name, j->path) == 0;
+  if (!whole) {
+    (void)file_remove(fd, name);
+    close(fd);
+    return 0;
+  }
+  (void)move_live(j, -1, &end);
+  close(old);
+  j->file[0].fd = fd;
+  j->end = end;
+  return 1;
+}
+
+/* States that count no more take at most as much as all that counts, and a little. Where they
+   cannot be left out they stay, until there are as many again. */
+static void compact(journal *j)
+{
+  const size_t size = strlen(j->path) + sizeof ".new";
+  const off_t counts = j->end - j->index.dead;
+  char *name = j->locked && j->index.dead >= counts + JOURNAL_DEAD ? malloc(size) : NULL;
+  if (name == NULL) return;
+  snprintf(name, size, "%s.new", j->path);
+  (void)replace_own(j, name);
+  free(name);
+  j->index.dead = 0;
 }
 
 /* Under the lock. */
@@ -422,7 +428,9 @@ static pendres_status append(journal *j, uint64_t stage, uint64_t task, const fa
     (void)fdatasync(j->file[0].fd);
     j->synced = clock_wall();
   }
-  return note(j, 0, &e, at);
+  if (!index_note(&j->index, 0, &e, at)) return PENDRES_OUT_OF_MEMORY;
+  compact(j);
+  return PENDRES_OK;
 }
 
 pendres_status journal_append(journal *j, uint64_t stage, uint64_t task, const farm_record *record,
@@ -446,7 +454,7 @@ void journal_stay(journal *j)
 void journal_close(journal *j)
 {
   if (j == NULL) return;
-  if (j->own + j->states == 0 && !j->stays) (void)file_remove(j->file[0].fd, j->path);
+  if (j->own + j->index.states == 0 && !j->stays) (void)file_remove(j->file[0].fd, j->path);
   else if (j->dirty) (void)fsync(j->file[0].fd);
   let_go(j);
 }

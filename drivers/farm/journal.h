@@ -4,12 +4,13 @@
  * Owns: the journal's file, to which data are only appended: a head that identifies the deck and
  * the code of the records, then records, each with its stage, task, length and checksums. A run
  * that is killed while it writes a record leaves an incomplete one, which is dropped when the
- * journal is opened again.
+ * journal is opened again. States that have become outdated are left out now and then: what is
+ * there is copied into a file PATH.new, which takes the name.
  */
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
-#include "farm/journal_file.h"
+#include "farm/index.h"
 #include "farm/record.h"
 
 typedef struct journal journal;
@@ -37,8 +38,8 @@ pendres_status journal_open(const char *path, const char *head, journal_from fro
    conditions. Errors and words as for journal_open; PENDRES_NOT_FOUND: there is none. */
 pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORDS]);
 
-/* Finished tasks that are there; those in the own file among them; states of unfinished ones that
-   were appended to it; its name. */
+/* Finished tasks that are there; those in the own file among them; unfinished ones whose states are
+   in it; its name. */
 size_t journal_count(const journal *j);
 size_t journal_own(const journal *j);
 size_t journal_states(const journal *j);
@@ -51,10 +52,6 @@ int journal_alone(const journal *j);
 /* The number of a stage in a journal: its ordinal, with a checksum of its name, the number of its
    tasks and the size of their records. */
 uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t record_size);
-
-/* To be added to the number of a task: the state of one that is not finished, of which the last
-   that was appended counts. It is no finished task. */
-#define JOURNAL_STATE (UINT64_C(1) << 63)
 
 /* The name of the file that holds a record; NULL: none. */
 const char *journal_place(const journal *j, uint64_t stage, uint64_t task);

@@ -111,6 +111,18 @@ int journal_file_data(int fd, off_t at, const journal_entry *e, void *data)
   return e->data_sum == journal_file_sum(data, stored);
 }
 
+int journal_file_copy(int from, off_t at, int to, off_t end, off_t length)
+{
+  unsigned char *piece = malloc(PIECE);
+  int whole = piece != NULL;
+  for (off_t n; whole && length > 0; at += n, end += n, length -= n) {
+    n = length < PIECE ? length : PIECE;
+    whole = bytes_read(from, at, piece, (size_t)n) && bytes_write(to, end, piece, (size_t)n);
+  }
+  free(piece);
+  return whole;
+}
+
 /* The data are not kept: only their sum counts. */
 int journal_file_next(int fd, off_t at, journal_entry *e)
 {

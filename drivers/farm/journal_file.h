@@ -58,6 +58,9 @@ int journal_file_data(int fd, off_t at, const journal_entry *e, void *data);
 /* Is there a whole record at `at`? */
 int journal_file_next(int fd, off_t at, journal_entry *e);
 
+/* Copy bytes from one file to another; 0 on failure. */
+int journal_file_copy(int from, off_t at, int to, off_t end, off_t length);
+
 /* Write a record; 0 on failure, see errno. */
 int journal_file_append(int fd, off_t at, journal_entry *e, const void *data);
 

@@ -20,6 +20,9 @@ enum {
   WAIT_PATIENCE = 1000,
   /* More than a scene has, so that stages of different slices have different numbers. */
   FARM_SLICE_STAGES = 1000000,
+  /* Bytes of outdated states that a journal may hold beside as many as it has of what counts: to
+     write it anew then takes no longer than they have taken. */
+  JOURNAL_DEAD = 1 << 20,
   JOURNAL_ATTEMPTS = 100, /* how often it may be removed or replaced between two checks */
   POINTS_BEFORE = 8,      /* a point is costly beside the mean of these at least */
   LOOK_EVERY = 20         /* milliseconds, at what threads do */

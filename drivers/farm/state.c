@@ -16,12 +16,14 @@ static int due(void *arg, double done)
   return trial == NULL && s->journal != NULL && clock_wall() >= s->next;
 }
 
-/* States grow as the work does, first every half second, then by a tenth from one to the next. */
-double farm_states(double seconds)
+/* States grow as the work does, first every half second, then by a tenth from one to the next; the
+   journal leaves out what there is of them beside twice the last one, and a little. */
+double farm_states(double seconds, double bytes)
 {
   const double even = state_every / state_share; /* seconds */
-  if (seconds < even) return 0.5 * seconds / state_every;
-  return 1.0 / state_share * (1.0 - 0.5 * even / seconds);
+  const double times = seconds < even ? 0.5 * seconds / state_every
+                                      : 1.0 / state_share * (1.0 - 0.5 * even / seconds);
+  return fmin(times * bytes, 2.0 * bytes + JOURNAL_DEAD);
 }
 
 void farm_tell_unkept(farm *f, pthread_mutex_t *lock, const char *words)

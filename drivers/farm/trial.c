@@ -100,7 +100,8 @@ static pendres_status try_task(stage_trial *s, size_t task)
     s->paths += (size_t)path;
     s->count += (size_t)!path;
     tally *of = path ? &s->of_paths : &s->of_others;
-    of->bytes += (double)stored_bytes(&record) * (path ? 1.0 + farm_states(seconds) : 1.0);
+    const double bytes = (double)stored_bytes(&record);
+    of->bytes += bytes + (path ? farm_states(seconds, bytes) : 0.0);
     of->changes += (double)changes_in(&record, c->stage->element);
     of->cost.pendulum_periods += record.cost.pendulum_periods;
     of->cost.settled_pendulums += record.cost.settled_pendulums;

@@ -14,8 +14,9 @@
 
 #include "farm/farm.h"
 
-/* How many times a record's size the states take in the journal of a path that takes so long. */
-double farm_states(double seconds);
+/* Bytes that the states of a path take in the journal that takes so long, beside its record of
+   `bytes`. */
+double farm_states(double seconds, double bytes);
 
 typedef struct farm_trial {
   double few, most;    /* processor seconds: after `few` no further task of a stage is begun, after
