@@ -77,19 +77,24 @@ static double estimate_journal(const deck *d, const farm_trial *t)
   return runs_of(d) * (bytes + (partly ? farm_states(t->seconds / runs_of(d), bytes) : 0.0));
 }
 
-/* How many times longer points take than at the usual damping, in the mean. */
-static double slowness(const deck *d)
+/* How many times longer points take than at the usual damping, in the mean. *beyond: some would
+   take longer than the most that is known of their kind. */
+static double slowness(const deck *d, int *beyond)
 {
   const deck_axis *a = &d->axis[DECK_AXIS_DAMPING];
   const size_t n = a->count > 0 ? a->count : 1;
-  const double most = size_of(d)->slowest > 0.0 ? size_of(d)->slowest : slowest;
+  const scene_size *s = size_of(d);
+  const double most = s->searched > 0.0  ? s->searched / s->seconds
+                      : s->slowest > 0.0 ? s->slowest : slowest;
   const double unit = deck_pendulum_units(d).time;
   double sum = 0.0;
   for (size_t i = 0; i < n; i++) {
     pendres_pendulum p = d->pendulum;
     if (a->count > 0) p.damping = a->value[i];
     const double damping = unit * pendres_pendulum_decay_rate(&p);
-    sum += damping > 0.0 ? fmin(fmax(usual_damping / damping, 1.0), most) : 1.0;
+    const double times = damping > 0.0 ? fmax(usual_damping / damping, 1.0) : 1.0;
+    sum += fmin(times, most);
+    *beyond |= s->searched > 0.0 && times > most;
   }
   return sum / (double)n;
 }
@@ -135,9 +140,13 @@ static void print_time(const deck *d, const farm_trial *t, int threads, FILE *ou
   const int unknown = t->cut || (t->what != NULL && t->tried == 0);
   const double factor = t->what == NULL ? 1.0 : r->after;
   const double seen = program_seconds + t->outside + factor * t->seconds;
-  const double seconds =
-    unknown ? fmax(seen, runs_of(d) * r->seconds * points_of(d) * slowness(d)) : seen;
-  fprintf(out, "time      %s ", t->cut && !t->members && seconds == seen ? "at least" : "about");
+  const double points = runs_of(d) * points_of(d);
+  int beyond = 0;
+  const double rule = points * r->seconds * slowness(d, &beyond);
+  const double most = r->searched > 0.0 ? fmax(points * r->searched, t->spent) : INFINITY;
+  const double seconds = unknown ? fmin(fmax(seen, rule), most) : seen;
+  const int least = unknown && (beyond || (t->cut && !t->members && seconds == seen));
+  fprintf(out, "time      %s ", least ? "at least" : "about");
   print_seconds(seconds, out);
   fputs(" of processor time", out);
   if (threads > 1) {

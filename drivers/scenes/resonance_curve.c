@@ -212,6 +212,6 @@ const scene_kind scene_resonance_curve = {
   .references = "; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 (1999) 2067",
   .budget = 1,
   .size = {.head = 32e3, .point = 240.0, .memory = 2e3, .stages = 1.0, .after = 1.0, .members = 1,
-           .seconds = 0.02},
+           .seconds = 0.02, .searched = 20.0},
   .describe = describe,
   .run = run_scene};

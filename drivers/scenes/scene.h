@@ -26,6 +26,9 @@ typedef struct scene_more {
 typedef struct scene_size {
   double head, point, memory, stages, after, seconds;
   double slowest;              /* how many times longer points take at most, at weak damping */
+  double searched;             /* seconds of a point whose search a budget of work ends, whatever
+                                  its members; at weaker damping than makes that many it takes
+                                  longer; 0: nothing is searched for */
   double journal;              /* bytes a point where not even one task can be tried */
   int members;                 /* each point has the deck's ensemble, of which some can be tried */
   double (*points)(const deck *d); /* where they are not those of the deck's axes */
