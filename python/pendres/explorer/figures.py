@@ -52,7 +52,7 @@ class Plot:
         self.figure.toolbar.logo = None
         self.figure.xaxis.axis_label_text_font_style = "normal"
         self.figure.yaxis.axis_label_text_font_style = "normal"
-        self._sources, self._image, self._bar = {}, None, None
+        self._sources, self._image, self._bar, self._names = {}, None, None, None
         if clicked is not None:
             self.figure.on_event(Tap, lambda event: clicked(event.x, event.y))
         if ranged is not None:
@@ -121,12 +121,16 @@ class Plot:
             for its in (self.figure.x_range, self.figure.y_range):
                 if not isinstance(its, Range1d):
                     its.range_padding = 0
+            if labelled:
+                self._bar.ticker = FixedTicker()
         mapper = self._bar.color_mapper
-        if labelled:
+        if labelled and names != self._names:
+            # Not another ticker: Bokeh would look through the whole page for models that are gone.
             mapper.update(palette=palette, low=-0.5, high=len(names) - 0.5)
-            self._bar.ticker = FixedTicker(ticks=list(range(len(names))))
+            self._bar.ticker.ticks = list(range(len(names)))
             self._bar.major_label_overrides = dict(enumerate(names))
-        else:
+            self._names = names
+        elif not labelled:
             finite = value[np.isfinite(value)]
             low, high = (finite.min(), finite.max()) if finite.size else (0, 1)
             mapper.update(low=float(low), high=float(high if high > low else low + 1))

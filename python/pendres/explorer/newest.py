@@ -12,12 +12,13 @@ class Newest:
     as something newer is asked for; its results are not shown.
 
     show(result) and fail(sentence) are called through `deliver`, which takes them to the thread of
-    the page. What takes long `wait`s some seconds, so that what is quick has the processor first.
+    the page. What takes long `wait`s some seconds, so that what is quick has the processor first, or
+    rests for some after its first result.
     """
 
-    def __init__(self, deliver, show, fail, wait=0.0):
+    def __init__(self, deliver, show, fail, wait=0.0, rest=0.0):
         self._deliver, self._show, self._fail = deliver, show, fail
-        self._wait = wait
+        self._wait, self._rest = wait, rest
         self._wanted = None            # what nobody works on yet
         self._ended = False
         self._change = threading.Condition()
@@ -50,10 +51,13 @@ class Newest:
                 if self._wait and self._change.wait_for(self._stale, self._wait):
                     continue
             try:
-                for result in steps(context):
+                for number, result in enumerate(steps(context)):
                     if self._stale():
                         break
                     self._deliver(self._show, result)
+                    if self._rest and number == 0:
+                        with self._change:
+                            self._change.wait_for(self._stale, self._rest)
             except INTERRUPTED:
                 pass
             except Exception as why:  # pylint: disable=broad-except

@@ -23,6 +23,9 @@ PLOTS = {  # figure: its title and axes
 # Views whose figure is computed while its tab is open; the others always.
 TABS = ("basins", "diagram", "current", "noise")
 SLOW = ("current", "noise")  # told that it is on its way
+# Seconds for which they leave the processor to what is quick.
+PATIENCE = {"basins": {"rest": 0.2}, "diagram": {"wait": 0.2}, "current": {"wait": 0.2},
+            "noise": {"wait": 0.2}}
 DEPENDS = {  # beside what all depend on: the oscillator
     "motion": {"x", "v"}, "response": {"lowest", "highest"}, "basins": set(),
     "diagram": {"x", "v", "along", "first", "last"}, "current": {"x", "v"}, "noise": set(),
@@ -57,7 +60,7 @@ class Page:
                         for name in views.VIEWS}
         self.workers = {name: Newest(self._deliver, lambda found, name=name: self._show(name, found),
                                      lambda why, name=name: self._failed(name, why),
-                                     wait=0.2 if name in TABS else 0.0)
+                                     **PATIENCE.get(name, {}))
                         for name in views.VIEWS}
         self.tabs = pn.Tabs(*((name, self._panel(name)) for name in TABS),
                             sizing_mode="stretch_width",
@@ -148,6 +151,11 @@ class Page:
     # ---- What is shown ------------------------------------------------------------------------
 
     def _show(self, view, found):
+        """All at once: each change by itself would be a message, and a redrawing, of its own."""
+        with pn.io.unlocked():
+            self._show_now(view, found)
+
+    def _show_now(self, view, found):
         several = zip(("trace", "portrait", "loop"), found) if view == "motion" else [(view, found)]
         for name, picture in several:
             self.plots[name].draw(picture)
