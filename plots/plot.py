@@ -13,7 +13,7 @@ import os
 import re
 import sys
 
-BESIDE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "python", "pendres")
+BESIDE = os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "python", "pendres")
 try:
     import matplotlib
 

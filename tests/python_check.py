@@ -561,6 +561,9 @@ def test_plot():
     assert dict(matplotlib.rcParams) == before
     assert "no 'sise'" in raised(TypeError, pendres.plot, data, sise=1)
     assert "file is gone" in raised(FileNotFoundError, pendres.plot, 3)
+    line = pendres.lyapunov_map(damping=[0.5], drive_amplitude=[1.0, 1.15], drive_frequency=2 / 3)
+    assert line.lyapunov.dims == ("damping", "drive_amplitude") and line.lyapunov.shape == (1, 2)
+    assert len(pendres.plot(line).axes) == 1
     for start in ("sa", "la"):  # where one state exists it is meant
         lone = pendres.hysteresis(force=[1, 0, 1], damping=0.1, drive_amplitude=0.3, start=start,
                                   drive_frequency=[1.2, 1.21])

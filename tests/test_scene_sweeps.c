@@ -303,7 +303,7 @@ static void wrong_decks(void **state)
      "'x' is not used"},
     {HYSTERESIS "&sweep drive_period = 7, 8 /\n&hysteresis x = 1 /\n", "give 'drive_frequency'"},
     {"&scene kind = 'lyapunov_map' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
-     "&sweep drive_amplitude = 0.7, 0.8 /\n", "a map has two axes"},
+     "&sweep drive_amplitude = 0.7 /\n", "a map has two axes"},
     {"&scene kind = 'response' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
      "&sweep drive_amplitude = 0.7, 0.8, torque = 0, 1, a1 = 1, 2 /\n", "has no coefficient 'a1'"},
     {"&scene kind = 'response' /\n&pendulum drive_amplitude = 1 /\n"

@@ -56,6 +56,17 @@ static int find_moving(const deck *d, deck_axis_id *axis)
   return n;
 }
 
+/* A map over one parameter: damping, or the drive's amplitude, is an axis with its one value. */
+static int add_single(const deck *d, deck_axis_id *axis)
+{
+  const int of_damping = axis[0] == DECK_AXIS_DAMPING;
+  const deck_axis_id other = of_damping ? DECK_AXIS_DRIVE_AMPLITUDE : DECK_AXIS_DAMPING;
+  if (d->axis[other].count != 1) return 1;
+  axis[1] = axis[0];
+  axis[of_damping] = other;
+  return 2;
+}
+
 /*
  * The parameters in &sweep other than damping and the drive's frequency or period (the clock),
  * then damping, then the clock. Where the clock has a single value, the last of the other
@@ -84,7 +95,8 @@ int deck_axes(const deck *d, deck_axis_id axis[DECK_AXES])
   deck_axis_id all[DECK_AXIS_COUNT];
   int n = 0;
   if (layout == DECK_MOVING) n = find_moving(d, all);
-  else if (layout != DECK_NO_AXES) n = find_plane(d, all);
+  if (layout == DECK_MOVING && n == 1 && deck_kind_of(d->kind)->least > 1) n = add_single(d, all);
+  if (layout != DECK_MOVING && layout != DECK_NO_AXES) n = find_plane(d, all);
   for (int i = 0; i < n && i < DECK_AXES; i++) axis[i] = all[i];
   return n;
 }

@@ -243,8 +243,21 @@ def draw_phase_diagram(h, path):
     return fig
 
 
+def draw_lyapunov_curve(h, along):
+    """The exponent over one parameter, where the other one has a single value."""
+    x, below = parameter_axis(h, h[along], along)
+    exponent, text = exponent_axis(h, "largest Lyapunov exponent")
+    fig, ax = figure(h, 2.7)
+    ax.axhline(0, color="0.7", lw=0.8)
+    ax.plot(x, np.ravel(exponent), ".-", ms=3, lw=0.6)
+    ax.set(xlabel=below, ylabel=text, xlim=around(x, 0.02))
+    return fig
+
+
 def draw_lyapunov_map(h, path):
     rows, columns = h.axis_of("lyapunov", 0), h.axis_of("lyapunov", 1)
+    if 1 in h["lyapunov"].shape:
+        return draw_lyapunov_curve(h, columns if len(h[rows]) == 1 else rows)
     across, below = parameter_axis(h, h[columns], columns)
     up, beside = parameter_axis(h, h[rows], rows)
     (exponent, text), period = exponent_axis(h, "largest Lyapunov exponent"), h["period"]
