@@ -18,7 +18,7 @@
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
 #   make deps-python   what the Python package needs; make deps-plots, what plots need; make
 #                   deps-fuzz, what make fuzz needs; make deps-explorer, the explorer and its test;
-#                   make deps-doc, what make doc, docs and man need
+#                   make deps-doc, what make doc, docs and man need; make deps-wheel, for make wheel
 #   make doc        reference manual from the public headers, with doxygen
 #   make docs       the pages of docs/ as a site with a search, with MkDocs, into build/site
 #   make man        man/resonance.1 anew, with help2man: for a release, and when options change
@@ -100,7 +100,7 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-doc docs deps-explorer deps-fuzz deps-mpi fuzz deps-plots deps-python clean uninstall doc \
+BUILDING := $(filter-out deps deps-doc deps-wheel docs deps-explorer deps-fuzz deps-mpi fuzz deps-plots deps-python clean uninstall doc \
               style gallery sdist wheel help,$(GOALS))
 
 ifneq ($(BUILDING),)

@@ -21,14 +21,29 @@ case $top in
 esac
 mkdir -p "$work" "$dist"
 
-# quiet LOG COMMAND...: what it says is shown where it failed.
+# Before anything is fetched: what is missing.
+need()
+{
+  for tool in cmake gcc make pkg-config dpkg-source; do
+    command -v "$tool" >/dev/null || missing="${missing:-} $tool"
+  done
+  for file in Random123/philox.h zlib.h; do
+    echo "#include <$file>" | gcc -E - >/dev/null 2>&1 || missing="${missing:-} $file"
+  done
+  [ -z "${missing:-}" ] || {
+    echo "wheel.sh: not found:$missing; on Debian and Ubuntu: make deps-wheel" >&2; exit 1; }
+}
+
+# quiet LOG COMMAND...: what it says is shown where it failed, and that it has begun.
 quiet()
 {
   log=$work/$1.log
+  echo "wheel.sh: $1 ..." >&2
   shift
   "$@" >"$log" 2>&1 || { tail -n 30 "$log" >&2; echo "wheel.sh: failed: $*" >&2; exit 1; }
 }
 
+[ "${1:-wheel}" = sdist ] || need
 python=$work/venv/bin/python
 [ -x "$python" ] && "$python" -c 'import auditwheel' 2>/dev/null || {
   quiet venv "${PYTHON:-python3}" -m venv "$work/venv"

@@ -1,7 +1,7 @@
 # packages.mk -- what this needs of others, `make deps` and its like, and what others take of it,
 # `make sdist` and `make wheel`.
 
-.PHONY: deps deps-doc deps-explorer deps-mpi deps-fuzz deps-plots deps-python sdist wheel
+.PHONY: deps deps-doc deps-wheel deps-explorer deps-mpi deps-fuzz deps-plots deps-python sdist wheel
 
 sdist wheel:
 	@packaging/wheel.sh $@
@@ -13,6 +13,7 @@ PACKAGES := gcc make pkg-config libc6-dev $(if $(SUNDIALS_DIR),,libsundials-dev)
 MPI_PACKAGES := openmpi-bin libopenmpi-dev
 PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
 FUZZ_PACKAGES := clang libclang-rt-dev
+WHEEL_PACKAGES := cmake dpkg-dev gcc librandom123-dev make pkg-config python3-venv zlib1g-dev
 DOC_PACKAGES := doxygen help2man mkdocs
 PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
 EXPLORER_PACKAGES := python3-venv chromium
@@ -29,6 +30,9 @@ deps-plots:
 
 deps-doc:
 	@.ci/packages $(DOC_PACKAGES)
+
+deps-wheel:
+	@.ci/packages $(WHEEL_PACKAGES)
 
 deps-fuzz:
 	@.ci/packages $(FUZZ_PACKAGES)
