@@ -87,6 +87,11 @@ static void surveys(pendres_context *ctx, int *failed)
     INVALID(pendres_switching_find(ctx, s, 1, &t, &rates, energy));
     INVALID(pendres_switching_choose_steps(ctx, s, 0, &steps));
     INVALID(pendres_switching_follow(ctx, s, t, 0, &tally));
+    pendres_escapes *ways = NULL;
+    INVALID(pendres_escapes_find(ctx, NULL, 0, i == 0 ? NULL : &ways));
+    assert_int_equal(pendres_escapes_count(ways), 0);
+    assert_null(pendres_escapes_get(ways, 0));
+    pendres_escapes_free(ways);
     INVALID(pendres_switching_depth(ctx, NULL, 0, i == 0 ? NULL : &depth));
     INVALID(pendres_switching_conclude(s, t, &tally, &rates));
     INVALID(pendres_switching_activate(s, 1, &rates, energy));

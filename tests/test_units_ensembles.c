@@ -126,6 +126,22 @@ static void ask_noise(const problem *q)
   NOTE(linear.covariance.vv, 2, -2);
   NOTE(linear.monodromy[1], 0, 1);
   NOTE(linear.monodromy[2], 0, -1);
+  pendres_escapes *ways = NULL;
+  if (pendres_escapes_find(q->ctx, set, 0, &ways) == PENDRES_OK) {
+    const pendres_escape *w = pendres_escapes_get(ways, 0);
+    const size_t m = w->points / 2;
+    NOTE(w->saddle_x, 1, 0);
+    NOTE(w->saddle.x, 1, 0);
+    NOTE(w->action, 2, -2);
+    NOTE(w->action_error, 2, -2);
+    NOTE(w->phase[m], 0, 0);
+    NOTE(w->x[m], 1, 0);
+    NOTE(w->v[m], 1, -1);
+    NOTE(w->momentum_x[m], 1, -2);
+    NOTE(w->momentum_v[m], 1, -1);
+    NOTE(w->noise[m], 1, -2);
+  }
+  pendres_escapes_free(ways);
   const pendres_cloud_request request = {.set = set, .temperature = 1e-5 * energy,
                                          .trajectories = 16, .record = 4};
   check_ok(pendres_cloud_find(q->ctx, &request, &cloud, NULL, NULL));

@@ -38,6 +38,7 @@
 #include <pendres/hysteresis.h>
 #include <pendres/lyapunov.h>
 #include <pendres/dimension.h>
+#include <pendres/escape.h>
 #include <pendres/spectrum.h>
 #include <pendres/phase_diagram.h>
 #include <pendres/boundary.h>

@@ -144,6 +144,20 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
   *slope = fma(by, y, sum);
 }
 
+double pendres_model_bend(const pendres_pendulum *p, double y)
+{
+  const double *a = p->force_coefficients, h = 0x1p-13 * (1.0 + fabs(y));
+  double sum = 0.0, force, right, left;
+  if (p->force == PENDRES_FORCE_PENDULUM) return -sin(y);
+  if (p->force == PENDRES_FORCE_POLYNOMIAL) {
+    for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 1; i--) sum = fma(sum, y, i * (i + 1) * a[i]);
+    return sum;
+  }
+  pendres_forces_at(p->force, a, y + h, &force, &right);
+  pendres_forces_at(p->force, a, y - h, &force, &left);
+  return 0.5 * (right - left) / h;
+}
+
 /* Powers of a force with a coefficient. */
 static int powers(const pendres_pendulum *p)
 {

@@ -32,6 +32,9 @@ const char *pendres_model_check(const pendres_pendulum *p);
 /* f at y, without parametric drive, and its derivative. */
 void pendres_model_force(const pendres_pendulum *p, double y, double *force, double *slope);
 
+/* f's second derivative, of another force but pendulum and polynomial by differences: to 1e-8. */
+double pendres_model_bend(const pendres_pendulum *p, double y);
+
 /*
  * The period of the coordinate: y and y + turn are the same. Where it has none this is so large
  * that y - turn rint(y / turn) is always y.

@@ -70,6 +70,6 @@ extern const pendres_dimensions pendres_dim_pendulum, pendres_dim_state, pendres
   pendres_dim_boundary_options, pendres_dim_window, pendres_dim_statistics,
   pendres_dim_langevin_request, pendres_dim_cloud, pendres_dim_bias, pendres_dim_linear,
   pendres_dim_covariance, pendres_dim_whole_cloud, pendres_dim_tally, pendres_dim_rate,
-  pendres_dim_activation, pendres_dim_free_oscillation;
+  pendres_dim_activation, pendres_dim_escape, pendres_dim_free_oscillation;
 
 #endif

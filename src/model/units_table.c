@@ -228,6 +228,8 @@ RECORD(rate, pendres_switching_rate, V(exposure, TIME), V(value, RATE), V(error,
        V(lower, RATE), V(upper, RATE), V(mean_time, TIME), V(mean_time_error, TIME));
 
 /* But for the logarithm of a rate. */
+RECORD(escape, pendres_escape, PART(pendres_escape, saddle, orbit),
+       ROW(pendres_escape, saddle_x, POSITION), ROWS(pendres_escape, action, ENERGY));
 RECORD(activation, pendres_switching_activation,
        ROWS(pendres_switching_activation, energy, ENERGY),
        OWN(pendres_switching_activation, temperature));

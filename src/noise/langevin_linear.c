@@ -112,6 +112,34 @@ static int is_resolved(const pendres_pendulum *p, int cycle, const pendres_lange
   return fabs(ad - bc - want) <= linear_resolved * (1.0 + fabs(ad) + fabs(bc));
 }
 
+/* The theory with enough steps, and with twice as many: the status is that of their clouds. */
+static pendres_status resolve(const pendres_pendulum *p, double x, double v, int cycle,
+                              pendres_langevin_linear *coarse, pendres_langevin_linear *out)
+{
+  const double fastest = fmax(1.0, pendres_pendulum_decay_rate(p));
+  const double unit = two_pi / p->drive_frequency * fastest;
+  const double fewest = fmin(PENDRES_MOST_STEPS, ceil(linear_steps * unit));
+  double steps = fewest;
+  if (!(cycle * steps <= PENDRES_MOST_SOLVER_STEPS)) return PENDRES_TOLERANCE_UNREACHABLE;
+  pendres_status status = theory(p, x, v, cycle, (int)steps, coarse);
+  while (!is_resolved(p, cycle, coarse)) {
+    steps *= 2.0;
+    if (!(cycle * steps <= PENDRES_MOST_SOLVER_STEPS && steps <= linear_most_doubling * fewest))
+      return PENDRES_TOLERANCE_UNREACHABLE;
+    status = theory(p, x, v, cycle, (int)steps, coarse);
+  }
+  const pendres_status finer = theory(p, x, v, cycle, (int)(2.0 * steps), out);
+  return status != PENDRES_OK ? status : finer;
+}
+
+pendres_status pendres_noise_cycle(const pendres_pendulum *p, double x, double v, int cycle,
+                                   pendres_langevin_linear *out)
+{
+  pendres_langevin_linear coarse;
+  const pendres_status status = resolve(p, x, v, cycle, &coarse, out);
+  return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
+}
+
 static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, double v,
                                     int cycle, pendres_langevin_linear *out)
 {
@@ -119,19 +147,7 @@ static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, 
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
       pendres_coordinates_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
-  const double fastest = fmax(1.0, pendres_pendulum_decay_rate(pendulum));
-  const double unit = two_pi / pendulum->drive_frequency * fastest;
-  const double fewest = fmin(PENDRES_MOST_STEPS, ceil(linear_steps * unit));
-  double steps = fewest;
-  if (!(cycle * steps <= PENDRES_MOST_SOLVER_STEPS)) return PENDRES_TOLERANCE_UNREACHABLE;
-  pendres_status status = theory(pendulum, x, v, cycle, (int)steps, &coarse);
-  while (!is_resolved(pendulum, cycle, &coarse)) {
-    steps *= 2.0;
-    if (!(cycle * steps <= PENDRES_MOST_SOLVER_STEPS && steps <= linear_most_doubling * fewest))
-      return PENDRES_TOLERANCE_UNREACHABLE;
-    status = theory(pendulum, x, v, cycle, (int)steps, &coarse);
-  }
-  if (status == PENDRES_OK) status = theory(pendulum, x, v, cycle, (int)(2.0 * steps), out);
+  const pendres_status status = resolve(pendulum, x, v, cycle, &coarse, out);
   if (status != PENDRES_OK) return status;
   const pendres_langevin_covariance *a = &coarse.covariance, *b = &out->covariance;
   /* By order four the error that is left is a fifteenth of the difference. */

@@ -64,6 +64,15 @@ pendres_status pendres_langevin_lyapunov(const double m[4], const pendres_langev
                                          pendres_langevin_covariance *sigma);
 
 /*
+ * The derivative M of a closed orbit over its cycle and the covariance that noise adds, in *out,
+ * whether it is stable or not: its covariance then is not defined.
+ *
+ * Errors: PENDRES_TOLERANCE_UNREACHABLE.
+ */
+pendres_status pendres_noise_cycle(const pendres_pendulum *p, double x, double v, int cycle,
+                                   pendres_langevin_linear *out);
+
+/*
  * Merge n clouds of one pendulum, whose trajectories started at one point, into the cloud of all of
  * them. Errors of the parts combine as those of independent means. Parts that are empty, since all
  * trajectories have left, count in `left` and `exposure` only.
