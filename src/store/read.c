@@ -159,18 +159,45 @@ pendres_status pendres_store_member(pendres_store *store, const char *group, uin
   return pendres_store_leave(store, status);
 }
 
-/* The last part of a scale's path, into *name. One is enough. */
-static herr_t take_name(hid_t variable, unsigned axis, hid_t scale, void *name)
+/* The last part of a dataset's path, into *name, NULL without memory. Negative: it has none. */
+static int take_name(hid_t dataset, char **name)
 {
   char path[1024];
-  const ssize_t length = H5Iget_name(scale, path, sizeof path);
+  const ssize_t length = H5Iget_name(dataset, path, sizeof path);
   const char *slash = strrchr(path, '/');
 
-  (void)variable;
-  (void)axis;
   if (length <= 0 || (size_t)length >= sizeof path) return -1;
-  *(char **)name = pendres_store_copy(slash ? slash + 1 : path);
+  *name = pendres_store_copy(slash ? slash + 1 : path);
   return 1;
+}
+
+/* The name of a dimension's first scale, read as HDF5's specification of scales has it: lists of
+   references, one a dimension. HDF5's own function for it, H5DSiterate_scales(), has hung
+   (1.14.5). 0: no scale, negative: failed. */
+static int take_scale(hid_t dataset, int rank, int axis, char **name)
+{
+  hvl_t list[PENDRES_STORE_RANK] = {{0, NULL}};
+  const htri_t listed = H5Aexists(dataset, "DIMENSION_LIST");
+  const hid_t attribute = listed > 0 ? H5Aopen(dataset, "DIMENSION_LIST", H5P_DEFAULT) : -1;
+  const hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+  const hid_t type = H5Tvlen_create(H5T_STD_REF_OBJ);
+  hid_t scale = H5I_INVALID_HID;
+  int taken = listed == 0 ? 0 : -1;
+
+  if (space >= 0 && type >= 0 && H5Sget_simple_extent_npoints(space) == rank &&
+      H5Aread(attribute, type, list) >= 0) {
+    taken = 0;
+    if (list[axis].len > 0) {
+      scale = H5Rdereference2(dataset, H5P_DEFAULT, H5R_OBJECT, list[axis].p);
+      taken = scale >= 0 ? take_name(scale, name) : -1;
+    }
+    (void)H5Dvlen_reclaim(type, space, H5P_DEFAULT, list);
+  }
+  if (scale >= 0) H5Oclose(scale);
+  if (type >= 0) H5Tclose(type);
+  if (space >= 0) H5Sclose(space);
+  if (attribute >= 0) H5Aclose(attribute);
+  return taken;
 }
 
 pendres_status pendres_store_dimension_of(pendres_store *store, const char *group,
@@ -189,9 +216,8 @@ pendres_status pendres_store_dimension_of(pendres_store *store, const char *grou
     status = pendres_store_fail(store, PENDRES_NOT_FOUND, "'%s' has no dimension number %d", name,
                                 axis);
   if (!status) {
-    const int one = H5DSis_scale(id) > 0
-                      ? take_name(id, 0, id, dimension)
-                      : H5DSiterate_scales(id, (unsigned)axis, NULL, take_name, dimension);
+    const int one = H5DSis_scale(id) > 0 ? take_name(id, dimension)
+                                         : take_scale(id, rank, axis, dimension);
     if (one == 0)
       status = pendres_store_fail(store, PENDRES_NOT_FOUND, "dimension %d of '%s' has no name",
                                   axis, name);
