@@ -98,6 +98,8 @@ static void one_label(void **state)
     if (t->attractor >= 0) assert_int_equal(label, by_ensemble(ctx, &p[i], x[i], v[i]));
     assert_int_equal(t->period, a->period);
     assert_int_equal(t->winding, a->winding);
+    if (t->attractor < 0) assert_int_equal(t->attractor, a->attractor);
+    if (t->period > 0) assert_true(t->settling_periods >= 0 && a->settling_periods > 0);
     /* Standard errors of both, of chaos. */
     if (t->attractor >= 0) {
       check_near(t->exponent, a->exponent, 5.0 * (t->exponent_error + a->exponent_error));

@@ -272,17 +272,17 @@ static pendres_status mean_lives(const search *w, const double value[2], const d
 static pendres_status leave_open(const search *w, pendres_jump *jump)
 {
   const int direction = value_of(w) > w->from ? 1 : -1;
-  const double step = 2.0 * jump->value_error, first = ENDS_FURTHER * step;
+  const double step = 2.0 * jump->value_error, first = LIVES_FURTHER * step;
   const double watched = w->before.attractor.watched_periods;
   const double at[2] = {jump->value + direction * first,
-                        jump->value + ENDS_FURTHER * direction * first};
+                        jump->value + LIVES_FURTHER * direction * first};
   double x[LIVES], v[LIVES], life[2];
   if (isnan(watched)) jump->value_error += step;
   if (isnan(watched)) return PENDRES_OK;
   pendres_status status = pendres_chaos_spread(w->ctx, &w->before, LIVES, x, v);
   if (status == PENDRES_OK) status = mean_lives(w, at, x, v, life);
   if (status != PENDRES_OK) return status;
-  const double power = fmax(ends_least_power, log(life[0] / life[1]) / log(ENDS_FURTHER));
+  const double power = fmax(ends_least_power, log(life[0] / life[1]) / log(LIVES_FURTHER));
   const double open = first * pow(lives_watched * life[0] / watched, 1.0 / power);
   jump->value_error += open < step ? open : step; /* the step where that is not known */
   return status;

@@ -296,7 +296,7 @@ static pendres_status by_lives(const search *w, double other, pendres_jump *jump
   if (width == 0.0) return status;
   while (near > soon && status == PENDRES_OK) {
     at *= 2.0;
-    if (CRISIS_CLOSER * at > room) return status;
+    if (LIVES_FURTHER * at > room) return status;
     status = mean_life(w, w->small + at * width, soon, &near);
   }
   const double further = fmin(CRISIS_FURTHER, room / at);

@@ -10,6 +10,7 @@
 enum {
   TRIALS = PENDRES_HYSTERESIS_TRIALS
 };
+_Static_assert((int)TRIALS <= (int)PENDRES_ARRIVALS, "the trials of a jump are looked for at once");
 
 /* The pendulum at a distance beyond the end of its state. */
 static pendres_pendulum beyond_by(const pendres_bifurcation *at, double distance)

@@ -75,8 +75,8 @@ enum {
   ENDS_HALVINGS = 8, /* of the distance of two values between which chaos ends */
   ENDS_BIRTHS = 8,   /* of an orbit from another, one after the other */
   ENDS_SHORT = 16,   /* period of orbits of a cascade that pendulums settle on soon */
-  ENDS_FURTHER = 4   /* lives are measured so far from the end, and so much farther still, in what
-                        halving has left of the interval */
+  LIVES_FURTHER = 4  /* lives are measured at two distances, this factor apart at least; from an end
+                        the first is so many times what halving has left of the interval */
 };
 
 /* The distance of trials from the birth of a lock, to which a rotation goes the more slowly the
@@ -101,8 +101,7 @@ enum {
                            seen */
   CRISIS_HALVINGS = 12, /* of the interval: what changes gradually does so by its size within
                            1/4096 */
-  CRISIS_FURTHER = 8,   /* lives are measured at two distances from it, at most this factor */
-  CRISIS_CLOSER = 4     /* and at least this factor apart */
+  CRISIS_FURTHER = 8    /* distances at which lives are measured are at most this factor apart */
 };
 
 /* Chaos that is larger is outside the region of the smaller for this share of its time. */
