@@ -1,4 +1,4 @@
-/* contexts.c -- a farm, its contexts and costs; see farm.h. pool.c runs its tasks. */
+/* contexts.c -- a farm, its contexts and costs; see farm.h. farm.c runs its tasks. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,10 +6,13 @@
 
 #include "farm/internal.h"
 #include "farm/ranks.h"
+#include "farm/trial.h"
+#include "system/clock.h"
 
 int farm_stop(const farm *f)
 {
-  if (f->trial != NULL && trial_over(f->trial)) return 1;
+  const farm_trial *t = f->trial;
+  if (t != NULL && clock_process() - t->start > t->until) return 1;
   return f->options.stop != NULL && f->options.stop(f->options.stop_arg);
 }
 

@@ -129,9 +129,9 @@ static void *serve(void *arg)
   return NULL;
 }
 
-void dispatch_share(pool *c, size_t task, const farm_record *record)
+/* A record that later stages read goes to all ranks. */
+static void share(pool *c, size_t task, const farm_record *record)
 {
-  if (ranks_count() == 1 || ranks_own() != 0 || c->stage->last || c->farm->trial != NULL) return;
   note n = note_of(c, SHARE);
   n.task = task;
   n.size = record->size;
@@ -254,6 +254,7 @@ void dispatch_tell(pool *c, const char *words)
 pendres_status dispatch_begin(pool *c)
 {
   if (ranks_count() == 1) return PENDRES_OK;
+  if (ranks_own() == 0 && !c->stage->last) c->share = share;
   const int error =
     farm_start_thread(&c->server, ranks_own() == 0 ? serve : listen, c);
   return error == 0 ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;

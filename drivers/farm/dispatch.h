@@ -22,9 +22,6 @@ void dispatch_finish(pool *c, size_t task, pendres_status status, farm_record *r
 /* A line for the user, from any rank. */
 void dispatch_tell(pool *c, const char *words);
 
-/* Called before rank 0 collects a record: it is sent to the others as well, if they need it. */
-void dispatch_share(pool *c, size_t task, const farm_record *record);
-
 /* What farm_run returns on ranks other than 0. */
 pendres_status dispatch_outcome(pool *c);
 

@@ -1,4 +1,4 @@
-/* internal.h -- what a farm holds: contexts.c makes it, pool.c works with it. */
+/* internal.h -- what a farm holds: contexts.c makes it, all others work with it. */
 #ifndef FARM_INTERNAL_H
 #define FARM_INTERNAL_H
 
@@ -63,8 +63,6 @@ void farm_spend(farm *f, const pendres_cost *cost);
 
 /* trial.c: try a stage that has tasks, instead of running it. */
 pendres_status trial_run(farm *f, const farm_stage *stage);
-/* Whether the time of the trial has elapsed. */
-int trial_over(const struct farm_trial *t);
 
 /* A thread with a stack of FARM_STACK bytes, whatever the limits of the process; 0 or an errno. */
 int farm_start_thread(pthread_t *thread, void *(*run)(void *), void *arg);

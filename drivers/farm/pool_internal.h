@@ -1,7 +1,8 @@
 /*
- * pool_internal.h -- the tasks of a stage while they are computed, on threads and on other ranks:
- * pool.c knows which are done, dispatch.c hands them to other ranks, point.c has the point that a
- * task works on: what it is called, and its budget of time.
+ * pool_internal.h -- the tasks of a stage while they are computed, on threads and on other ranks.
+ * From below: pool.c knows which are done, dispatch.c hands them to other ranks, point.c has the
+ * point that a task works on, what it is called and its budget of time, worker.c computes one task
+ * after another, trial.c some of them, and farm.c runs a stage.
  */
 #ifndef POOL_INTERNAL_H
 #define POOL_INTERNAL_H
@@ -54,6 +55,8 @@ typedef struct pool {
   size_t collected;     /* tasks 0 .. collected-1 */
   int collecting;       /* a thread is doing so */
   char *done;           /* NOT_DONE, ... */
+  /* Hands a record to other ranks before it is collected; NULL: none needs it. */
+  void (*share)(struct pool *c, size_t task, const farm_record *record);
   kept *record;         /* of tasks that are done and not yet collected */
   atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
   pendres_status status;
@@ -73,9 +76,6 @@ typedef struct pool {
 pendres_status pool_create(pool *c, farm *f, const farm_stage *stage, int threads);
 void pool_free(pool *c);
 
-/* Compute a task on the calling thread, the first of the pool's; its record is the caller's. */
-pendres_status pool_try(pool *c, size_t task, farm_record *record);
-
 long long pool_milliseconds(void);
 
 /* Show a line to the user, while other threads work. */
@@ -83,6 +83,9 @@ void pool_tell(pool *c, const char *words);
 
 /* Take the next task that no thread has taken; 0: there is none. */
 int pool_take(pool *c, size_t *task);
+
+/* Collect what has become ready unless another thread does. */
+void pool_collect(pool *c);
 
 /* Note a task's end; the pool becomes the owner of the record's data. */
 void pool_finish(pool *c, size_t task, pendres_status status, farm_record *record);

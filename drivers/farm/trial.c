@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "farm/pool_internal.h"
+#include "farm/worker.h"
 #include "system/clock.h"
 
 /* Of a task's record in the journal, beside its data. */
@@ -40,11 +40,6 @@ void farm_set_trial(farm *f, farm_trial *t)
 double farm_trial_outside(const farm_trial *t)
 {
   return clock_process() - t->start - t->spent;
-}
-
-int trial_over(const farm_trial *t)
-{
-  return clock_process() - t->start > t->until;
 }
 
 /* Number k of the tasks in an order of which every beginning is spread evenly: k's bits mirrored at
@@ -82,7 +77,7 @@ static pendres_status try_task(stage_trial *s, size_t task)
   const double start = clock_process();
   farm_trial *t = c->farm->trial;
   t->share = 0.0;
-  const pendres_status status = pool_try(c, task, &record);
+  const pendres_status status = worker_try(c, task, &record);
   const double seconds = clock_process() - start;
   const int path = task < c->stage->paths, known = path && t->share > 0.0;
   t->spent += seconds;
