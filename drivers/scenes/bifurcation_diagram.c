@@ -7,6 +7,7 @@
  */
 #include <limits.h>
 #include <math.h>
+#include <string.h>
 
 #include "scenes/along.h"
 #include "scenes/numbers.h"
@@ -16,10 +17,6 @@
 typedef struct strobe {
   double x, x_error, v, v_error;
 } strobe;
-
-enum {
-  NOT_KNOWN = -1
-};
 
 typedef struct work {
   const deck *d;
@@ -41,13 +38,8 @@ static pendres_pendulum pendulum_at(const work *w, size_t i)
 
 /* ---- the cascade --------------------------------------------------------------------------- */
 
-static void no_cascade(const scene_points *p, size_t point, void *row)
-{
-  (void)p;
-  (void)point;
-  *(pendres_cascade *)row =
-    (pendres_cascade){.limit = NAN, .limit_error = NAN, .ratio = NAN, .ratio_error = NAN};
-}
+static const pendres_cascade no_cascade = {
+  .limit = NAN, .limit_error = NAN, .ratio = NAN, .ratio_error = NAN};
 
 /* The cascade of the orbit that the path begins on. One that has none is no failure. */
 static pendres_status find_cascade(const scene_some *some)
@@ -66,7 +58,7 @@ static pendres_status find_cascade(const scene_some *some)
                                   first.parameter, w->way.value[w->way.n - 1], some->rows);
   pendres_hysteresis_free(h);
   if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
-  no_cascade(some->of, 0, some->rows);
+  memcpy(some->rows, &no_cascade, sizeof no_cascade);
   return PENDRES_OK;
 }
 
@@ -94,17 +86,12 @@ static pendres_status count_attractors(const scene_some *some)
   return status;
 }
 
-static void no_attractors(const scene_points *p, size_t point, void *row)
-{
-  (void)p;
-  (void)point;
-  *(int *)row = NOT_KNOWN;
-}
+static const int not_known = -1;
 
 static int check_count(const scene_points *p, const void *row)
 {
   (void)p;
-  return *(const int *)row >= NOT_KNOWN;
+  return *(const int *)row >= not_known;
 }
 
 /* ---- strobe points ------------------------------------------------------------------------- */
@@ -295,10 +282,10 @@ static pendres_status run_scene(scene_run *run)
   work w = {.d = d, .way = {axis[0], a->count, a->value, !d->diagram.bifurcations},
             .strobes = strobes,
             .counts = {.size = sizeof(int), .chunk = TASK_ATTRACTORS, .what = "attractors",
-                       .compute = count_attractors, .leave_out = no_attractors,
+                       .compute = count_attractors, .none = &not_known,
                        .check = check_count, .arg = &w},
             .cascade = {.n = 1, .size = sizeof(pendres_cascade), .chunk = 1,
-                        .compute = find_cascade, .leave_out = no_cascade, .check = check_cascade,
+                        .compute = find_cascade, .none = &no_cascade, .check = check_cascade,
                         .what = "the cascade of doublings", .arg = &w},
             .values = {.size = 2 * strobes * sizeof(double), .chunk = 1, .compute = find_strobes,
                        .leave_out = no_strobes,

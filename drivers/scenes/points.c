@@ -162,7 +162,8 @@ static pendres_status find(work *w, size_t first, size_t n, char *rows)
     return status == PENDRES_OK ? find(w, first + half, n - half, rows + half * w->p->size)
                                 : status;
   }
-  make_blank(w, 1, rows);
+  if (w->p->none != NULL) memcpy(rows, w->p->none, w->p->size);
+  else make_blank(w, 1, rows);
   if (w->p->leave_out != NULL) w->p->leave_out(w->p, first, rows);
   if (!w->p->unmarked) add_mark(&w->marks, first, reason, w->p->words == NULL ? words : NULL);
   return PENDRES_OK;

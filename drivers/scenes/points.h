@@ -45,7 +45,9 @@ struct scene_points {
   /* Whether a point would take longer than anybody waits, see scene_settling_too_long(); it is not
      computed then. May be NULL. */
   int (*too_long)(const scene_points *p, size_t point, char *words, size_t size);
-  /* Fill what is not NaN in the record of a point that has no result; NULL: it stays blank. */
+  /* The record of a point that has no result, NULL: a blank one; and what fills in what is the
+     point's own, which may be NULL. */
+  const void *none;
   void (*leave_out)(const scene_points *p, size_t point, void *row);
   /* Can this be a record, by the numbers in it? NULL: what the columns say. */
   int (*check)(const scene_points *p, const void *row);

@@ -65,14 +65,9 @@ static void name_point(const scene_points *p, size_t point, char *text, size_t s
 }
 
 /* A state that the budget has ended. */
-static void leave_out(const scene_points *p, size_t point, void *row)
-{
-  (void)p;
-  (void)point;
-  *(pendres_basin_state *)row = (pendres_basin_state){.settling_periods = BASINS_GIVEN_UP,
-                                                      .attractor = PENDRES_ATTRACTOR_UNKNOWN,
-                                                      .label = PENDRES_LABEL_UNRESOLVED};
-}
+static const pendres_basin_state given_up = {.settling_periods = BASINS_GIVEN_UP,
+                                             .attractor = PENDRES_ATTRACTOR_UNKNOWN,
+                                             .label = PENDRES_LABEL_UNRESOLVED};
 
 static int check(const scene_points *p, const void *row)
 {
@@ -202,7 +197,7 @@ static size_t sweep_once(basins *b, int last)
   states s = {.b = b,
               .points = {.n = nx * nv, .chunk = rows * nv,
                          .size = sizeof(pendres_basin_state), .compute = find_rows,
-                         .leave_out = leave_out, .check = check, .collect = collect_rows,
+                         .none = &given_up, .check = check, .collect = collect_rows,
                          .name = name_point, .unmarked = 1, .arg = &s}};
   restart(b);
   s.lost.index = scene_array(b->run, (nx + group - 1) / group * TASK_LOST,
@@ -218,7 +213,7 @@ static pendres_basin_state *integrate(basins *b, size_t n, const size_t *index)
 {
   states s = {.b = b, .index = index,
               .points = {.n = n, .chunk = TASK_REFINED, .size = sizeof(pendres_basin_state),
-                         .compute = find_states, .leave_out = leave_out, .check = check,
+                         .compute = find_states, .none = &given_up, .check = check,
                          .name = name_point, .unmarked = 1, .arg = &s}};
   pendres_basin_state *state = s.points.rows = calloc(n + 1, sizeof *state);
   if (state == NULL) scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);

@@ -104,13 +104,6 @@ static pendres_status find(const scene_some *some)
   return is_named(w) ? find_named(some, out) : find_from_start(some, out);
 }
 
-static void leave_out(const scene_points *p, size_t point, void *row)
-{
-  (void)p;
-  (void)point;
-  *(orbit_found *)row = nothing;
-}
-
 static int check_found(const scene_points *p, const void *row)
 {
   const orbit_found *f = row;
@@ -239,7 +232,7 @@ static pendres_status run_scene(scene_run *run)
                    .transient = d->orbit.transient && d->orbit.start[0] == '\0',
                    .pendulum = deck_pendulum(d), .found = nothing,
                    .search = {.n = 1, .chunk = 1, .size = sizeof(orbit_found), .compute = find,
-                              .too_long = too_long, .leave_out = leave_out, .check = check_found,
+                              .too_long = too_long, .none = &nothing, .check = check_found,
                               .what = "what the pendulum settles on", .rows = &w.found, .arg = &w},
                    .parts = {.chunk = 1, .compute = sample, .check = check_chunk,
                              .collect = collect, .unmarked = 1, .arg = &w} };
