@@ -10,13 +10,10 @@ enum { PIECE = 1 << 20 };
 
 enum { MOST_STEPS = 100 * DECK_MAX_COUNT }; /* a drive period */
 
-/* Room for a column, as it is stored. */
+/* Room for a column's values, in the type that is stored, and for its errors. */
 typedef struct buffers {
-  double *value, *error;
-  int8_t *flag;
-  int32_t *number;
-  int64_t *count;
-  const char **text;
+  void *value;
+  double *error;
 } buffers;
 
 #define NAMES(function, call) \
@@ -105,48 +102,27 @@ static int is_count(scene_column_type type)
   return type == SCENE_COUNT || type == SCENE_COUNT32;
 }
 
-static void gather_reals(const scene_table *t, const scene_column *c, buffers *b)
+/* A column's values and errors, as they are stored. */
+static void gather(const scene_table *t, const scene_column *c, const buffers *b)
 {
-  const size_t each = c->pairs ? 2 : 1;
-  for (size_t i = 0; i < t->n; i++) {
-    double *value = b->value + each * i, *error = b->error + each * i;
-    memcpy(value, field(t, i, c->value), each * sizeof *value);
-    if (c->type == SCENE_REAL) memcpy(error, field(t, i, c->error), each * sizeof *error);
-  }
-}
-
-/* Only the buffer that is stored is filled, since tables may have millions of rows. */
-static void gather_others(const scene_table *t, const scene_column *c, buffers *b)
-{
+  const size_t each = c->pairs ? 2 : 1, bytes = each * sizeof(double);
   for (size_t i = 0; i < t->n; i++) {
     const void *from = field(t, i, c->value);
     int number = 0;
     size_t count = 0;
-    if (is_count(c->type)) memcpy(&count, from, sizeof count);
+    if (c->type == SCENE_REAL) memcpy(b->error + each * i, field(t, i, c->error), bytes);
+    if (is_real(c->type)) memcpy((double *)b->value + each * i, from, bytes);
+    else if (is_count(c->type)) memcpy(&count, from, sizeof count);
     else if (c->type != SCENE_TEXT) memcpy(&number, from, sizeof number);
     switch (c->type) {
-    case SCENE_TEXT: b->text[i] = from; break;
-    case SCENE_FLAG: b->flag[i] = (int8_t)number; break;
-    case SCENE_COUNT: b->count[i] = (int64_t)count; break;
-    case SCENE_COUNT32: b->number[i] = (int32_t)count; break;
-    default: b->number[i] = (int32_t)number;
+    case SCENE_REAL:
+    case SCENE_PLAIN: break;
+    case SCENE_TEXT: ((const char **)b->value)[i] = from; break;
+    case SCENE_FLAG: ((int8_t *)b->value)[i] = (int8_t)number; break;
+    case SCENE_NUMBER: ((int32_t *)b->value)[i] = (int32_t)number; break;
+    case SCENE_COUNT: ((int64_t *)b->value)[i] = (int64_t)count; break;
+    case SCENE_COUNT32: ((int32_t *)b->value)[i] = (int32_t)count; break;
     }
-  }
-}
-
-/* A column's values in the type that is stored, and its errors. */
-static const void *gather(const scene_table *t, const scene_column *c, buffers *b)
-{
-  if (is_real(c->type)) gather_reals(t, c, b);
-  else gather_others(t, c, b);
-  switch (c->type) {
-  case SCENE_REAL:
-  case SCENE_PLAIN: return b->value;
-  case SCENE_NUMBER:
-  case SCENE_COUNT32: return b->number;
-  case SCENE_COUNT: return b->count;
-  case SCENE_FLAG: return b->flag;
-  default: return b->text;
   }
 }
 
@@ -215,15 +191,16 @@ static void write_one(scene_run *run, const piece *p, int pairs, int id, const v
 }
 
 static void write_piece(scene_run *run, const piece *p, const scene_column *c,
-                        const scene_variable *v, buffers *b)
+                        const scene_variable *v, const buffers *b)
 {
-  write_one(run, p, c->pairs, v->value, gather(&p->table, c, b));
+  gather(&p->table, c, b);
+  write_one(run, p, c->pairs, v->value, b->value);
   if (c->type == SCENE_REAL) write_one(run, p, c->pairs, v->error, b->error);
 }
 
 /* A column, `most` values of the first dimension at a time. */
 static void write_column(scene_run *run, const scene_table *t, size_t most, const scene_column *c,
-                         buffers *b)
+                         const buffers *b)
 {
   const size_t all = t->first > 0 ? t->first : 1, each = t->n / all;
   scene_variable v = {-1, -1};
@@ -237,27 +214,19 @@ static void write_column(scene_run *run, const scene_table *t, size_t most, cons
   }
 }
 
+/* Pairs of doubles are the largest of what is stored. */
+static void reserve(scene_run *run, size_t n, buffers *b)
+{
+  const size_t most = (n + 1) * 2 * sizeof(double);
+  *b = (buffers){ malloc(most), malloc(most) };
+  if (b->value == NULL || b->error == NULL)
+    scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+}
+
 static void release(buffers *b)
 {
   free(b->value);
   free(b->error);
-  free(b->flag);
-  free(b->number);
-  free(b->count);
-  free(b->text);
-}
-
-static void reserve(scene_run *run, size_t n, buffers *b)
-{
-  *b = (buffers){.value = malloc((2 * n + 1) * sizeof *b->value),
-                 .error = malloc((2 * n + 1) * sizeof *b->error),
-                 .flag = malloc(n + 1),
-                 .number = malloc((n + 1) * sizeof *b->number),
-                 .count = malloc((n + 1) * sizeof *b->count),
-                 .text = malloc((n + 1) * sizeof *b->text)};
-  if (b->value == NULL || b->error == NULL || b->flag == NULL || b->number == NULL ||
-      b->count == NULL || b->text == NULL)
-    scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
 }
 
 void scene_columns_write(scene_run *run, const scene_table *t, size_t count,

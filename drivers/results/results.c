@@ -39,15 +39,6 @@ pendres_kind scene_define(const scene_run *run, const pendres_quantity *q, pendr
 
 /* ---- variables and dimensions --------------------------------------------------------------- */
 
-static void put_on_tape(scene_run *run, const pendres_store_spec *spec, const void *values,
-                        const double *errors, size_t n)
-{
-  int id = -1, error_id = -1;
-  results_variable(run, spec, &id, errors != NULL ? &error_id : NULL);
-  results_write(run, id, 0, 0, values, n);
-  if (errors != NULL) results_write(run, error_id, 0, 0, errors, n);
-}
-
 void scene_put_as(scene_run *run, const char *quantity, const pendres_store_spec *spec,
                   const void *values, const double *errors, size_t n)
 {
@@ -55,9 +46,10 @@ void scene_put_as(scene_run *run, const char *quantity, const pendres_store_spec
   pendres_store_spec defined = *spec;
   const pendres_kind kind = scene_define(run, scene_quantity(run, quantity, spec->name),
                                          &defined, words);
-  if (!scene_going(run)) return;
-  if (run->tape != NULL) put_on_tape(run, &defined, values, errors, n);
-  else scene_stored(run, pendres_store_put(run->store, &defined, values, errors, n));
+  int id = -1, error_id = -1;
+  results_variable(run, &defined, &id, errors != NULL ? &error_id : NULL);
+  results_write(run, id, 0, 0, values, n);
+  if (errors != NULL) results_write(run, error_id, 0, 0, errors, n);
   scene_mark_units(run, &defined, kind, errors != NULL);
 }
 

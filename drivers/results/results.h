@@ -10,8 +10,8 @@
 
 /*
  * Where results go: into the store or, while a scene is computed for one value of an outer axis,
- * onto a tape (tape.h). They are the functions of <pendres/store.h> of these names; what fails is
- * on record in the run.
+ * beside those of the others (stack.h). They are the functions of <pendres/store.h> of these names;
+ * what fails is on record in the run.
  */
 void results_dimension(scene_run *run, const pendres_store_spec *spec, uint64_t n,
                        const void *values);

@@ -146,9 +146,15 @@ void *scene_array(scene_run *run, size_t n, size_t size)
   return scene_going(run) ? of_run(run, scene_room_take(&run->room, n, size), n) : NULL;
 }
 
-void *scene_large(scene_run *run, size_t n, size_t size)
+void *scene_room_large(scene_run *run, scene_room *room, size_t n, size_t size, size_t most)
 {
   const size_t bytes = bytes_of(n, size);
-  if (bytes <= SCENE_MEMORY || !scene_going(run)) return scene_array(run, n, size);
-  return of_run(run, hold(&run->room, map_file(run, bytes)), n);
+  if (!scene_going(run)) return NULL;
+  return of_run(run, bytes <= most ? scene_room_take(room, n, size)
+                                   : hold(room, map_file(run, bytes)), n);
+}
+
+void *scene_large(scene_run *run, size_t n, size_t size)
+{
+  return scene_room_large(run, &run->room, n, size, SCENE_MEMORY);
 }

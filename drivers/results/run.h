@@ -35,8 +35,8 @@ typedef struct scene_run {
   pendres_status status; /* the first failure; nothing is computed or written any more after it */
   char message[512];     /* what it was */
   scene_room room;         /* see scene_array() */
-  struct results_tape *tape; /* where results go, while it is one slice of an outer axis; or NULL */
-  char where[80];            /* which slice that is; "": none */
+  struct results_stack *stack; /* where results go while it is a slice of an outer axis, or NULL */
+  char where[80];              /* which slice that is; "": none */
 } scene_run;
 
 /*
@@ -74,9 +74,10 @@ void *scene_array(scene_run *run, size_t n, size_t size);
 int scene_unnamed(scene_run *run, size_t bytes);
 
 /* The same for what may be larger than memory: from SCENE_MEMORY bytes on an array is in a file
-   without a name. */
+   without a name; and in another room, from `most` bytes on. */
 enum { SCENE_MEMORY = 64 << 20 };
 void *scene_large(scene_run *run, size_t n, size_t size);
+void *scene_room_large(scene_run *run, scene_room *room, size_t n, size_t size, size_t most);
 
 /* Run a stage on the run's farm; on failure the run has the farm's words. */
 void scene_compute(scene_run *run, const farm_stage *stage);

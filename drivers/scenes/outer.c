@@ -12,12 +12,13 @@
 
 #include "results/columns.h"
 #include "results/failed.h"
-#include "results/tape.h"
+#include "results/stack.h"
 
 typedef struct outer {
   const deck *whole;
   const scene_kind *scene;
-  results_tape *tape;
+  char name[2 * DECK_NAME]; /* of the axis */
+  results_stack *stack;
   scene_failed *failed; /* [slices] */
   int left;             /* some tasks of a slice are other shards' */
 } outer;
@@ -29,20 +30,18 @@ static const deck_axis *axis_of(const deck *d)
 
 /* ---- one slice ----------------------------------------------------------------------------- */
 
-/* Compute one slice; its results go onto the tape, which is the run's while it lasts. */
+/* Compute one slice; its results go onto the stack, which is the run's while it lasts. */
 static pendres_status compute(scene_run *run, outer *o, size_t slice)
 {
   const deck one = deck_slice(o->whole, slice);
-  char name[2 * DECK_NAME];
-  snprintf(run->where, sizeof run->where, "%s %.10g", deck_outer_name(o->whole, name),
-           axis_of(o->whole)->value[slice]);
+  snprintf(run->where, sizeof run->where, "%s %.10g", o->name, axis_of(o->whole)->value[slice]);
   if (run->table != NULL)
     fprintf(run->table, "%s%s:\n", slice > 0 ? "\n" : "", run->where);
   run->deck = &one;
-  run->tape = o->tape;
-  results_tape_begin(o->tape, slice);
+  run->stack = o->stack;
+  results_stack_begin(o->stack, slice);
   const pendres_status status = o->scene->run(run);
-  run->tape = NULL;
+  run->stack = NULL;
   run->deck = o->whole;
   scene_room_end(&run->room);
   return status;
@@ -63,7 +62,7 @@ static void judge(scene_run *run, outer *o, size_t slice)
   } else {
     return;
   }
-  results_tape_forget(o->tape, slice);
+  results_stack_forget(o->stack, slice);
   run->status = PENDRES_OK;
   run->message[0] = '\0';
 }
@@ -82,29 +81,26 @@ static void write_axis(scene_run *run, const char *group)
 
 static void write_failed(scene_run *run, const outer *o)
 {
-  char name[2 * DECK_NAME];
-  const scene_table table = { .dimensions = { deck_outer_name(o->whole, name) },
-                              .n = deck_slices(o->whole), .stride = sizeof *o->failed,
-                              .rows = o->failed };
+  const scene_table table = { .dimensions = { o->name },
+                              SCENE_ROWS(o->failed, deck_slices(o->whole)) };
   scene_columns_write_failed(run, &table, "outer_failed",
                              "why there is no result for a value of the outer axis");
 }
 
 static void write_all(scene_run *run, const outer *o)
 {
-  char name[2 * DECK_NAME];
   size_t failed = 0;
   for (size_t i = 0; i < deck_slices(o->whole); i++)
     failed += o->failed[i].reason != SCENE_FAILURE_NONE;
   if (scene_going(run) && failed == deck_slices(o->whole)) {
     (void)scene_fail(run, PENDRES_NOT_FOUND, "there are no results at any value of %s; %s",
-                     deck_outer_name(o->whole, name), run->told_count > 0 ? run->told[0] : "");
+                     o->name, run->told_count > 0 ? run->told[0] : "");
     return;
   }
   if (!scene_going(run)) return;
   write_axis(run, "");
-  results_attribute(run, "", NULL, "outer_axis", deck_outer_name(o->whole, name));
-  results_tape_write(run, o->tape, deck_outer_name(o->whole, name), write_axis);
+  results_attribute(run, "", NULL, "outer_axis", o->name);
+  results_stack_write(run, o->stack, o->name, write_axis);
   write_failed(run, o);
 }
 
@@ -123,8 +119,9 @@ static int begin(scene_run *run, const scene_kind *scene, outer *o)
 {
   const size_t n = deck_slices(run->deck);
   *o = (outer){ .whole = run->deck, .scene = scene, .failed = calloc(n, sizeof *o->failed) };
-  o->tape = o->failed != NULL ? results_tape_create(run, n) : NULL;
-  if (o->tape != NULL) return 1;
+  (void)deck_outer_name(run->deck, o->name);
+  o->stack = o->failed != NULL ? results_stack_create(run, n) : NULL;
+  if (o->stack != NULL) return 1;
   free(o->failed);
   if (scene_going(run)) (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory");
   return 0;
@@ -132,7 +129,7 @@ static int begin(scene_run *run, const scene_kind *scene, outer *o)
 
 static void end(outer *o)
 {
-  results_tape_free(o->tape);
+  results_stack_free(o->stack);
   free(o->failed);
 }
 
