@@ -7,7 +7,7 @@ FUZZ_SECONDS ?= 60
 
 # Of the library and the program what reads, and no more: the rest would take minutes to compile.
 FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/% src/analysis/sweeps/sweep.o \
-  drivers/deck/% drivers/farm/journal% drivers/farm/record.o drivers/terminal/safe_text.o drivers/system/% \
+  drivers/deck/% drivers/farm/index.o drivers/farm/journal% drivers/farm/record.o drivers/terminal/safe_text.o drivers/system/% \
   drivers/options.o drivers/shard.o drivers/verify.o), \
   $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
 

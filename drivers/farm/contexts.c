@@ -1,4 +1,4 @@
-/* contexts.c -- a farm, its contexts and costs; see farm.h. farm.c runs its tasks. */
+/* contexts.c -- a farm, its contexts and costs; see farm.h. stage.c runs its tasks. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

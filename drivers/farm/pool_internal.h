@@ -2,7 +2,7 @@
  * pool_internal.h -- the tasks of a stage while they are computed, on threads and on other ranks.
  * From below: pool.c knows which are done, dispatch.c hands them to other ranks, point.c has the
  * point that a task works on, what it is called and its budget of time, worker.c computes one task
- * after another, trial.c some of them, and farm.c runs a stage.
+ * after another, trial.c some of them, and stage.c runs all.
  */
 #ifndef POOL_INTERNAL_H
 #define POOL_INTERNAL_H

@@ -419,7 +419,7 @@ enum { STATE_MEMORY = 30 };
 /* Bytes of states that differ from their neighbours in the compressed file, or, where that is not
    known or rows are not computed whole, by the resolution alone, which makes runs of equal states
    longer; and of a boundary, mostly. Rows are written as they come; records that wait for their
-   turn have 64 MB (farm/pool.c). */
+   turn have 64 MB (farm/numbers.h). */
 static scene_more more(const deck *d, const farm_trial *trial, double states)
 {
   const double boundary = d->basins.boundary ? 200e3 : 0.0;

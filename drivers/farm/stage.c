@@ -1,4 +1,4 @@
-/* farm.c -- the stages of a run, each with its threads; see farm.h. */
+/* stage.c -- the stages of a run, each with its threads; see farm.h. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
