@@ -34,7 +34,7 @@ static const deck_axis *axis_of(const deck *d)
 static pendres_status compute(scene_run *run, outer *o, size_t slice)
 {
   const deck one = deck_slice(o->whole, slice);
-  snprintf(run->where, sizeof run->where, "%s %.10g", o->name, axis_of(o->whole)->value[slice]);
+  snprintf(run->where, sizeof run->where, "%.60s %.10g", o->name, axis_of(o->whole)->value[slice]);
   if (run->table != NULL)
     fprintf(run->table, "%s%s:\n", slice > 0 ? "\n" : "", run->where);
   run->deck = &one;
