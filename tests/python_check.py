@@ -564,6 +564,12 @@ def test_plot():
     line = pendres.lyapunov_map(damping=[0.5], drive_amplitude=[1.0, 1.15], drive_frequency=2 / 3)
     assert line.lyapunov.dims == ("damping", "drive_amplitude") and line.lyapunov.shape == (1, 2)
     assert len(pendres.plot(line).axes) == 1
+    words = raised(TypeError, pendres.hysteresis, precision=1e-6, damping=0.1)
+    assert "a group of a deck" in words and len(words) < 200, words
+    words = raised(OSError, pendres.fit, free=["damping"], error=0.1, axis="drive_frequency",
+                   observable="amplitude", drive_amplitude=0.1, columns=["w", "a"],
+                   file={"w": [0.8, 0.9, 1.0], "a": [0.5, "x", 0.5]})
+    assert "row 1" in words and "/tmp" not in words and "table.csv" not in words, words
     for start in ("sa", "la"):  # where one state exists it is meant
         lone = pendres.hysteresis(force=[1, 0, 1], damping=0.1, drive_amplitude=0.3, start=start,
                                   drive_frequency=[1.2, 1.21])

@@ -197,6 +197,9 @@ def _sorted_into_groups(kind, given):
         if isinstance(value, dict) and key in names:
             groups.setdefault(key, {}).update(value)
             continue
+        if key in names and key not in where:
+            raise TypeError(f"{key}: a group of a deck is {key}={{'key': value}}; its keys are "
+                            f"keywords by themselves, too, as help(pendres.{kind}) tells")
         if key not in where:
             raise TypeError(f"{kind}() has no keyword '{key}'{_instead(kind, key)}")
         fitting = where[key]
@@ -307,7 +310,7 @@ def _computed(arguments, text, keys, options):
     if wrong.returncode:
         said = re.sub(r"^\S*resonance: |^Try .*$", "", wrong.stderr, flags=re.M).strip()
         raise errors[lib.PENDRES_INVALID_ARGUMENT](
-            _as_keywords(said, keys) if keys else re.sub(r"^-:", "deck:", said, flags=re.M))
+            _of_table(_as_keywords(said, keys)) if keys else re.sub(r"^-:", "deck:", said, flags=re.M))
     folder = tempfile.mkdtemp(prefix="pendres-")
     try:
         kept = options.get("output")
@@ -363,9 +366,16 @@ def _followed(command, text):
             raise
 
 
+def _of_table(words):
+    """Words on the text file that stands for a table of the caller's: of its rows, from 0 on."""
+    path = r"[^\s'\"]*pendres-\w+/table\.csv"
+    words = re.sub(path + r":(\d+)", lambda line: f"file, row {int(line.group(1)) - 2}", words)
+    return re.sub(path, "file", words)
+
+
 def _failure(code, said):
     """The exception for an exit code."""
-    words = "\n".join(said)
+    words = _of_table("\n".join(said))
     if code == BAD_DECK:
         return errors[lib.PENDRES_INVALID_ARGUMENT](words or "resonance: bad usage")
     if code == STOPPED or code < 0:
