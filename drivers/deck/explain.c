@@ -387,6 +387,13 @@ static int is_listed(const char *group)
   return strcmp(group, "pendulum") == 0 || strcmp(group, "sweep") == 0;
 }
 
+/* k of the axis of a force's coefficient k; 0: it is another axis, or none. */
+static int coefficient_of(const deck_key *key)
+{
+  const pendres_parameter_info *of = pendres_parameter_of(deck_axis_parameter(key->axis));
+  return key->type == DECK_SWEEP && of != NULL ? of->coefficient : 0;
+}
+
 static void reference_kind(FILE *out, deck_kind kind)
 {
   const unsigned scene = 1u << kind;
@@ -395,12 +402,14 @@ static void reference_kind(FILE *out, deck_kind kind)
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if ((key->scenes & scene) == 0 || strcmp(key->group, "scene") == 0) continue;
+    if (coefficient_of(key) > 1) continue; /* as the first one */
     char *list = (key->needed & scene) != 0 ? needed : others;
     const char *other = list == needed ? other_group(key, scene) : NULL;
     const char *comma = list[0] == '\0' ? "" : ", ";
     const int named = list == needed || is_listed(key->group);
     if (named) add(list, "%s`%s.%s`", comma, key->group, key->name);
     else if (strcmp(key->group, group) != 0) add(list, "%s`&%s`", comma, group = key->group);
+    if (coefficient_of(key) == 1) add(list, " and further ones");
     if (other != NULL) add(list, " (or in `&%s`)", other);
   }
   fprintf(out, "\n### %s\n\nComputes: %s.\n\n", deck_kind_name(kind), deck_kind_of(kind)->words);
