@@ -46,7 +46,7 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   continuation/curve/follow.h continuation/curve/map.h continuation/curve/numbers.h
   continuation/numbers.h continuation/parameter.h continuation/part.h continuation/sets.h
   continuation/units.h
-  analysis/resonance/response_parts.h'
+  analysis/fit_model/internal.h analysis/line/line.h analysis/resonance/response_parts.h'
 drivers_doors='system/apart.h system/bytes.h system/clock.h system/ending.h system/file.h system/grow.h system/text.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h deck/namelist/namelist.h deck/namelist/lex.h deck/si/si.h
   results/columns.h results/failed.h results/results.h results/stack.h

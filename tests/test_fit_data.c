@@ -32,8 +32,9 @@ static void read_data(const char *name, const char *text, const char *keys, cons
   assert_non_null(f);
   assert_true(fputs(text, f) >= 0);
   assert_int_equal(fclose(f), 0);
-  snprintf(lines, sizeof lines, "&scene kind = 'fit' /\n&fit free = 'damping' /\n"
-           "&pendulum drive_amplitude = 0.1 /\n&data file = '%s' %s /\n", path, keys);
+  snprintf(lines, sizeof lines, "&scene kind = 'fit' /\n&fit free = 'damping' %s /\n"
+           "&pendulum drive_amplitude = 0.1 /\n&data file = '%s' %s /\n",
+           strstr(keys, "s_parameter") != NULL ? ", model = 'notch'" : "", path, keys);
   if (deck_read_memory("test.nml", lines, strlen(lines), &d, &errors) != PENDRES_OK)
     fail_msg("%s: %s", keys, errors.count > 0 ? errors.item[0].text : "");
   fit_data_read(&run, &data);
@@ -129,6 +130,96 @@ static void numbers(void **state)
   }
 }
 
+/* An S-parameter by its parts, or as magnitude and phase in any unit, and times that run the other
+   way. */
+static void parameters(void **state)
+{
+  (void)state;
+  static const double right[] = {0.3, -0.4};
+  static const struct { const char *text, *keys; } same[] = {
+    {"5, 0.3, -0.4\n", ""}, {"5, 0.3, 0.4\n", ", time_sign = -1"},
+    {"f, m, p\n5, 0.5, -0.9272952180016122\n", ", units = '1', '1', 'rad'"},
+    {"f, m (dB), p (deg)\n5, -6.020599913279624, 1386.869897645844\n", ""}};
+  for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
+    char keys[200];
+    told t;
+    snprintf(keys, sizeof keys,
+             "observable = 's_parameter', columns = '1', '2', '3', error = 0.1%s", same[k].keys);
+    read_data("s.csv", same[k].text, keys, NULL, &t);
+    assert_int_equal(t.n, 2);
+    for (int i = 0; i < 2; i++) check_near(t.observed[i], right[i], 1e-13);
+    assert_true(t.error[0] == t.error[1]);
+  }
+  told t;
+  read_data("q.csv", "5 0.3 -0.4\n", "observable = 'in_phase', 'quadrature', time_sign = 1", NULL,
+            &t);
+  assert_true(t.observed[0] == 0.3 && t.observed[1] == 0.4);
+}
+
+/* What the specifications of Touchstone 1.1 and 2.1 allow and readers get wrong. */
+static void touchstone(void **state)
+{
+  (void)state;
+  static const char two[] = "\n1 1 2 3 4 5 6 7 8\n2 1 2 3 4 5 6 7 8\n";
+  static const char v2[] = "[Version] 2.0\n# GHz S RI R 50\n[Number of Ports] ";
+  static const struct {
+    const char *name, *head, *data, *column;
+    double frequency, real, imaginary;
+  } valid[] = {
+    {"a.s2p", "! a\n# GHz S RI R 50 ! b", two, "S21", 1e9, 3, 4},
+    {"a.s2p", "# RI R 50 S mhz", two, "S12", 1e6, 5, 6},
+    {"a.s2p", "# R 50 RI", two, "S22", 1e9, 7, 8},
+    {"a.S2P", "#", "\n1 1 90 2 180 5 6 7 8\n2 1 2 3 4 5 6 7 8\n", "S11", 1e9, 0, 1},
+    {"a.s2p", "# hz db", "\n1 0 0 20 90 0 0 0 0\n2 1 2 3 4 5 6 7 8\n", "s21", 1, 0, 10},
+    {"a.s2p", "# Hz S RI\n# GHz Z MA", two, "S21", 1, 3, 4},
+    {"a.s2p", "# Hz S RI", "\n1 1 2 3 4 5 6 7 8\n2 1 2 3 4 5 6 7 8\n1 2 3 4 5\n", "S21", 1, 3, 4},
+    {"a.s2p", "# Hz Z RI R 10", two, "Z21", 1, 30, 40},
+    {"a.s2p", "# Hz Y RI R 10", two, "Y21", 1, 0.3, 0.4},
+    {"a.s2p", "# Hz H RI R 10", two, "H11", 1, 10, 20},
+    {"a.s2p", "# Hz H RI R 10", two, "H22", 1, 0.7, 0.8},
+    {"a.s2p", "# Hz H RI R 10", two, "H21", 1, 3, 4},
+    {"a.s2p", "# Hz G RI R 10", two, "G11", 1, 0.1, 0.2},
+    {"a.s2p", "# Hz G RI R 10", two, "G22", 1, 70, 80},
+    {"a.txt", "! by content\n# Hz S RI R 50", two, "S21", 1, 3, 4},
+    {"a.s3p", "# Hz S RI", "\n1 1 0 2 0 3 0\n 4 0 5 0 6 0\n 7 0 8 0 9 0\n2 1 0 2 0 3 0\n"
+     "4 0 5 0 6 0\n7 0 8 0 9 0\n", "S21", 1, 4, 0},
+    {"a.ts", v2, "2\n[Two-Port Data Order] 12_21\n[Network Data]\n1 1 2 3 4 5 6 7 8\n"
+     "2 1 2 3 4 5 6 7 8\n[End]\nmore\n", "S21", 1e9, 5, 6},
+    {"a.ts", v2, "2\n[Two-Port Data Order] 21_12\n[Number of Frequencies] 2\n[Reference] 50\n 75\n"
+     "[Network Data]\n1 1 2 3 4 5 6 7 8\n2 1 2 3 4 5 6 7 8\n[Noise Data]\n1 2 3 4 5\n[End]\n",
+     "S21", 1e9, 3, 4},
+    {"a.ts", v2, "3\n[Matrix Format] Lower\n[Begin Information]\n[Anything] x\n"
+     "[End Information]\n[Network Data]\n1 1 0\n 2 0 3 0\n 4 0 5 0 6 0\n"
+     "2 1 0 2 0 3 0 4 0 5 0 6 0\n", "S23", 1e9, 5, 0},
+    {"a.ts", v2, "3\n[Matrix Format] Upper\n[Network Data]\n1 1 0 2 0 3 0\n 4 0 5 0\n 6 0\n"
+     "2 1 0 2 0 3 0 4 0 5 0 6 0\n", "S31", 1e9, 3, 0},
+    {"a.ts", "[Version] 2.0\n# Hz Y RI R 10\n[Number of Ports] 1\n[Network Data]",
+     "\n1 3 4\n2 3 4\n", "Y11", 1, 3, 4}};
+  for (size_t k = 0; k < sizeof valid / sizeof *valid; k++) {
+    char text[500], keys[100];
+    told t;
+    snprintf(text, sizeof text, "%s%s", valid[k].head, valid[k].data);
+    snprintf(keys, sizeof keys, "observable = 's_parameter', columns = '%s'", valid[k].column);
+    read_data(valid[k].name, text, keys, NULL, &t);
+    assert_int_equal(t.n, 4);
+    check_exact(t.axis[0], valid[k].frequency);
+    check_near(t.observed[0], valid[k].real, 1e-14 * fabs(valid[k].real) + 1e-15);
+    check_near(t.observed[1], valid[k].imaginary, 1e-14 * fabs(valid[k].imaginary) + 1e-15);
+  }
+  static const struct { const char *name, *text, *words; } bad[] = {
+    {"a.s2p", "# Hz S RI X\n", "a.s2p:1: the option line has no such word as 'X'"},
+    {"a.s2p", "# Hz S RI\n1 2 3 4 5 6 7 8 9 1\n", "a.s2p:2: the line has more numbers"},
+    {"a.s2p", "# Hz S RI\n1 2 3 4 x\n", "a.s2p:2: this is no number: 'x'"},
+    {"a.s2p", "# Hz S RI\n1 2 3 4\n", "is not complete"},
+    {"a.s1p", "# Hz S RI\n2 1 1\n1 1 1\n", "a.s1p:3: frequencies ascend"},
+    {"a.ts", "[Version] 2.0\n[Mixed-Mode Order] D2,3\n", "mixed modes"},
+    {"a.s9p", "# Hz S RI\n1 1 1\n", "more than 5 ports"},
+    {"a.s1p", "# Hz S RI\n1 1 1\n", "there is no column 'S21'"}};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+    read_data(bad[k].name, bad[k].text, "observable = 's_parameter', columns = 'S21'", bad[k].words,
+              NULL);
+}
+
 static void refused(void **state)
 {
   (void)state;
@@ -157,7 +248,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(units), cmocka_unit_test(angles), cmocka_unit_test(numbers),
-    cmocka_unit_test(refused),
+    cmocka_unit_test(parameters), cmocka_unit_test(touchstone), cmocka_unit_test(refused),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -258,6 +258,7 @@ typedef struct deck {
     deck_names units;       /* of these, in their order */
     char format[DECK_NAME], decimal[DECK_NAME];
     double loss;            /* of drives in dBm, in dB */
+    int64_t time_sign;
     char axis[DECK_NAME];   /* name of a parameter */
     deck_names observables;
     char direction[DECK_NAME];
@@ -267,6 +268,7 @@ typedef struct deck {
   struct {
     deck_names free, fixed, bounds, prior; /* "NAME", "NAME VALUE", "NAME LOW HIGH", "NAME MEAN
                                               ERROR" */
+    char model[DECK_NAME];  /* of a line; "": there is none */
     double huber, jump_error;
     int64_t starts, iterations;
   } fit;

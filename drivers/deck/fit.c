@@ -39,14 +39,20 @@ int deck_fit_si(const deck *d, const char *name, deck_si *out)
 {
   /* Readings are of lengths, unless velocities are measured. */
   const int turns = d->data.observables.count > 0 &&
-                    strcmp(d->data.observables.name[0], "mean_velocity") == 0;
+                    strstr(d->data.observables.name[0], "velocity") != NULL;
   const char *of_readings = turns ? "mean_velocity" : "amplitude";
-  const int reading = strcmp(name, "offset") == 0 || strncmp(name, "background_", 11) == 0;
+  const int line = d->fit.model[0] != '\0';
+  const int reading =
+    !line && (strcmp(name, "offset") == 0 || strncmp(name, "background_", 11) == 0);
   deck_si of;
   if (reading && deck_fit_has(d, "amplitude_scale")) return 0;
   if (reading) return deck_si_of(d, of_readings, out);
   if (strcmp(name, "drive_scale") == 0) return deck_si_of(d, "drive_amplitude", out);
   if (strcmp(name, "torque_scale") == 0) return deck_si_of(d, "torque", out);
+  if (strcmp(name, "delay") == 0 && !isnan(d->units.natural_frequency)) {
+    *out = (deck_si){ .factor = 1.0 / d->units.natural_frequency, .units = "s" };
+    return 1;
+  }
   if (strcmp(name, "frequency_scale") == 0 || strcmp(name, "phase_offset") == 0) return 0;
   if (strcmp(name, "amplitude_scale") != 0) return deck_si_of(d, name, out);
   if (!deck_si_of(d, of_readings, &of)) return 0;
@@ -161,6 +167,12 @@ void deck_check_fit(deck_builder *b)
     if (!deck_column_unit_read(d->data.units.name[i], NULL, &unit))
       deck_complain(b, deck_given_of(b, "data", "units"), "units", "'units': '%s' is no unit; '1' "
                     "is that of a number", d->data.units.name[i]);
+  int lines = 0;
+  for (size_t i = 0; i < d->data.observables.count; i++)
+    lines |= strcmp(d->data.observables.name[i], "s_parameter") == 0;
+  if (lines != (d->fit.model[0] != '\0') || (lines && d->data.observables.count > 1))
+    deck_complain(b, deck_given_of(b, "fit", "model"), "model", "the observable 's_parameter', "
+                  "alone, goes with a 'model' in &fit: 'transmission', 'notch' or 'reflection'");
   check_entries(b, "fixed", &d->fit.fixed, "NAME VALUE");
   check_entries(b, "bounds", &d->fit.bounds, "NAME LOW HIGH");
   check_entries(b, "prior", &d->fit.prior, "NAME MEAN ERROR");

@@ -121,9 +121,12 @@ static const char *const observables[] = {
 #define OBSERVABLE_NAME(code, name) name,
   PENDRES_FIT_OBSERVABLE_LIST(OBSERVABLE_NAME)
 #undef OBSERVABLE_NAME
+  "s_parameter",
   NULL
 };
-static const char *const formats[] = { "any", "text", "labone", "nanonis", "analyser", NULL };
+static const char *const line_models[] = { "", "transmission", "notch", "reflection", NULL };
+static const char *const formats[] = { "any", "text", "labone", "nanonis", "analyser", "touchstone",
+                                       NULL };
 static const char *const decimals[] = { "point", "comma", NULL };
 #define FOLLOWED "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2", "a3", \
                  "a4", "a5"

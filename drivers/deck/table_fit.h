@@ -19,6 +19,9 @@
     SAYS(NULL, "what stands before the decimals; with a comma cells are not separated by commas") },
   { REAL("data", "loss", data.loss), IN(FIT), RANGE(-300, 300), .number = 0,
     SAYS("dB", "what is lost of drives in dBm on their way to the oscillator") },
+  { INTEGER("data", "time_sign", data.time_sign), IN(FIT), RANGE(-1, 1), .number = 0,
+    SAYS(NULL, "sign of i w t in the complex numbers of the data, 1 or -1; 0: 1 of an s_parameter, "
+         "and -1 of in_phase and quadrature, whose quadrature is then R sin(lag)") },
   { CHOICE("data", "axis", data.axis), IN(FIT), .choices = swept, .text = "drive_frequency",
     SAYS(NULL, "parameter that was swept; 'time': the data are a free decay, without drive") },
   { CHOICES("data", "observable", data.observables), IN(FIT), .choices = observables,
@@ -46,6 +49,9 @@
   { CHOICES("fit", "prior", fit.prior), IN(FIT),
     SAYS(NULL, "what is known of free quantities beside the data, a mean and its standard error, "
          "as 'a3 -0.16 0.01'") },
+  { CHOICE("fit", "model", fit.model), IN(FIT), .choices = line_models, .text = "",
+    SAYS(NULL, "how an s_parameter follows from the motion: through the oscillator, past it, or "
+         "back from it") },
   { REAL("fit", "huber", fit.huber), IN(FIT), NOT_NEGATIVE, .number = 0,
     IS(NUMBER, "standard errors beyond which a residual counts by its size instead of its square, "
          "against outliers; 0: none does") },

@@ -44,7 +44,15 @@ extern "C" {
   X(DISPLACEMENT, "displacement")                          \
   X(MEAN_VELOCITY, "mean_velocity")                        \
   X(JUMP, "jump")                                          \
-  X(RESONANCE, "resonance")
+  X(RESONANCE, "resonance")                                \
+  X(VELOCITY, "velocity_amplitude")                        \
+  X(ACCELERATION, "acceleration_amplitude")                \
+  X(TRANSMISSION_REAL, "transmission_real")                \
+  X(TRANSMISSION_IMAGINARY, "transmission_imaginary")      \
+  X(NOTCH_REAL, "notch_real")                              \
+  X(NOTCH_IMAGINARY, "notch_imaginary")                    \
+  X(REFLECTION_REAL, "reflection_real")                    \
+  X(REFLECTION_IMAGINARY, "reflection_imaginary")
 
 /**
  * An observable. AMPLITUDE: half the peak-to-peak; RMS: the root mean square of the distance from
@@ -54,7 +62,18 @@ extern "C" {
  * which are pendulums without a drive, over the torque, MEAN_VELOCITY: 0 at rest, and of rotations
  * 2 pi over their period, with their sign; JUMP: the value of the axis itself, in its unit, at
  * which the oscillator jumps while the axis goes that way; RESONANCE: the value of the axis at
- * which the first harmonic lags behind the drive by a quarter turn, whatever the direction.
+ * which the first harmonic lags behind the drive by a quarter turn, whatever the direction;
+ * VELOCITY and ACCELERATION: amplitudes of the first harmonics of these.
+ *
+ * Scattering parameters of an oscillator on a line, real and imaginary parts, with exp(i w t): r
+ * being i w damping/F times the complex amplitude of the displacement, which is
+ * 1/(1 + 2i Q (w - w0)/w0) next to a linear resonance, they are
+ *   b (background_in_phase + i background_quadrature + r)   TRANSMISSION,
+ *   b (1 - k (Q/Qc) (1 + i tan(coupling_phase)) r)          NOTCH, k = 1, and REFLECTION, k = 2,
+ *   b = background_amplitude exp(i background_phase - 2 pi i delay (f - f_middle)),
+ * where 1/Q = 1/Qi + 1/Qc, f are frequencies as in the data, and f_middle is half way between the
+ * lowest and the highest of these. 1/Qc is the real part of a complex one: Khalil et al., Journal
+ * of Applied Physics 111 (2012) 054510.
  * PENDRES_FIT_OBSERVABLE_COUNT: how many there are.
  */
 typedef enum pendres_fit_observable {
@@ -75,7 +94,13 @@ typedef enum pendres_fit_observable {
   X(BACKGROUND_QUADRATURE, "background_quadrature", 0.0)    \
   X(START_DISPLACEMENT, "start_displacement", 0.0)          \
   X(START_VELOCITY, "start_velocity", 0.0)                  \
-  X(TORQUE_SCALE, "torque_scale", 1.0)
+  X(TORQUE_SCALE, "torque_scale", 1.0)                      \
+  X(INTERNAL_Q, "internal_q", INFINITY)                     \
+  X(COUPLING_Q, "coupling_q", INFINITY)                     \
+  X(COUPLING_PHASE, "coupling_phase", 0.0)                  \
+  X(DELAY, "delay", 0.0)                                    \
+  X(BACKGROUND_AMPLITUDE, "background_amplitude", 1.0)      \
+  X(BACKGROUND_PHASE, "background_phase", 0.0)
 
 /**
  * What a fit may find: the parameters by their numbers, pendres_parameter below
@@ -88,7 +113,10 @@ typedef enum pendres_fit_observable {
  * being measured from the bottom of the well. For data over time FREQUENCY_SCALE, where it is an
  * unknown, makes seconds: the model's time is 2 pi FREQUENCY_SCALE times the data's.
  * TORQUE_SCALE: the model's torque over the data's, of a junction one over its critical current;
- * the AMPLITUDE_SCALE of mean velocities is a reading over the model's velocity.
+ * the AMPLITUDE_SCALE of mean velocities is a reading over the model's velocity. INTERNAL_Q,
+ * COUPLING_Q: the damping of an oscillator on a line is its frequency of small oscillations over
+ * each of these; infinite where they are neither unknown nor fixed. DELAY: of a cable, in turns
+ * over the unit of the data's frequencies, as seconds for Hz.
  * PENDRES_FIT_QUANTITY_COUNT: how many there are.
  */
 typedef enum pendres_fit_quantity {

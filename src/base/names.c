@@ -4,7 +4,7 @@
 
 #include <pendres/pendres.h>
 
-enum { MOST_NAMES = 24 };
+enum { MOST_NAMES = 40 };
 
 #define SECOND(code, name) name,
 #define SECOND_OF_THREE(code, name, ...) name,

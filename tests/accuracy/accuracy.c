@@ -38,6 +38,7 @@ static const section sections[] = {
   {"ramps", accuracy_ramps},
   {"switching", accuracy_switching},
   {"fits", accuracy_fits},
+  {"lines", accuracy_lines},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 

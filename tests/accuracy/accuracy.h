@@ -160,6 +160,7 @@ void accuracy_ramps(accuracy *a);
 void accuracy_switching(accuracy *a);
 void accuracy_fits(accuracy *a);
 void accuracy_fit_errors(accuracy *a); /* of that section */
+void accuracy_lines(accuracy *a);
 
 /* ---- for main ---- */
 

@@ -6,16 +6,12 @@
  */
 #include "scenes/fit/data.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <strings.h>
-#include <unistd.h>
 
+#include "scenes/fit/file.h"
 #include "scenes/fit/text.h"
-#include "scenes/numbers.h"
-#include "system/bytes.h"
-#include "system/file.h"
 
 enum { NONE = -1, OBSERVABLES = PENDRES_FIT_OBSERVABLE_COUNT };
 
@@ -31,6 +27,8 @@ typedef struct reader {
   int gaps; /* some lines have not all of them */
   pendres_fit_observable kind[OBSERVABLES];
   deck_column_unit unit[FIT_COLUMNS];
+  int line, polar;    /* the observables are parts of an S-parameter; or magnitude and phase */
+  int sign;           /* of i w t in the data */
 } reader;
 
 #define FAIL(r, ...) (void)scene_fail((r)->run, PENDRES_INVALID_ARGUMENT, __VA_ARGS__)
@@ -124,6 +122,22 @@ static void take_in_order(reader *r, size_t n, const int *column)
          m == 1 ? "" : "s", m == 1 ? "its" : "their", column[k] + 1);
 }
 
+/* The two columns of an S-parameter that a file of such names, as S21; 0: it has none. */
+static int take_parameter(reader *r, const char *word)
+{
+  static const char *const part[] = {"real", "imaginary"};
+  int found = 0;
+  for (size_t i = 0; i < r->text.columns; i++)
+    for (int k = 0; k < 2; k++) {
+      char name[FIT_CELL + 16];
+      snprintf(name, sizeof name, "%s_%s", word, part[k]);
+      if (strcasecmp(r->text.name[i], name) != 0) continue;
+      r->observable[k] = (int)i;
+      found++;
+    }
+  return found == 2;
+}
+
 static void take_told(reader *r)
 {
   const deck_names *told = &r->d->data.columns;
@@ -134,6 +148,7 @@ static void take_told(reader *r)
     snprintf(word, sizeof word, "%s", told->name[i]);
     char *equals = strchr(word, '=');
     if (equals != NULL) *equals = '\0';
+    if (r->line && take_parameter(r, equals != NULL ? equals + 1 : word)) continue;
     const int at = column_of(r, equals != NULL ? equals + 1 : word);
     if (at == NONE) return;
     if (equals != NULL && !take_role(r, word, at))
@@ -192,6 +207,12 @@ static void take_told_units(reader *r)
   }
 }
 
+static int is_angle(const char *unit)
+{
+  deck_column_unit read;
+  return unit[0] != '\0' && strcmp(unit, "1") != 0 && deck_column_unit_read(unit, "rad", &read) > 0;
+}
+
 static void take_units(reader *r)
 {
   deck_si si;
@@ -206,7 +227,11 @@ static void take_units(reader *r)
                                               : unit_of_observable(r, r->kind[i], &si);
     const char *name = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
     const int at = r->observable[i], error = r->error[i];
-    take_unit(r, at, of, name);
+    r->polar |= i == 1 && r->line && is_angle(r->text.unit[at]);
+    take_unit(r, at, i == 1 && r->polar ? "rad" : of, name);
+    if (r->polar && error != NONE)
+      FAIL(r, "%s:%zu: the standard errors of a magnitude and a phase are not taken: give that of "
+           "the complex number as data.error or relative_error", r->out->path, r->text.line);
     if (error != NONE && r->text.unit[error][0] == '\0') r->unit[error] = r->unit[at];
     else if (error != NONE) take_unit(r, error, of, "standard error");
     const int logarithms = r->unit[at].decibel || (error != NONE && r->unit[error].decibel);
@@ -253,8 +278,10 @@ static void take_names(reader *r)
 static void find_columns(void *to)
 {
   reader *r = to;
+  const int named = strcmp(r->text.name[0], pendres_parameter_of(PENDRES_DRIVE_FREQUENCY)->name);
   if (r->d->data.columns.count > 0) take_told(r);
-  else take_names(r);
+  else if (!r->line || !(take_parameter(r, "S21") || take_parameter(r, "S11"))) take_names(r);
+  if (r->line && r->axis == NONE && named == 0) r->axis = 0;
   if (!scene_going(r->run)) return;
   const char *missing = r->axis == NONE && !are_places(r) ? r->d->data.axis : NULL;
   for (size_t i = 0; i < r->observables; i++)
@@ -351,6 +378,23 @@ static void read_datum(reader *r, size_t n, char *const *cell, size_t i, pendres
          "out", r->out->path, r->text.line);
 }
 
+/* Make real and imaginary part of magnitude and phase, and of time's other sign. `of`: the data of
+   a line, which are the last ones. */
+static void turn(const reader *r, size_t n, pendres_fit_datum *of)
+{
+  if (r->line && r->polar && n == 2) {
+    const double size = of[0].observed, phase = of[1].observed;
+    of[0].observed = size * cos(phase);
+    of[1].observed = size * sin(phase);
+    of[1].error = of[0].error;
+  }
+  for (size_t i = 0; i < n; i++) {
+    const int flips = r->line ? i == 1 && r->sign < 0
+                              : of[i].observable == PENDRES_FIT_QUADRATURE && r->sign > 0;
+    if (flips) of[i].observed = -of[i].observed;
+  }
+}
+
 static void read_line(void *to, size_t n, char *const *cell)
 {
   reader *r = to;
@@ -360,6 +404,7 @@ static void read_line(void *to, size_t n, char *const *cell)
   if (r->other != NONE)
     one.other = in_si(r, r->other, read_number(r, n, cell, r->other, "parameter of the sweep"));
   const double axis = one.axis;
+  const size_t before = r->out->of.n;
   for (size_t i = 0; i < r->observables && scene_going(r->run); i++) {
     if (is_empty(r, n, cell, r->observable[i])) continue;
     read_datum(r, n, cell, i, &one);
@@ -368,6 +413,11 @@ static void read_line(void *to, size_t n, char *const *cell)
     r->out->line[r->out->of.n] = r->text.line;
     r->out->datum[r->out->of.n++] = one;
   }
+  const size_t read = r->out->of.n - before;
+  if (scene_going(r->run) && read > 0 && r->line && read < r->observables)
+    FAIL(r, "%s:%zu: one part of the S-parameter is missing: remove the line", r->out->path,
+         r->text.line);
+  if (scene_going(r->run)) turn(r, read, &r->out->datum[before]);
 }
 
 /* Without a column the order of the lines tells the direction, sweep by sweep: that to the next
@@ -401,65 +451,34 @@ static void set_directions(reader *r)
   }
 }
 
-/* ---- the file ------------------------------------------------------------------------------ */
-
-/* From the deck's folder, unless the path begins at the root. */
-static int open_file(reader *r)
-{
-  char why[FILE_WORDS];
-  const char *file = r->d->data.file, *slash = strrchr(r->d->name, '/');
-  const int folder = file[0] != '/' && slash != NULL ? (int)(slash - r->d->name) + 1 : 0;
-  const int length =
-    snprintf(r->out->path, sizeof r->out->path, "%.*s%s", folder, r->d->name, file);
-  if (length < 0 || (size_t)length >= sizeof r->out->path) {
-    FAIL(r, "data.file: the path is too long");
-    return -1;
-  }
-  const int fd = file_open(r->out->path, FILE_READ, 0, why);
-  if (fd < 0) FAIL(r, "%s: data.file is looked for from the deck's folder", why);
-  return fd;
-}
-
-/* All of the file, to be freed; of one of results, by its first bytes, its variables in place of
-   it. NULL: the run has failed. */
-static char *read_text(reader *r, size_t *length)
-{
-  static const char results[4] = "\211HDF";
-  char first[sizeof results], *text = NULL;
-  const int fd = open_file(r);
-  if (fd < 0) return NULL;
-  const int stored = bytes_read(fd, 0, first, sizeof first) &&
-                     memcmp(first, results, sizeof first) == 0;
-  const pendres_status status = stored ? fit_store_text(r->run, r->out->path, fd, &text, length)
-                                       : bytes_text(fd, FIT_MOST_BYTES, &text, length);
-  if (status == PENDRES_UNSUPPORTED)
-    FAIL(r, "%s: more than %d MiB of data are not read: leave out what is no datum", r->out->path,
-         FIT_MOST_BYTES >> 20);
-  else if (status != PENDRES_OK)
-    (void)scene_fail(r->run, status, "%s: %s", r->out->path,
-                     status == PENDRES_IO ? strerror(errno) : "out of memory for data");
-  (void)close(fd);
-  return text;
-}
-
 void fit_data_read(scene_run *run, fit_data *out)
 {
   const deck *d = run->deck;
   reader r = {.run = run, .d = d, .out = out, .axis = NONE, .direction = NONE, .other = NONE};
   *out = (fit_data){.of = {.axis = fit_axis(d), .other = PENDRES_PARAMETER_COUNT}};
   for (int k = 0; k < OBSERVABLES; k++) r.observable[k] = r.error[k] = NONE;
-  for (size_t i = 0; i < d->data.observables.count; i++)
-    r.kind[r.observables++] = (pendres_fit_observable)pendres_name_find(
-      PENDRES_NAMES_FIT_OBSERVABLE, d->data.observables.name[i]);
+  r.sign = (int)d->data.time_sign;
+  r.line = fit_is_line(d);
+  for (size_t i = 0; i < d->data.observables.count; i++) {
+    char name[DECK_NAME + 16];
+    snprintf(name, sizeof name, "%s%s", r.line ? d->fit.model : d->data.observables.name[i],
+             r.line ? "_real" : "");
+    r.kind[r.observables++] =
+      (pendres_fit_observable)pendres_name_find(PENDRES_NAMES_FIT_OBSERVABLE, name);
+    if (r.line) r.kind[r.observables++] = (pendres_fit_observable)(r.kind[0] + 1);
+  }
   if (r.observables == 0)
     r.kind[r.observables++] = fit_is_decay(d) ? PENDRES_FIT_DISPLACEMENT : PENDRES_FIT_AMPLITUDE;
-  size_t length = 0;
-  char *text = read_text(&r, &length);
+  fit_file file;
+  fit_file_read(run, &file);
+  memcpy(out->path, file.path, sizeof out->path);
   r.text = (fit_text){.run = run, .path = out->path, .format = d->data.format, .to = &r,
                       .comma = strcmp(d->data.decimal, "comma") == 0, .head = find_columns,
                       .row = read_line};
-  if (text != NULL) fit_text_read(&r.text, text, length);
-  free(text);
+  r.text.lines = file.lines;
+  if (scene_going(run)) fit_text_read(&r.text, file.text, file.length);
+  free(file.text);
+  free(file.lines);
   if (scene_going(run) && out->of.n == 0)
     FAIL(&r, "%s: there are no data in the file", out->path);
   if (!scene_going(run)) return;

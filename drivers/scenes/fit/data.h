@@ -30,12 +30,6 @@ typedef struct fit_work {
   pendres_fit *fit;
 } fit_work;
 
-/* The variables of a file of results, open as `fd`, that a fit may need, as lines of text with a
-   line of names, to be freed. It is read apart, since a damaged one may crash its reader. Returns
-   as bytes_text() does; NULL with PENDRES_OK: the run has failed, and why is on record. */
-pendres_status fit_store_text(scene_run *run, const char *path, int fd, char **text,
-                              size_t *length);
-
 /* Read the deck's file; what is wrong is the run's failure: file, line, and what to do. */
 void fit_data_read(scene_run *run, fit_data *out);
 
@@ -63,6 +57,12 @@ static inline pendres_parameter fit_axis(const deck *d)
 static inline int fit_is_place(pendres_fit_observable o)
 {
   return o == PENDRES_FIT_JUMP || o == PENDRES_FIT_RESONANCE;
+}
+
+/* Whether they are scattering parameters. */
+static inline int fit_is_line(const deck *d)
+{
+  return d->fit.model[0] != '\0';
 }
 
 /* Standard error of unknown number i. */

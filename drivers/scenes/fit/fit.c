@@ -55,12 +55,25 @@ static void set_prior(pendres_fit_unknown *u, const double number[2])
   u->prior_error = number[1];
 }
 
+/* Whether the force is linear, so that the response over the drive does not depend on the drive. */
+static int is_linear(const deck *d)
+{
+  int bent = d->pendulum.force != PENDRES_FORCE_POLYNOMIAL;
+  for (int k = 1; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+    bent |= d->pendulum.force_coefficients[k] != 0.0;
+    bent |= deck_fit_has(d, pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, PENDRES_A1 + k));
+  }
+  return !bent;
+}
+
 static void set_unknowns(fit_work *w)
 {
   const deck *d = w->d;
   w->model = d->pendulum;
   w->model.temperature = 0.0;
   if (fit_is_rotation(d) && isnan(w->model.drive_amplitude)) w->model.drive_amplitude = 0.0;
+  if (fit_is_line(d) && isnan(w->model.drive_amplitude) && is_linear(d))
+    w->model.drive_amplitude = 1.0;
   for (size_t i = 0; i < d->fit.free.count; i++) {
     const int q = quantity_of(d->fit.free.name[i]);
     double guess = q < PENDRES_PARAMETER_FOLLOWED
@@ -94,12 +107,23 @@ static void check_model(fit_work *w)
     const pendres_parameter p = needed[i];
     if (!isnan(pendres_parameter_get(p, &w->model)) || p == w->data.of.axis ||
         p == w->data.of.other || unknown_of(w, (int)p) != NULL ||
-        ((fit_is_decay(w->d) || fit_is_rotation(w->d)) && p != PENDRES_DAMPING))
+        ((fit_is_decay(w->d) || fit_is_rotation(w->d)) && p != PENDRES_DAMPING) ||
+        (fit_is_line(w->d) && p == PENDRES_DAMPING))
       continue;
     (void)scene_fail(w->run, PENDRES_INVALID_ARGUMENT,
                      "%s: '%s' is neither in &pendulum, nor free, nor a column of the data: give "
                      "one of these", w->d->name, pendres_parameter_of(p)->name);
   }
+}
+
+/* &units tell no unit of accelerations. */
+static void check_acceleration(fit_work *w)
+{
+  for (size_t i = 0; i < w->data.of.n && scene_going(w->run); i++)
+    if (w->data.datum[i].observable == PENDRES_FIT_ACCELERATION && deck_has_units(w->d) &&
+        !deck_fit_has(w->d, "amplitude_scale"))
+      (void)scene_fail(w->run, PENDRES_INVALID_ARGUMENT, "%s: &units do not tell the unit of an "
+                       "acceleration_amplitude: free or fix 'amplitude_scale'", w->d->name);
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
@@ -199,6 +223,7 @@ static pendres_status run_scene(scene_run *run)
   fit_data_read(run, &w.data);
   if (scene_going(run)) set_unknowns(&w);
   if (scene_going(run)) check_model(&w);
+  if (scene_going(run)) check_acceleration(&w);
   if (scene_going(run)) fit_units_take(&w);
   if (scene_going(run)) find_fit(&w);
   if (scene_going(run)) fit_write(&w);

@@ -1,9 +1,9 @@
 /*
  * store.c -- data of a fit from a file of results: its variables as lines of text, which
- * data.c reads as it reads others. See data.h.
+ * data.c reads as it reads others. See file.h.
  */
 #define _POSIX_C_SOURCE 200809L /* fdopen, fileno, ftruncate */
-#include "scenes/fit/data.h"
+#include "scenes/fit/file.h"
 
 #include <errno.h>
 #include <math.h>

@@ -102,7 +102,7 @@ static int are_units(size_t n, char *const *cell)
     const char *inner = text + bracket;
     const int none = *inner == '\0' || strcmp(inner, "-") == 0;
     if (!none && !deck_column_unit_read(inner, NULL, &unit)) return 0;
-    known += !none;
+    known += !none && strcmp(inner, "1") != 0; /* which is also a number */
   }
   return known > 0;
 }

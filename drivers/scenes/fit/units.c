@@ -24,7 +24,11 @@ int fit_units_of_data(const deck *d, pendres_parameter p, deck_si *out)
 int fit_units_of_observable(const deck *d, pendres_fit_observable o, deck_si *out)
 {
   if (fit_is_place(o)) return fit_units_of_data(d, fit_axis(d), out);
-  const int is_reading = o != PENDRES_FIT_PHASE_LAG && o != PENDRES_FIT_LOOP_AREA;
+  const int is_reading = o != PENDRES_FIT_PHASE_LAG && o != PENDRES_FIT_LOOP_AREA &&
+                         !fit_is_line(d);
+  if (o == PENDRES_FIT_VELOCITY || o == PENDRES_FIT_ACCELERATION)
+    return o == PENDRES_FIT_VELOCITY && !deck_fit_has(d, "amplitude_scale") &&
+           deck_si_of(d, "mean_velocity", out);
   return is_reading ? deck_fit_si(d, "offset", out)
                     : deck_si_of(d, pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)o), out);
 }

@@ -32,4 +32,10 @@ pendres_status pendres_fit_check(pendres_context *ctx, const pendres_fit_call *c
 pendres_status pendres_fit_result(const pendres_fit_call *c, fit_problem *p,
                                   const fit_result *best);
 
+/* Values to begin with, best first: quantities that are NaN in v come from the data. Returns how
+   many there are; -1: out of memory. m->active is how many stations those of a decay are good
+   for. */
+int pendres_fit_guess(const fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
+int pendres_fit_decay_guess(fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
+
 #endif

@@ -63,6 +63,14 @@ static const char *refuses_datum(const pendres_fit_data *d, const pendres_fit_da
   if ((one->observable == PENDRES_FIT_MEAN_VELOCITY) !=
       (d->datum[0].observable == PENDRES_FIT_MEAN_VELOCITY))
     return "mean velocities are fitted alone: leave the other observables out";
+  const int line = pendres_fit_is_line(one->observable);
+  if (line != pendres_fit_is_line(d->datum[0].observable) ||
+      (line && pendres_fit_line_kind(one->observable) !=
+                 pendres_fit_line_kind(d->datum[0].observable)))
+    return "scattering parameters of one kind of line are fitted alone: leave out what else was "
+           "measured";
+  if (line && d->axis != PENDRES_DRIVE_FREQUENCY && d->axis != PENDRES_DRIVE_AMPLITUDE)
+    return "scattering parameters are measured over the frequency or the amplitude of the drive";
   const double axis = is_place ? one->observed : one->axis;
   if (d->axis != PENDRES_PARAMETER_COUNT && pendres_parameter_of(d->axis)->positive &&
       !(axis > 0.0))
@@ -134,6 +142,31 @@ static const char *refuses_rotations(const pendres_fit_call *c)
   return NULL;
 }
 
+/* What lines have, and what they alone have. */
+static const char *refuses_of_line(const pendres_fit_call *c, int q)
+{
+  const pendres_fit_data *d = c->data;
+  const pendres_fit_observable o = d->n > 0 ? d->datum[0].observable : PENDRES_FIT_AMPLITUDE;
+  const int own = q >= PENDRES_FIT_INTERNAL_Q && q <= PENDRES_FIT_BACKGROUND_PHASE;
+  const int leak = q == PENDRES_FIT_BACKGROUND_IN_PHASE || q == PENDRES_FIT_BACKGROUND_QUADRATURE;
+  if (!pendres_fit_is_line(o))
+    return own ? "quality factors, delay and background_amplitude and _phase are of scattering "
+                 "parameters alone" : NULL;
+  const int passes = pendres_fit_line_kind(o) == PENDRES_LINE_TRANSMISSION;
+  if (q == PENDRES_DAMPING)
+    return "the damping of an oscillator on a line follows from internal_q and coupling_q: free "
+           "these";
+  if (q == PENDRES_FIT_AMPLITUDE_SCALE || q == PENDRES_FIT_OFFSET || q == PENDRES_FIT_PHASE_OFFSET)
+    return "a line's scale and phase are background_amplitude and background_phase";
+  if (leak && !passes) return "background_in_phase and _quadrature are of transmission alone";
+  if (passes && q == PENDRES_FIT_COUPLING_PHASE)
+    return "the asymmetry of a transmission is that of background_in_phase and _quadrature";
+  if (q == PENDRES_FIT_DELAY && d->axis != PENDRES_DRIVE_FREQUENCY &&
+      d->other != PENDRES_DRIVE_FREQUENCY)
+    return "a delay is seen over frequencies, and the data have one";
+  return NULL;
+}
+
 static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_unknown *u)
 {
   const int q = u->quantity;
@@ -152,6 +185,7 @@ static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_
                      c->data->other == PENDRES_DRIVE_FREQUENCY;
   if (q == PENDRES_FIT_FREQUENCY_SCALE && !clocks && !decays)
     return "frequency_scale is of frequencies that the data give, and they give none";
+  if (refuses_of_line(c, q) != NULL) return refuses_of_line(c, q);
   const int of_start = q == PENDRES_FIT_START_DISPLACEMENT || q == PENDRES_FIT_START_VELOCITY;
   if (of_start && !decays) return "the start is unknown of data over time alone";
   if (decays && (q == PENDRES_DRIVE_FREQUENCY || q == PENDRES_DRIVE_AMPLITUDE ||

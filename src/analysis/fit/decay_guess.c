@@ -2,7 +2,7 @@
  * decay_guess.c -- where the fit of a free decay begins: the frequency that explains most of the
  * first few cycles, by linear least squares at each of many, and the decay that does so best.
  */
-#include "analysis/fit/internal.h"
+#include "analysis/fit/call.h"
 
 #include <math.h>
 #include <string.h>

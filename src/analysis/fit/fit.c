@@ -36,6 +36,7 @@ static void set_parameters(const pendres_fit_call *c, fit_model *m)
 {
   int wanted[PENDRES_PARAMETER_FOLLOWED] = {0}, last = 0;
   if (!m->decays) wanted[m->axis] = 1;
+  if (m->lines) wanted[PENDRES_DAMPING] = 1;
   if (m->other != PENDRES_PARAMETER_COUNT) wanted[m->other] = 1;
   for (size_t i = 0; i < c->model->unknowns; i++)
     if (!c->model->unknown[i].fixed && c->model->unknown[i].quantity < PENDRES_PARAMETER_FOLLOWED)
@@ -56,6 +57,7 @@ static pendres_pendulum typical(const pendres_fit_call *c, const fit_model *m, c
   pendres_pendulum p = c->model->pendulum;
   for (int q = 0; q < PENDRES_PARAMETER_FOLLOWED; q++)
     pendres_parameter_set((pendres_parameter)q, v[q], &p);
+  p.damping = pendres_fit_damping(m, v);
   p.temperature = 0.0;
   if (m->decays || m->rotates) {
     p.drive_frequency = 1.0;
@@ -80,6 +82,7 @@ static void set_units(fit_model *m, const pendres_units *u)
   m->unit[PENDRES_FIT_START_DISPLACEMENT] = u->length;
   m->unit[PENDRES_FIT_START_VELOCITY] = u->length / u->time;
   m->area = u->length * u->length / (u->time * u->time);
+  m->clock = u->time;
 }
 
 /* ---- the fit ---- */
@@ -111,13 +114,16 @@ static pendres_status take_room(fit_search *s, size_t unknowns, pendres_room *ro
 static void set_free(const pendres_fit_call *c, fit_problem *p)
 {
   size_t k = 0;
+  /* The frequency of a resonance is known to a share of its width. */
+  const double narrow = p->m->lines ? p->m->narrow : 0.0;
   for (size_t i = 0; i < c->model->unknowns; i++) {
     const pendres_fit_unknown *u = &c->model->unknown[i];
     const double unit = p->m->unit[u->quantity];
     if (u->fixed) continue;
     p->free[k++] = (fit_free){.of = u, .quantity = u->quantity, .low = u->low / unit,
                               .high = u->high / unit, .prior = u->prior / unit,
-                              .prior_error = u->prior_error / unit};
+                              .prior_error = u->prior_error / unit,
+                              .narrow = u->quantity == PENDRES_FIT_FREQUENCY_SCALE ? narrow : 0.0};
   }
 }
 
@@ -164,6 +170,7 @@ static int find_starts(pendres_fit_call *c, fit_model *m, fit_values start[FIT_T
   }
   const int more = m->decays    ? pendres_fit_decay_guess(m, open, start + count)
                    : m->rotates ? pendres_fit_rotation_guess(m, open, start + count)
+                   : m->lines   ? pendres_fit_line_guess(m, open, start + count)
                                 : pendres_fit_guess(m, open, start + count);
   if (more < 0) return more;
   count += more;
@@ -197,7 +204,8 @@ static pendres_status fit_within(pendres_context *ctx, const pendres_fit_call *c
   if (!p.known) pendres_fit_forget(&p);
   if (status == PENDRES_OK && !pendres_fit_evaluate(&p, best->v))
     status = p.status != PENDRES_OK ? p.status : pendres_context_fail(
-      ctx, PENDRES_NOT_CONVERGED, "the model could not be computed anew at the best values");
+      ctx, PENDRES_NOT_CONVERGED, "the model could not be computed anew at the best values%s%s",
+      m->lost != NULL ? ": " : "", m->lost != NULL ? m->lost : "");
   if (status != PENDRES_OK) return status;
   status = pendres_fit_result(c, &p, best);
   if (status == PENDRES_NOT_CONVERGED)
@@ -216,7 +224,7 @@ static pendres_status fit(pendres_context *ctx, pendres_fit_call *c)
   c->errors_known = c->data->datum[0].error > 0.0;
   if (c->options.iterations == 0) c->options.iterations = FIT_ITERATIONS;
   for (int q = 0; q < FIT_QUANTITIES; q++) m.unit[q] = 1.0;
-  m.area = 1.0;
+  m.area = m.clock = 1.0;
   set_start(c);
   status = pendres_fit_model_begin(&m, &room, c->data);
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
@@ -236,6 +244,7 @@ static pendres_status fit(pendres_context *ctx, pendres_fit_call *c)
       &room, pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the first guess: %s", why));
   pendres_door d = pendres_door_open(ctx, &p);
   set_units(&m, &d.scales.unit);
+  m.narrow = 1.0 / start[0][PENDRES_FIT_INTERNAL_Q] + 1.0 / start[0][PENDRES_FIT_COUPLING_Q];
   PENDRES_DOOR_CALL(&d, fit_within(ctx, c, &m, &room, starts, start));
   status = d.status;
   if (*c->out != NULL)

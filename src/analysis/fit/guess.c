@@ -8,13 +8,12 @@
  * followed, and no jump to be told. It is a guess, no result: nothing depends on it but where a fit
  * begins.
  */
-#include "analysis/fit/internal.h"
+#include "analysis/fit/call.h"
 
 #include <math.h>
 #include <string.h>
 
 #include <gsl/gsl_multifit_nlinear.h>
-#include <gsl/gsl_sf_bessel.h>
 
 #include "base/angles.h"
 
@@ -41,17 +40,6 @@ typedef struct guess {
 } guess;
 
 /* ---- the balance ---- */
-
-double pendres_fit_stiffness(const fit_model *m, const fit_values v, double a)
-{
-  const double sine = a > 1e-6 ? 2.0 * gsl_sf_bessel_J1(fmin(a, 1e3)) / a : 1.0;
-  switch (m->base.force) {
-  case PENDRES_FORCE_POLYNOMIAL:
-    return v[PENDRES_A1] + a * a * (0.75 * v[PENDRES_A3] + 0.625 * a * a * v[PENDRES_A5]);
-  case PENDRES_FORCE_SQUID: return sine + v[PENDRES_A1];
-  default: return sine;
-  }
-}
 
 static void at_datum(const fit_model *m, const fit_values v, const seen *s, double *w, double *f)
 {

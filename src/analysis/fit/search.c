@@ -197,7 +197,6 @@ static pendres_status order_starts(fit_search *s)
     keep_state(s);
     memcpy(at, s->start[k], sizeof at);
     scale_values(p->m, at, v);
-    p->m->usual_steps = 0;
     pendres_fit_forget(p);
     const double sum = pendres_fit_evaluate(p, v) ? pendres_fit_sum_of_squares(p) : INFINITY;
     if (p->status != PENDRES_OK) return p->status;
@@ -227,20 +226,48 @@ static void widen(fit_problem *p, fit_values v)
       v[PENDRES_DAMPING] = fmax(v[PENDRES_DAMPING], least);
 }
 
-/* Without a frequency axis a spring that stiffens, driven above its frequency, is like one that
-   softens, driven below it: there all starts are tried, although one fits. */
-static pendres_status try_starts(fit_search *s)
+/* Whether a fit is as good as chance makes one, and this kind of data has no second answer: without
+   a frequency axis a spring that stiffens, driven above its frequency, is like one that softens,
+   driven below it. Without errors of the data nothing but worse fits tells that. */
+static int is_good(const pendres_fit_call *c, const fit_model *m, const fit_result *best)
+{
+  return best->computed && best->converged && c->errors_known &&
+         pendres_fit_probability(best) > fit_good_enough &&
+         (m->decays || m->rotates || m->axis == PENDRES_DRIVE_FREQUENCY);
+}
+
+/* Take the fit from a start if it is better than the best so far: of values that fit as well those
+   next to the caller's guesses. */
+static void take(fit_search *s)
 {
   const pendres_fit_call *c = s->call;
   fit_problem *p = s->p;
   fit_result *best = &s->best, *now = &s->now;
-  const int iterations = c->options.iterations;
+  const double least = s->at.own && best->converged ? fit_twin * expected(c, best) : 0.0;
+  if (is_better(now, best, least)) {
+    const fit_result other = *best;
+    p->has_twin &= best->computed &&
+                   now->chi_square > best->chi_square - fit_twin * expected(c, now);
+    *best = *now;
+    *now = other;
+    s->at.own = s->at.next < c->own;
+  }
+  compare(c, p, best, now);
+}
+
+/* All starts, or some more behind one that fits: a wrong minimum may fit by chance as well. */
+static pendres_status try_starts(fit_search *s)
+{
+  const pendres_fit_call *c = s->call;
+  fit_problem *p = s->p;
+  fit_result *now = &s->now;
   const int most = c->options.starts > 0 ? c->options.starts : FIT_TRIED;
-  for (; s->at.next < s->starts && s->at.next < most; s->at.next++) {
+  for (; s->at.next < s->starts && s->at.next < most && s->at.more < FIT_COMPARED; s->at.next++) {
     keep_state(s);
+    const int good = is_good(c, p->m, &s->best);
+    const int iterations = good ? FIT_COMPARED_ITERATIONS : c->options.iterations;
     scale_values(p->m, s->start[s->at.next], now->v);
     pendres_fit_forget(p);
-    p->m->usual_steps = 0;
     p->m->active = s->window;
     pendres_status status = pendres_fit_solve(p, iterations, now);
     while (status == PENDRES_OK && now->computed && p->m->decays &&
@@ -249,21 +276,54 @@ static pendres_status try_starts(fit_search *s)
       status = pendres_fit_solve(p, iterations, now);
     }
     if (status != PENDRES_OK) return status;
-    /* Of values that fit as well those next to the caller's guesses are taken. */
-    const double least = s->at.own && best->converged ? fit_twin * expected(c, best) : 0.0;
-    if (is_better(now, best, least)) {
-      const fit_result other = *best;
-      p->has_twin &= best->computed &&
-                     now->chi_square > best->chi_square - fit_twin * expected(c, now);
-      *best = *now;
-      *now = other;
-      s->at.own = s->at.next < c->own;
-    }
-    compare(c, p, best, now);
-    /* Without errors of the data nothing but worse ones tells that a fit is good. */
-    const int good = best->computed && best->converged && c->errors_known &&
-                     pendres_fit_probability(best) > fit_good_enough;
-    if (good && (p->m->decays || p->m->rotates || p->m->axis == PENDRES_DRIVE_FREQUENCY)) break;
+    take(s);
+    s->at.more += good;
+  }
+  return PENDRES_OK;
+}
+
+/* The change of the values that moves a jump of the model, whose row this is, by the gap that the
+   data leave it, and chi-square least. */
+static void set_hop(const fit_problem *p, const fit_result *best, size_t row, int way,
+                    fit_values v)
+{
+  const double *slope = p->rows.slope[row];
+  double move[FIT_QUANTITIES], all = 0.0;
+  for (size_t a = 0; a < p->unknowns; a++) {
+    move[a] = 0.0;
+    for (size_t b = 0; b < p->unknowns; b++)
+      move[a] += best->covariance[a * p->unknowns + b] * slope[p->free[b].quantity];
+    all += move[a] * slope[p->free[a].quantity];
+  }
+  memcpy(v, best->v, sizeof(fit_values));
+  for (size_t a = 0; a < p->unknowns; a++)
+    v[p->free[a].quantity] += way * sqrt(12.0) / all * move[a]; /* of an even spread over a gap */
+}
+
+/* Where a jump of the model passes a datum chi-square has a kink, and there may be a lower minimum
+   on the other side: fits begin anew from there. */
+static pendres_status hop(fit_search *s)
+{
+  fit_problem *p = s->p;
+  fit_result *best = &s->best, *now = &s->now;
+  const size_t first = p->m->data, rows = pendres_fit_rows(p->m);
+  int better = best->computed && p->m->lines;
+  for (int round = 0; round < FIT_AGAIN && better; round++) {
+    better = 0;
+    for (size_t row = first; row < rows; row++)
+      for (int way = -1; way <= 1; way += 2) {
+        pendres_fit_forget(p);
+        if (!pendres_fit_evaluate(p, best->v)) return p->status;
+        if (p->rows.used[row - first] != 1) continue;
+        set_hop(p, best, row, way, now->v);
+        const pendres_status status = pendres_fit_solve(p, FIT_COMPARED_ITERATIONS, now);
+        if (status != PENDRES_OK) return status;
+        if (!is_better(now, best, fit_converged)) continue;
+        const fit_result other = *best;
+        *best = *now;
+        *now = other;
+        better = 1;
+      }
   }
   return PENDRES_OK;
 }
@@ -363,6 +423,7 @@ pendres_status pendres_fit_search(fit_search *s)
   }
   if (status == PENDRES_OK && s->at.stage == FIT_STARTING) {
     status = try_starts(s);
+    if (status == PENDRES_OK) status = hop(s);
     s->at.stage = FIT_CONCLUDING;
   }
   if (status == PENDRES_OK) status = conclude(s);

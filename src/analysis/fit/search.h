@@ -10,6 +10,7 @@
 typedef struct fit_search_place {
   enum { FIT_ORDERING, FIT_STARTING, FIT_CONCLUDING } stage;
   int next;      /* start that comes next */
+  int more;      /* starts that were tried beside one that fits */
   int own;       /* the best is of the caller's start */
   int again;     /* rounds of the conclusion, ... */
   double before; /* ... and chi-square at the last one's beginning */

@@ -29,9 +29,13 @@ static double encode(fit_free *f, double value)
   const int q = f->quantity;
   const int positive = q == PENDRES_DAMPING || q == PENDRES_FIT_FREQUENCY_SCALE ||
                        q == PENDRES_FIT_AMPLITUDE_SCALE || q == PENDRES_FIT_DRIVE_SCALE ||
-                       q == PENDRES_FIT_TORQUE_SCALE || q == PENDRES_DRIVE_AMPLITUDE;
+                       q == PENDRES_FIT_TORQUE_SCALE || q == PENDRES_DRIVE_AMPLITUDE ||
+                       q == PENDRES_FIT_INTERNAL_Q || q == PENDRES_FIT_COUPLING_Q ||
+                       q == PENDRES_FIT_BACKGROUND_AMPLITUDE;
   f->form = positive && value > 0.0 ? FIT_LOGARITHM : FIT_PLAIN;
   f->unit = value != 0.0 ? fabs(value) : 1.0;
+  f->about = f->narrow > 0.0 ? value : 1.0;
+  if (f->narrow > 0.0 && f->form == FIT_LOGARITHM) return 1.0;
   return f->form == FIT_LOGARITHM ? log(value) : value / f->unit;
 }
 
@@ -41,7 +45,12 @@ static double decode(const fit_free *f, double x, double *slope)
   case FIT_SINE:
     *slope = 0.5 * (f->high - f->low) * cos(x);
     return f->low + 0.5 * (f->high - f->low) * (1.0 + sin(x));
-  case FIT_LOGARITHM: *slope = exp(fmin(x, 600.0)); return *slope;
+  case FIT_LOGARITHM: {
+    if (!(f->narrow > 0.0)) return *slope = exp(fmin(x, 600.0));
+    const double value = f->about * exp(fmin((x - 1.0) * f->narrow, 600.0));
+    *slope = f->narrow * value;
+    return value;
+  }
   default: *slope = f->unit; return f->unit * x;
   }
 }
@@ -121,6 +130,7 @@ int pendres_fit_evaluate(fit_problem *p, const fit_values v)
 void pendres_fit_forget(fit_problem *p)
 {
   for (size_t i = 0; i < p->m->curves; i++) p->m->curve[i].ready = 0;
+  p->m->usual_steps = 0;
   p->known = 0;
 }
 

@@ -2,7 +2,7 @@
 #ifndef PENDRES_FIT_SOLVE_H
 #define PENDRES_FIT_SOLVE_H
 
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 /* A quantity that is free, and the number that the solver sees instead. */
 typedef struct fit_free {
@@ -10,6 +10,7 @@ typedef struct fit_free {
   int quantity;
   enum { FIT_PLAIN, FIT_LOGARITHM, FIT_SINE } form;
   double unit, low, high, prior, prior_error; /* in canonical units */
+  double narrow, about; /* a logarithm in shares of this, from there on; 0: in whole ones */
   int at_bound;
 } fit_free;
 

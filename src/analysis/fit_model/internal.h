@@ -9,7 +9,8 @@
 
 #include <pendres/fit.h>
 
-#include "analysis/fit/numbers.h"
+#include "analysis/fit_model/numbers.h"
+#include "analysis/line/line.h"
 #include "continuation/curve/follow.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
@@ -109,6 +110,17 @@ static inline int pendres_fit_is_place(pendres_fit_observable o)
   return o == PENDRES_FIT_JUMP || o == PENDRES_FIT_RESONANCE;
 }
 
+/* Whether it is a scattering parameter. */
+static inline int pendres_fit_is_line(pendres_fit_observable o)
+{
+  return o >= PENDRES_FIT_TRANSMISSION_REAL && o <= PENDRES_FIT_REFLECTION_IMAGINARY;
+}
+
+static inline pendres_line_kind pendres_fit_line_kind(pendres_fit_observable o)
+{
+  return (pendres_line_kind)((o - PENDRES_FIT_TRANSMISSION_REAL) / 2);
+}
+
 typedef struct fit_model {
   pendres_context *ctx;
   pendres_pendulum base; /* what is neither unknown nor varies */
@@ -124,6 +136,10 @@ typedef struct fit_model {
   fit_mark *mark;
   int decays;    /* the data are over time */
   int rotates;   /* they are mean velocities */
+  int lines;     /* they are scattering parameters, ... */
+  double middle; /* ... this is between their frequencies, ... */
+  double narrow; /* ... and at the first values a resonance as wide, over its frequency */
+  double clock;  /* the caller's unit of time over the canonical one, of velocities */
   size_t left;   /* data that do not count, next to where a rotation ends */
   size_t active; /* of these the stations that count */
   int measured[FIT_BASES];
@@ -136,6 +152,16 @@ typedef struct fit_model {
   const char *lost; /* why the model could not be computed at the last values */
 } fit_model;
 
+/* The model cannot be computed at the last values, and why. */
+static inline pendres_status pendres_fit_lose(fit_model *m, const char *why)
+{
+  m->lost = why;
+  return PENDRES_NOT_CONVERGED;
+}
+
+/* Guesses from the data, and all that are tried: the caller's and those around it as well. */
+enum { FIT_GUESSES = 16, FIT_TRIED = FIT_GUESSES + 1 + FIT_GUESS_AROUND };
+
 /* ---- model.c: what values mean ---- */
 
 /* Sort the data into curves, tracks and stations. */
@@ -145,6 +171,9 @@ pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
 /* The axis' or the other parameter's value in canonical units, and back. */
 double pendres_fit_in(const fit_model *m, pendres_parameter p, const fit_values v, double raw);
 double pendres_fit_out(const fit_model *m, pendres_parameter p, const fit_values v, double value);
+
+/* The square of the frequency at an amplitude, by the balance of the first harmonic. */
+double pendres_fit_stiffness(const fit_model *m, const fit_values v, double amplitude);
 
 /* The point of a curve's pendulum at a value of the axis, without its state. */
 void pendres_fit_point_at(const fit_model *m, const fit_curve *c, const fit_values v, double axis,
@@ -158,6 +187,24 @@ double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lan
 /* Value of the axis at a fold, or of a tuned lane, in the data's unit, and its derivatives. */
 double pendres_fit_place_at(const fit_model *m, const fit_values v, const fit_lane *l,
                             fit_values slope);
+
+/* ---- lines.c ---- */
+
+/* The damping that follows from quality factors, of lines; or is a value itself. */
+double pendres_fit_damping(const fit_model *m, const fit_values v);
+
+/* A scattering parameter at a lane, and its derivatives: by the parameters, and by other
+   quantities. */
+double pendres_fit_line_at(const fit_model *m, const fit_values v, const fit_lane *l,
+                           pendres_fit_observable o, double by[PENDRES_PARAMETER_FOLLOWED],
+                           fit_values slope);
+
+/* Derivatives by quality factors, from those by parameters. */
+void pendres_fit_by_q(const fit_model *m, const fit_values v,
+                      const double by[PENDRES_PARAMETER_FOLLOWED], fit_values slope);
+
+/* Values to begin with, of lines; how many there are; -1: out of memory. */
+int pendres_fit_line_guess(const fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
 
 /* ---- curves.c ---- */
 
@@ -235,9 +282,6 @@ const fit_lane *pendres_fit_fold_lane(const fit_model *m, const fit_track *t, in
 /* Decide on which stages data are, and make the residuals; raw ones, without Huber's loss. */
 void pendres_fit_residuals(fit_model *m, const fit_values v, const fit_terms *t, fit_rows *rows);
 
-/* Guesses from the data, and all that are tried: the caller's and those around it as well. */
-enum { FIT_GUESSES = 16, FIT_TRIED = FIT_GUESSES + 1 + FIT_GUESS_AROUND };
-
 /* ---- decay.c ---- */
 
 /* The motion at all stations that count. */
@@ -253,19 +297,5 @@ void pendres_fit_rotations(fit_model *m);
 
 /* Values to begin with; how many there are. */
 int pendres_fit_rotation_guess(const fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
-
-/* ---- decay_guess.c ---- */
-
-/* Values to begin with; how many there are. m->active is how many stations they are good for. */
-int pendres_fit_decay_guess(fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
-
-/* ---- guess.c ---- */
-
-/* The square of the frequency at an amplitude, by the balance of the first harmonic. */
-double pendres_fit_stiffness(const fit_model *m, const fit_values v, double amplitude);
-
-/* Values to begin with, best first: quantities that are NaN in v come from the data. Returns how
-   many there are; -1: out of memory. */
-int pendres_fit_guess(const fit_model *m, const fit_values v, fit_values out[FIT_GUESSES]);
 
 #endif

@@ -24,6 +24,8 @@ enum {
   FIT_PASSES = 8,      /* of Newton's method at the data, from points of the curve between nodes */
   FIT_AGAIN = 3, /* times that the solver begins anew where it has stalled */
   FIT_ITERATIONS = 60,
+  FIT_COMPARED = 1, /* starts beside one that fits, which one in twenty wrong ones does, ... */
+  FIT_COMPARED_ITERATIONS = 4, /* ... and steps before the solver begins anew there */
   FIT_GUESS_DATA = 120, /* data that the guess looks at, evenly chosen */
   FIT_GUESS_PLACES = 121, /* of the small resonance that are tried */
   FIT_GUESS_SIZES = 17,   /* and largest amplitudes, four a decade from 3 down */
@@ -168,5 +170,10 @@ static const double fit_decay_seen = 0.1;
 /* What errors of data over time are taken for where none are known, as a share of the largest
    datum; the fit then tells them, and the first guess weighs nothing. */
 static const double fit_decay_scatter = 0.01;
+
+/* Of a line the share of the coupling in all losses that a guess begins with is at least this, and
+   as far from 1; and where nothing bends a resonance its drive bends it by this share of its
+   width. */
+static const double fit_line_share = 1e-3, fit_line_straight = 1e-2;
 
 #endif

@@ -1,9 +1,11 @@
 /* model.c -- what data and values of quantities mean; see internal.h. */
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <gsl/gsl_sf_bessel.h>
 
 #include "base/angles.h"
 
@@ -32,11 +34,23 @@ double pendres_fit_out(const fit_model *m, pendres_parameter p, const fit_values
   return p == PENDRES_DRIVE_FREQUENCY ? value * v[scale] : value / v[scale];
 }
 
+double pendres_fit_stiffness(const fit_model *m, const fit_values v, double a)
+{
+  const double sine = a > 1e-6 ? 2.0 * gsl_sf_bessel_J1(fmin(a, 1e3)) / a : 1.0;
+  switch (m->base.force) {
+  case PENDRES_FORCE_POLYNOMIAL:
+    return v[PENDRES_A1] + a * a * (0.75 * v[PENDRES_A3] + 0.625 * a * a * v[PENDRES_A5]);
+  case PENDRES_FORCE_SQUID: return sine + v[PENDRES_A1];
+  default: return sine;
+  }
+}
+
 void pendres_fit_point_at(const fit_model *m, const fit_curve *c, const fit_values v, double axis,
                           pendres_u u)
 {
   u[PENDRES_U_Y] = u[PENDRES_U_W] = 0.0;
   for (int k = 0; k < PENDRES_PARAMETER_FOLLOWED; k++) u[PENDRES_U_OMEGA + k] = v[k];
+  u[PENDRES_U_OMEGA + (int)PENDRES_DAMPING] = pendres_fit_damping(m, v);
   if (m->other != PENDRES_PARAMETER_COUNT)
     u[PENDRES_U_OMEGA + (int)m->other] = pendres_fit_in(m, m->other, v, c->other);
   u[pendres_fit_place(m)] = axis;
@@ -90,14 +104,17 @@ double pendres_fit_observe(const fit_model *m, const fit_values v, const fit_lan
                            pendres_fit_observable o, int bound, fit_values slope)
 {
   double by_base[FIT_BASES], by[PENDRES_PARAMETER_FOLLOWED] = {0.0};
-  const double value = read(m, v, l, o, by_base, slope);
-  for (int k = 0; k < m->parameters; k++)
+  const int line = pendres_fit_is_line(o);
+  const double value = line ? pendres_fit_line_at(m, v, l, o, by, slope)
+                            : read(m, v, l, o, by_base, slope);
+  for (int k = 0; k < m->parameters && !line; k++)
     for (int b = 0; b < FIT_BASES; b++)
       if (by_base[b] != 0.0) by[m->parameter[k]] += by_base[b] * l->slope[b][m->parameter[k]];
   for (int k = 0; k < m->parameters; k++) {
     const int q = m->parameter[k];
     if (q != (int)m->axis && q != (int)m->other) slope[q] += by[q];
   }
+  if (m->lines) pendres_fit_by_q(m, v, by, slope);
   if (bound && scale_of(m->axis) >= 0)
     slope[scale_of(m->axis)] += by[m->axis] * by_scale(m->axis, v, l);
   if (m->other != PENDRES_PARAMETER_COUNT && scale_of(m->other) >= 0)
@@ -188,6 +205,18 @@ static size_t count_curves(size_t n, const sorted *s)
   return curves;
 }
 
+/* The middle of the data's frequencies. */
+static void set_middle(fit_model *m)
+{
+  double low = INFINITY, high = -INFINITY;
+  for (size_t i = 0; i < m->data; i++) {
+    const double f = m->other == PENDRES_DRIVE_FREQUENCY ? m->datum[i].other : m->datum[i].axis;
+    low = fmin(low, f);
+    high = fmax(high, f);
+  }
+  m->middle = 0.5 * (low + high);
+}
+
 pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
                                        const pendres_fit_data *data)
 {
@@ -199,6 +228,7 @@ pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
   m->axis = data->axis;
   m->decays = data->axis == PENDRES_PARAMETER_COUNT;
   m->rotates = data->datum[0].observable == PENDRES_FIT_MEAN_VELOCITY;
+  m->lines = pendres_fit_is_line(data->datum[0].observable);
   m->other = data->other;
   for (size_t k = 0; k < n; k++)
     s[k] = (sorted){&data->datum[k],
@@ -213,6 +243,7 @@ pendres_status pendres_fit_model_begin(fit_model *m, pendres_room *room,
   if (room->status != PENDRES_OK) return room->status;
   for (size_t k = 0; k < n; k++) append(m, &s[k], k);
   double widest = 0.0;
+  set_middle(m);
   for (size_t c = 0; c < curves; c++) widest = fmax(widest, m->curve[c].to - m->curve[c].from);
   for (size_t c = 0; c < curves; c++) {
     fit_curve *curve = &m->curve[c];

@@ -5,7 +5,7 @@
  * time. States go first, period after period; the derivatives over all periods then follow side by
  * side, and are multiplied.
  */
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -194,12 +194,6 @@ static pendres_status run_derivatives(decay *d, pendres_room *room)
 
 /* ---- all ---- */
 
-static pendres_status lose(fit_model *m, const char *why)
-{
-  m->lost = why;
-  return PENDRES_NOT_CONVERGED;
-}
-
 static pendres_status begin(decay *d, const fit_values v, pendres_room *room)
 {
   fit_model *m = d->m;
@@ -212,9 +206,10 @@ static pendres_status begin(decay *d, const fit_values v, pendres_room *room)
   d->pendulum = pendres_map_pendulum(m->base.force, d->u);
   d->rate = two_pi * v[PENDRES_FIT_FREQUENCY_SCALE];
   if (pendres_pendulum_check(&d->pendulum, NULL) != PENDRES_OK || !is_finite(d->u, 2))
-    return lose(m, "the model has no such values");
+    return pendres_fit_lose(m, "the model has no such values");
   const double periods = floor(time_of(d, m->active - 1) / two_pi) + 1.0;
-  if (!(periods < fit_decay_periods)) return lose(m, "the model's motion is too fast for the data");
+  if (!(periods < fit_decay_periods))
+    return pendres_fit_lose(m, "the model's motion is too fast for the data");
   d->periods = (size_t)periods;
   d->y = pendres_room_take(room, d->periods, sizeof *d->y);
   d->w = pendres_room_take(room, d->periods, sizeof *d->w);
@@ -230,7 +225,7 @@ static pendres_status begin(decay *d, const fit_values v, pendres_room *room)
     pendres_steps_choose(m->ctx, &d->pendulum, pendres_steps_speed(&d->pendulum, x, w),
                          fmax(fit_accuracy / count, fit_decay_least), &d->steps);
   if (status == PENDRES_OK && d->steps > FIT_MOST_STEPS)
-    return lose(m, "the values lead to motions far from those of the data");
+    return pendres_fit_lose(m, "the values lead to motions far from those of the data");
   return status;
 }
 
@@ -244,7 +239,7 @@ pendres_status pendres_fit_decay(fit_model *m, const fit_values v)
   pendres_status status = begin(&d, v, &room);
   if (status == PENDRES_OK) status = run_states(&d);
   if (status == PENDRES_OK && (!is_finite(d.y, d.periods) || !is_finite(d.w, d.periods)))
-    status = lose(m, "the model's motion leaves its well for good");
+    status = pendres_fit_lose(m, "the model's motion leaves its well for good");
   if (status == PENDRES_OK) status = run_derivatives(&d, &room);
   for (size_t i = 0; i < m->stations; i++) {
     m->station[i].beyond[0] = 0;

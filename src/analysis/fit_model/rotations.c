@@ -7,7 +7,7 @@
  * pieces over the torque, one behind the other, which overlap. The velocity of a lane says which
  * of them it is on.
  */
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* orbits.c -- orbits at data, their observables and derivatives of these; see internal.h. */
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -235,6 +235,7 @@ static void measure(const orbit *o, fit_lane *l)
   const size_t n = o->s->steps;
   const sums s = sums_of(n, o->y);
   const double r = hypot(s.cosine, s.sine), drive = l->u[PENDRES_U_DRIVE];
+  const double rate = l->u[PENDRES_U_OMEGA] / o->m->clock;
   const double rms = sqrt(fmax(0.0, product(n, o->y, o->y) - s.mean * s.mean));
   l->base[PENDRES_FIT_RMS] = rms;
   l->base[PENDRES_FIT_FIRST_HARMONIC] = r;
@@ -242,6 +243,8 @@ static void measure(const orbit *o, fit_lane *l)
   l->base[PENDRES_FIT_IN_PHASE] = s.cosine;
   l->base[PENDRES_FIT_QUADRATURE] = s.sine;
   l->base[PENDRES_FIT_LOOP_AREA] = pi * drive * s.sine;
+  l->base[PENDRES_FIT_VELOCITY] = rate * r;
+  l->base[PENDRES_FIT_ACCELERATION] = rate * rate * r;
   for (int p = 0; p < o->m->parameters; p++) {
     const int q = o->m->parameter[p];
     const double *dy = o->dy + (size_t)p * n;
@@ -251,6 +254,12 @@ static void measure(const orbit *o, fit_lane *l)
     l->slope[PENDRES_FIT_PHASE_LAG][q] = (s.cosine * d.sine - s.sine * d.cosine) / (r * r);
     l->slope[PENDRES_FIT_IN_PHASE][q] = d.cosine;
     l->slope[PENDRES_FIT_QUADRATURE][q] = d.sine;
+    const double by_r = l->slope[PENDRES_FIT_FIRST_HARMONIC][q];
+    const double by_rate = ((q == (int)PENDRES_DRIVE_FREQUENCY) +
+                            (o->m->axis == PENDRES_DRIVE_FREQUENCY ? l->axis_slope[q] : 0.0)) /
+                           o->m->clock;
+    l->slope[PENDRES_FIT_VELOCITY][q] = rate * by_r + by_rate * r;
+    l->slope[PENDRES_FIT_ACCELERATION][q] = rate * (rate * by_r + 2.0 * by_rate * r);
     /* At a fold the drive itself is what moves, where it is the axis. */
     const double by_drive = (q == (int)PENDRES_DRIVE_AMPLITUDE) +
                             (o->m->axis == PENDRES_DRIVE_AMPLITUDE ? l->axis_slope[q] : 0.0);

@@ -1,5 +1,5 @@
 /* curves.c -- curves of orbits over the axis, moved from one set of values to the next. */
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,12 +29,6 @@ static double distance(const fit_curve *c, const pendres_u a, const pendres_u b)
   for (int i = 0; i < PENDRES_U_COUNT; i++)
     sum = hypot(sum, (a[i] - b[i]) / scale_at(c, i, 0.5 * (a[i] + b[i])));
   return sum;
-}
-
-static pendres_status lose(fit_model *m, const char *why)
-{
-  m->lost = why;
-  return PENDRES_NOT_CONVERGED;
 }
 
 /* ---- where a curve begins ---- */
@@ -110,7 +104,7 @@ static pendres_status first_orbit(fit_model *m, const pendres_orbit_guess *g, pe
   if (found) *o = a->orbit;
   pendres_attractors_free(set);
   if (status != PENDRES_OK || found) return status;
-  return lose(m, "no orbit was found where a sweep begins");
+  return pendres_fit_lose(m, "no orbit was found where a sweep begins");
 }
 
 /* Whether the pendulum has the mirror symmetry, whatever values the fit's parameters take. */
@@ -135,7 +129,7 @@ static pendres_status begin(fit_model *m, fit_curve *c, const fit_values v, cons
   pendres_fit_point_at(m, c, v, r->low, u);
   const pendres_pendulum p = pendres_map_pendulum(m->base.force, u);
   if (pendres_pendulum_check(&p, NULL) != PENDRES_OK)
-    return lose(m, "the model has no such values");
+    return pendres_fit_lose(m, "the model has no such values");
   linear_guess(&p, &g, &highest);
   pendres_status status = first_orbit(m, &g, &o);
   if (status != PENDRES_OK) return status;
@@ -183,22 +177,24 @@ static pendres_status follow(fit_model *m, fit_curve *c, const fit_values v)
   c->nodes = 0;
   pendres_status status = begin(m, c, v, &r, &w);
   if (status == PENDRES_NOT_CONVERGED && m->lost == NULL)
-    return lose(m, "a sweep's curve of orbits does not begin");
+    return pendres_fit_lose(m, "a sweep's curve of orbits does not begin");
   if (status != PENDRES_OK) return status;
   c->node[c->nodes++] = w.here;
   while (!is_through(m, c, &r, &over)) {
     status = pendres_follow_advance(m->ctx, 1, &one);
     if (status != PENDRES_OK) return status;
-    if (w.stuck) return lose(m, "a curve of orbits could not be followed on");
+    if (w.stuck) return pendres_fit_lose(m, "a curve of orbits could not be followed on");
     int steps = 0;
     status = pendres_map_steps(m->ctx, m->base.force, w.here.u, c->kind.tolerance, &steps);
     if (status != PENDRES_OK) return status;
-    if (steps > FIT_MOST_STEPS) return lose(m, "a curve leads to motions far from the data's");
+    if (steps > FIT_MOST_STEPS)
+      return pendres_fit_lose(m, "a curve leads to motions far from the data's");
     for (int k = 0; k < w.found; k++) c->node[c->nodes++] = w.ahead[k];
   }
   if (c->nodes + PENDRES_AHEAD >= FIT_NODES)
-    return lose(m, "a curve of orbits has more points than a fit follows");
-  if (over) return lose(m, "a curve of orbits does not lead over the range of the data");
+    return pendres_fit_lose(m, "a curve of orbits has more points than a fit follows");
+  if (over)
+    return pendres_fit_lose(m, "a curve of orbits does not lead over the range of the data");
   c->ready = 1;
   return PENDRES_OK;
 }
@@ -383,7 +379,7 @@ static pendres_status place_folds(fit_model *m)
         pendres_curve_node *e = &ends[2 * n], new = e[0];
         if (at[n].state != PENDRES_CORRECTION_CONVERGED ||
             !describe_moved(&m->curve[k], &at[n], &new))
-          return pendres_room_close(&room, lose(m, "a fold was not found"));
+          return pendres_room_close(&room, pendres_fit_lose(m, "a fold was not found"));
         memcpy(fold->u, new.u, sizeof fold->u);
         memcpy(fold->tangent, new.tangent, sizeof fold->tangent);
         e[(new.tangent[2] < 0.0) == (e[1].tangent[2] < 0.0)] = new;

@@ -1,5 +1,5 @@
 /* stages.c -- which states an oscillator is on along a sweep, and residuals; see internal.h. */
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -132,10 +132,8 @@ pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
   pendres_status status = m->rotates ? PENDRES_OK : choose_steps(m, &steps);
   if (status != PENDRES_OK) return status;
   if (m->usual_steps == 0) m->usual_steps = steps;
-  if (steps > FIT_MORE_STEPS * m->usual_steps || steps > FIT_MOST_STEPS) {
-    m->lost = "the values lead to motions far from those of the data";
-    return PENDRES_NOT_CONVERGED;
-  }
+  if (steps > FIT_MORE_STEPS * m->usual_steps || steps > FIT_MOST_STEPS)
+    return pendres_fit_lose(m, "the values lead to motions far from those of the data");
   set_folds(m);
   for (size_t k = 0; k < m->tracks; k++) {
     fit_track *t = &m->track[k];
@@ -152,10 +150,8 @@ pendres_status pendres_fit_stages(fit_model *m, const fit_values v)
     const fit_track *t = &m->track[k];
     for (size_t i = t->first; i < t->first + t->count; i++)
       for (int j = 0; j < t->stages; j++)
-        if (!mend(m, t, &m->station[i], j)) {
-          m->lost = "an orbit at a datum was not found";
-          return PENDRES_NOT_CONVERGED;
-        }
+        if (!mend(m, t, &m->station[i], j))
+          return pendres_fit_lose(m, "an orbit at a datum was not found");
   }
   return status;
 }

@@ -2,7 +2,7 @@
  * places.c -- places on the axis that are data: folds, at which the state jumps, and resonances,
  * where the first harmonic lags by a quarter turn; see internal.h.
  */
-#include "analysis/fit/internal.h"
+#include "analysis/fit_model/internal.h"
 
 #include <math.h>
 #include <string.h>
