@@ -27,21 +27,21 @@ NAMES(scene_cloud_names, pendres_name_get(PENDRES_NAMES_CLOUD_VERDICT, value))
 NAMES(scene_switching_names, pendres_name_get(PENDRES_NAMES_SWITCHING_VERDICT, value))
 
 /* All names but those of rotations without a lock and of rest that is unstable: few have these. */
-const char *scene_fate_names(int value)
+static const char *fate_names(int value)
 {
   return value < PENDRES_LABEL_QUASI_PERIODIC ? scene_motion_names(value) : NULL;
 }
 
 /* What escapes is on no attractor. */
-const char *scene_label_names(int value)
+static const char *label_names(int value)
 {
-  return value < PENDRES_LABEL_ESCAPE ? scene_fate_names(value) : NULL;
+  return value < PENDRES_LABEL_ESCAPE ? fate_names(value) : NULL;
 }
 
 scene_names scene_settled_names(const pendres_pendulum *p)
 {
   if (pendres_pendulum_rotates(p) || p->drive_amplitude == 0.0) return scene_motion_names;
-  return pendres_pendulum_leaves(p) ? scene_fate_names : scene_label_names;
+  return pendres_pendulum_leaves(p) ? fate_names : label_names;
 }
 
 /* The names as a list for flag_meanings; how many. */
@@ -161,7 +161,7 @@ static void describe(const scene_run *run, const scene_table *t, const scene_col
   const int plain =
     c->names == scene_motion_names && deck_is_plain(run->deck) && !deck_may_rest(run->deck);
   if (c->names != NULL)
-    v->spec.flag_count = meanings_of(plain ? scene_label_names : c->names, v->meanings);
+    v->spec.flag_count = meanings_of(plain ? label_names : c->names, v->meanings);
 }
 
 static pendres_status define(scene_run *run, const scene_table *t, const scene_column *c,

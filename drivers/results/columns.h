@@ -135,11 +135,8 @@ void scene_columns_write_rows(scene_run *run, const scene_table *table, size_t f
                               const scene_variables *of);
 
 /* Names of values of the library's enums, as columns take them. */
-const char *scene_label_names(int value); /* of attractors */
-const char *scene_fate_names(int value);  /* of pendulums, which may escape, ... */
-const char *scene_motion_names(int value); /* ... or rotate without a lock to the drive */
-/* Of what pendulums with these parameters settle on. */
-scene_names scene_settled_names(const pendres_pendulum *p);
+const char *scene_motion_names(int value); /* of all that a pendulum may settle on, ... */
+scene_names scene_settled_names(const pendres_pendulum *p); /* ... and of what this one may */
 const char *scene_doubt_names(int value); /* "no", "yes" */
 const char *scene_regime_names(int value);
 const char *scene_special_names(int value);

@@ -10,8 +10,4 @@ static const double charted_drive = 0.02, charted_share = 0.1;
 /* A drive of so many natural frequencies is rather a slip: mHz for MHz. */
 static const double far_above = 1e4;
 
-/* Bytes of results of one value of an outer axis from which on they are in files: those of a
-   thousand values are too many for memory, and a process may map some 65,000 files. */
-enum { STACK_MEMORY = 1 << 20 };
-
 #endif

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "results/numbers.h"
 #include "system/grow.h"
 
 /* Of a dimension or variable, what one slice has. */
@@ -86,11 +85,12 @@ void results_stack_forget(results_stack *s, size_t slice)
 
 /* ---- what is kept -------------------------------------------------------------------------- */
 
-/* NULL: why is on record. What is large is in a file: there may be as many slices as memory has
-   room for one. */
+/* NULL: why is on record. What all slices have of a variable takes no more memory than one large
+   array does: beyond that it is in files. */
 static void *take(scene_run *run, size_t n, size_t size)
 {
-  return scene_room_large(run, &run->stack->room, n, size, STACK_MEMORY);
+  results_stack *s = run->stack;
+  return scene_room_large(run, &s->room, n, size, SCENE_MEMORY / s->slices);
 }
 
 /* A text that lasts; NULL stays NULL. */

@@ -17,7 +17,7 @@ typedef struct state_row {
 } state_row;
 
 static const scene_column of_states[BASINS_VARIABLES] = {
-  SCENE_CODE(state_row, label, "what the pendulum settles on", scene_label_names),
+  SCENE_CODE(state_row, label, "what the pendulum settles on", scene_motion_names),
   {SCENE_TYPED(SCENE_NUMBER, "attractor_index", state_row, attractor,
                "number of the attractor that the pendulum settles on"),
    .comment = "-1: unresolved"},
