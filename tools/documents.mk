@@ -34,6 +34,7 @@ python-stubs: all
 
 interface-list:
 	@$${PYTHON:-/usr/bin/python3} -B tests/interface_list.py '$(CC)' include >tests/interface.txt
+	@$(MAKE) --no-print-directory python-stubs || echo 'python/pendres/__init__.pyi is not renewed'
 
 # Every deck that computes a figure, and its picture, into build/figures. The shell makes the names:
 # those of make end at a blank.

@@ -101,6 +101,14 @@ class FitObservable(enum.IntEnum):
     MEAN_VELOCITY = 8
     JUMP = 9
     RESONANCE = 10
+    VELOCITY = 11
+    ACCELERATION = 12
+    TRANSMISSION_REAL = 13
+    TRANSMISSION_IMAGINARY = 14
+    NOTCH_REAL = 15
+    NOTCH_IMAGINARY = 16
+    REFLECTION_REAL = 17
+    REFLECTION_IMAGINARY = 18
 class FitQuantity(enum.IntEnum):
     PARAMETER_LAST = 9
     FREQUENCY_SCALE = 10
@@ -113,6 +121,12 @@ class FitQuantity(enum.IntEnum):
     START_DISPLACEMENT = 17
     START_VELOCITY = 18
     TORQUE_SCALE = 19
+    INTERNAL_Q = 20
+    COUPLING_Q = 21
+    COUPLING_PHASE = 22
+    DELAY = 23
+    BACKGROUND_AMPLITUDE = 24
+    BACKGROUND_PHASE = 25
 class Force(enum.IntEnum):
     PENDULUM = 0
     POLYNOMIAL = 1
