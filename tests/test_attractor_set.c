@@ -263,6 +263,21 @@ static void once_at_any_tolerance(void **state)
   }
 }
 
+/* The built-in starts are as many as attractor.h says: 36, and in each well with a barrier. */
+static void built_in_starts(void **state)
+{
+  const pendres_pendulum turning = {.damping = 0.1, .drive_frequency = 1.0};
+  pendres_pendulum wells = {.damping = 0.1, .drive_frequency = 1.0,
+                            .force = PENDRES_FORCE_POLYNOMIAL,
+                            .force_coefficients = {-1.0, 0.0, 1.0}};
+  double x[PENDRES_ATTRACTOR_SET_STARTS], v[PENDRES_ATTRACTOR_SET_STARTS];
+  (void)state;
+  assert_int_equal(pendres_attractor_set_starts(&turning, x, v), 36);
+  assert_int_equal(pendres_attractor_set_starts(&wells, x, v), 36 + 2 * 36);
+  wells.force_coefficients[0] = 1.0;
+  assert_int_equal(pendres_attractor_set_starts(&wells, x, v), 36);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(one_order),
@@ -271,6 +286,7 @@ int main(void)
                                      cmocka_unit_test(chaos_last),
                                      cmocka_unit_test(images_compared),
                                      cmocka_unit_test(same_by_both_errors),
-                                     cmocka_unit_test(once_at_any_tolerance)};
+                                     cmocka_unit_test(once_at_any_tolerance),
+                                     cmocka_unit_test(built_in_starts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

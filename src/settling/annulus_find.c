@@ -365,7 +365,7 @@ static pendres_status find_undriven(pendres_context *ctx, pendres_attractor_set 
     return PENDRES_OK;
   for (size_t i = 0; i < of->n && !*found; i++) {
     pendres_strobe_lane_out(of->lane[i], &x, &v);
-    *found = pendres_undriven_rotates(&c->pendulum, of->x[i], x);
+    *found = pendres_undriven_rotates(&c->pendulum, of->x[i], x, v);
   }
   if (!*found) return PENDRES_OK;
   const pendres_open_measures m = pendres_open_turning(&c->pendulum, &r);

@@ -163,7 +163,8 @@ static int turns_over(const pendres_settle_labelling *l, size_t i, const pendres
                       const pendres_strobe_lane *lane)
 {
   const double now = angle_of(lane), last = l->before != NULL ? l->before[i].angle : now;
-  return c->turns && pendres_undriven_rotates(&c->pendulum, last, now);
+  return c->turns && pendres_undriven_rotates(&c->pendulum, last, now,
+                                              c->pendulum.drive_frequency * lane->w);
 }
 
 /* Whether a lane is on a rotation without a lock: one without a drive, or between the edges of

@@ -9,6 +9,7 @@
 #include "model/model.h"
 #include "settling/annulus_find.h"
 #include "settling/chaos.h"
+#include "settling/exponents/undriven.h"
 
 /* The pendulums of a batch that have not settled so far: they are called lost here. */
 typedef struct lost_lanes {
@@ -117,7 +118,7 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l,
     pendres_attractor_set *c = &attractor_sets[l->set[first]];
     pendres_chaos_verdict verdict = PENDRES_CHAOS_NEW;
     for (last = first; last < l->count && l->set[last] == l->set[first];) last++;
-    if (l->over[l->set[first]]) continue;
+    if (l->over[l->set[first]] || pendres_undriven(&c->pendulum)) continue; /* rest or rotations */
     while (verdict == PENDRES_CHAOS_NEW && status == PENDRES_OK) {
       size_t n = 0;
       for (size_t i = first; i < last; i++)

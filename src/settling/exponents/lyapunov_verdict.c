@@ -171,7 +171,7 @@ static void tell_undriven(const job *j)
     double x, v;
     if (r->state != PENDRES_RUNNER_MOVING || !pendres_undriven(p)) continue;
     pendres_strobe_lane_out(&r->lane, &x, &v);
-    if (!pendres_undriven_rotates(p, j->x[i], x) ||
+    if (!pendres_undriven_rotates(p, j->x[i], x, v) ||
         pendres_rotation_find(p, &found, NULL) != PENDRES_OK)
       continue;
     j->out[i] = (pendres_settled){

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/angles.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 int pendres_undriven(const pendres_pendulum *p)
@@ -18,7 +19,10 @@ static double passed(const pendres_pendulum *p, double x)
   return floor((y - pi + asin(fabs(p->torque))) / two_pi);
 }
 
-int pendres_undriven_rotates(const pendres_pendulum *p, double from_x, double to_x)
+int pendres_undriven_rotates(const pendres_pendulum *p, double from_x, double to_x, double v)
 {
-  return fabs(p->torque) > 1.0 || passed(p, to_x) > passed(p, from_x);
+  const double torque = fabs(p->torque), along = copysign(1.0, p->torque) * v;
+  const double loss = pendres_equation_friction(p, along) * along;
+  return torque > 1.0 || passed(p, to_x) > passed(p, from_x) ||
+         (along > 0.0 && along * along > 2.0 * two_pi * (1.0 - torque + loss));
 }
