@@ -4,8 +4,9 @@
  * Prints, on one core and as ratios within one run (each way in turn, the best of many short runs,
  * so that a busy machine matters little; longer runs by processor time):
  *   1. blocks of several widths beside a bare SIMD loop of the same method (bare_loop.h);
- *   2. pendulum-periods a second of the reference ensemble at measured errors, by table;
- *   3. the same beside one ARKODE problem a pendulum.
+ *   2. the Nystrom method of bulk work beside them;
+ *   3. pendulum-periods a second of the reference ensemble at measured errors, by table;
+ *   4. the same beside one ARKODE problem a pendulum.
  *
  * Reference ensemble: 200 pendulums at rest, spread over one turn; damping 0.12, the drive's period
  * 8, its amplitude 0.2; 100 drive periods. Error: the largest over the ensemble in position and
@@ -272,6 +273,63 @@ static void print_widths(void)
   }
 }
 
+/* ---- Bulk work ------------------------------------------------------------------------------- */
+
+enum { WAYS = PENDRES_FLOW_SINGLE + 1 };
+
+/* Shortest seconds of a period of states, or of these with a tangent each, by each way, in turn for
+   `budget` seconds. */
+static void time_ways(pendres_block *block, size_t lanes, pendres_flow_load load, double budget,
+                      double best[WAYS])
+{
+  struct timespec first, a, b;
+  need_ok(pendres_block_carry(block, load), "what is carried");
+  for (int way = 0; way < WAYS; way++) best[way] = INFINITY;
+  clock_gettime(CLOCK_MONOTONIC, &first);
+  do {
+    for (int way = 0; way < WAYS; way++) {
+      for (size_t i = 0; i < lanes; i++) {
+        pendres_block_load(block, i, &pendulum, start(i, lanes) - half_pi, 0.0);
+        for (int k = 0; k < 2 && load == PENDRES_FLOW_TANGENTS; k++)
+          pendres_block_put_tangent(block, i, k, (double[2]){1.0, 0.0});
+      }
+      clock_gettime(CLOCK_MONOTONIC, &a);
+      need_ok(pendres_block_period_by(block, (pendres_flow_way)way), "a period");
+      clock_gettime(CLOCK_MONOTONIC, &b);
+      best[way] = fmin(best[way], seconds_between(&a, &b));
+    }
+  } while (seconds_between(&first, &b) < budget);
+  need_ok(pendres_block_carry(block, PENDRES_FLOW_NOTHING), "what is carried");
+}
+
+static void print_ways(void)
+{
+  static const size_t lanes[] = {8, 64, 200, 512};
+  static const char *const beside[] = {"states", "tangents"};
+  printf("\nThe Nystrom method beside table tp8 in as many steps: times as fast\n");
+  printf("%8s %10s %12s %12s\n", "lanes", "of", "double", "single");
+  for (size_t i = 0; i < sizeof lanes / sizeof *lanes; i++) {
+    const pendres_options options = {.block_lanes = (int)lanes[i]};
+    pendres_context *ctx = NULL;
+    pendres_block *block = NULL;
+    need_ok(pendres_context_create(&options, &ctx), "a context");
+    need_ok(pendres_block_open(ctx, PENDRES_FLOW_STATE, 12, &block), "a block");
+    pendres_block_resize(block, lanes[i]);
+    for (int k = 0; k < 2; k++) {
+      double best[WAYS];
+      time_ways(block, lanes[i], k == 0 ? PENDRES_FLOW_NOTHING : PENDRES_FLOW_TANGENTS, 0.3, best);
+      const double twice = best[PENDRES_FLOW_TABLE] / best[PENDRES_FLOW_NYSTROM];
+      const double single = best[PENDRES_FLOW_TABLE] / best[PENDRES_FLOW_SINGLE];
+      printf("%8zu %10s %12.2f %12.2f\n", lanes[i], beside[k], twice, single);
+      bench_figure(twice, '>', bench_ratio, "flow.nystrom_to_table.%s.%zu.%s", beside[k], lanes[i],
+                   pendres_kernels_select()->name);
+      bench_figure(single, '>', bench_ratio, "flow.single_to_table.%s.%zu.%s", beside[k], lanes[i],
+                   pendres_kernels_select()->name);
+    }
+    pendres_context_free(ctx);
+  }
+}
+
 /* ---- Speed at measured errors ---------------------------------------------------------------- */
 
 static const double targets[] = {1e-6, 1e-8, 1e-10, 2e-14};
@@ -433,6 +491,7 @@ int main(void)
   printf("SUNDIALS %s. Ratios count; other work on the machine changes absolute figures.\n",
          SUNDIALS_VERSION);
   print_widths();
+  print_ways();
   make_reference(&reference);
   print_tables(&reference, steps);
   print_singles(&reference, steps);

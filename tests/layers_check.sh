@@ -27,7 +27,7 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   base/student.h
   model/equation.h model/forces.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
   engine/kernels/coordinates.h engine/kernels/kernels.h engine/kernels/kernels_chart.h
-  engine/kernels/kernels_nystrom.h engine/kernels/kernels_force.h engine/kernels/kernels_split.h
+  engine/kernels/kernels_nystrom.h engine/kernels/kernels_force.h
   engine/kernels/rank.h engine/kernels/tables.h
   engine/sundials/compat.h engine/sundials/flow_table.h engine/sundials/lanes.h
   engine/sundials/lanes_replay.h engine/sundials/lanes_shape.h engine/sundials/lanes_tape.h

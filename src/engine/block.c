@@ -311,9 +311,7 @@ static pendres_status advance_to(pendres_block *b, int span, double end)
 static pendres_status advance_alone(pendres_block *b, pendres_flow_way way)
 {
   const int steps = b->drive.steps;
-  const int slopes = way == PENDRES_FLOW_SPLIT
-                       ? pendres_block_run_split(b)
-                       : pendres_block_run_nystrom(b, way == PENDRES_FLOW_SINGLE);
+  const int slopes = pendres_block_run_nystrom(b, way == PENDRES_FLOW_SINGLE);
   if (slopes < 0) return slopes == PENDRES_BLOCK_STARVED ? PENDRES_OUT_OF_MEMORY
                                                          : PENDRES_INVALID_ARGUMENT;
   b->stopped = 0;

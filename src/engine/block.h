@@ -87,11 +87,10 @@ void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, d
 
 /*
  * Advance all lanes by one drive period; asks before and now and then within long periods whether
- * to go on, and counts the cost. In single precision: plain pendulums that carry errors, which must
- * allow for this rounding. By splitting: errors that are carried stay as they are; of tangents both
- * become those with the block's steps. Half a period, from drive phase 0 to pi: for an even number
- * of fixed steps. Orbits that are their own mirror image close after half a period and a
- * reflection.
+ * to go on, and counts the cost. By a Nystrom method tangents are exact, and both become those with
+ * the block's steps; in single precision errors must allow for its rounding, and forces have no
+ * header of their own. Half a period, from drive phase 0 to pi: for an even number of fixed steps.
+ * Orbits that are their own mirror image close after half a period and a reflection.
  */
 pendres_status pendres_block_period(pendres_block *b);
 pendres_status pendres_block_period_by(pendres_block *b, pendres_flow_way way);
@@ -102,11 +101,6 @@ pendres_status pendres_block_half_period(pendres_block *b);
 typedef void pendres_block_sample(void *arg, int step, const pendres_rows *rows);
 pendres_status pendres_block_period_sampled(pendres_block *b, pendres_block_sample *sample,
                                             void *arg);
-
-/* A state at drive phase 0 in the coordinates of a splitting of so many steps, in which lanes are
-   when their periods are computed so; or, if `back`, one of these as it is. */
-void pendres_block_split_state(const pendres_pendulum *p, int steps, int back, double *y,
-                               double *w);
 
 /* Right-hand sides evaluated so far, counting each lane in use, and steps taken, likewise; those
    that an adaptive block rejected do not count. */

@@ -10,7 +10,6 @@
 #include <stddef.h>
 
 #include "engine/kernels/kernels_nystrom.h"
-#include "engine/kernels/kernels_split.h"
 #include "engine/sundials/lanes.h"
 #include "engine/sundials/lanes_replay.h"
 #include "engine/sundials/lanes_shape.h"
@@ -76,8 +75,7 @@ struct pendres_block {
   pendres_flow_load load; /* what is carried, */
   double *off[CARRIED];   /* in these; NULL until anything is */
   pendres_block_drive drive;
-  pendres_nystrom_steps nystrom;  /* steps without ARKODE, once there are any, */
-  pendres_split_steps split;      /* and by splitting */
+  pendres_nystrom_steps nystrom;  /* steps without ARKODE, once there are any */
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
@@ -89,14 +87,12 @@ struct pendres_block {
 
 /* Make the steps of a period, unless they are there; 0, or -1 if out of memory. */
 int pendres_block_nystrom_prepare(pendres_nystrom_steps *s, int steps);
-int pendres_block_split_prepare(pendres_split_steps *s, int steps);
 
 /* block_alone.c: the lanes of a block over a period without ARKODE. Returns how many right-hand
    sides that took for each lane; if negative, nothing was done: there is no memory, or such a block
    cannot. */
 enum { PENDRES_BLOCK_STARVED = -2, PENDRES_BLOCK_CANNOT = -1 };
 int pendres_block_run_nystrom(struct pendres_block *b, int single);
-int pendres_block_run_split(struct pendres_block *b);
 void pendres_block_alone_free(struct pendres_block *b);
 
 /* Make the arrays for the coefficients of all lanes and for the rows. 0, or -1 without memory:

@@ -21,9 +21,8 @@ typedef struct pendres_strobe_lane {
   long period;                      /* strobes so far */
   long charted;                     /* those that charts led over: all but one of each (charts.h) */
   int steps;                        /* a period; unused by adaptive methods */
-  pendres_flow_way way;             /* of block_fixed. In single precision errors are propagated,
-                                       and `added` allows for it; by splitting they stay as they
-                                       are, and visitors see its coordinates (block.h) */
+  pendres_flow_way way;             /* of block_fixed; in single precision `added` allows for its
+                                       rounding */
   double added;                     /* variance that a step adds to y's error (block.h); 0: errors
                                        are not propagated. With fixed steps only */
   pendres_flow_error off;           /* covariance of the errors of y and w */

@@ -27,10 +27,8 @@ static void put(filling *f, size_t slot)
     f->taken = 0;
   }
   f->slot[slot] = index;
-  if (f->way == PENDRES_FLOW_SPLIT)
-    pendres_block_split_state(l->pendulum, l->steps, 0, &l->y, &l->w);
   pendres_block_load(f->block, slot, l->pendulum, l->y, l->w);
-  if (f->carry && f->way != PENDRES_FLOW_SPLIT)
+  if (f->carry)
     pendres_block_set_error(f->block, slot, &l->off, l->added);
 }
 
@@ -44,16 +42,13 @@ static int look(filling *f, size_t slot)
   l->period++;
   pendres_coordinates_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   pendres_block_put_state(f->block, slot, l->y, l->w);
-  if (f->carry && f->way != PENDRES_FLOW_SPLIT) {
+  if (f->carry) {
     l->off = pendres_block_get_error(f->block, slot);
     const double off = l->off.yy + l->off.ww;
     /* An error that is NaN counts as infinite. */
     if (!(off <= l->worst)) l->worst = off;
   }
-  const int done = f->job->visit(f->job->arg, f->slot[slot], l);
-  if (done && f->way == PENDRES_FLOW_SPLIT)
-    pendres_block_split_state(l->pendulum, l->steps, 1, &l->y, &l->w);
-  return done;
+  return f->job->visit(f->job->arg, f->slot[slot], l);
 }
 
 /* Run all lanes of one class of steps, first..end. */
@@ -67,7 +62,7 @@ static pendres_status run_class(filling *f, const pendres_rank *first, const pen
   f->taken = 0;
   f->way = first->way;
   f->filled = n < capacity ? n : capacity;
-  f->carry = f->fixed && f->job->lanes[pendres_strobe_which(f->job, first->index)].added > 0.0;
+  f->carry = first->carries;
   pendres_block_clear(f->block);
   pendres_status status =
     pendres_block_carry(f->block, f->carry ? PENDRES_FLOW_ERRORS : PENDRES_FLOW_NOTHING);
@@ -110,12 +105,13 @@ static size_t gather(const pendres_strobe_job *job, int fixed, pendres_rank *ran
     const pendres_strobe_lane *l = &job->lanes[pendres_strobe_which(job, i)];
     const int steps = fixed ? l->steps : 0;
     const pendres_flow_way way = fixed ? l->way : PENDRES_FLOW_TABLE;
+    const int carries = fixed && l->added > 0.0;
     if (before != NULL && l->pendulum == before->pendulum && steps == last.steps &&
-        way == last.way) {
+        way == last.way && carries == last.carries) {
       last.count++;
     } else {
       last = (pendres_rank){.steps = steps, .model = pendres_model_kind(l->pendulum),
-                            .way = way, .index = i, .count = 1};
+                            .way = way, .carries = carries, .index = i, .count = 1};
       count++;
     }
     before = l;
@@ -127,8 +123,7 @@ static size_t gather(const pendres_strobe_job *job, int fixed, pendres_rank *ran
 /*
  * Run lanes as pendres_method_functions says, in a block of states: with each lane's own steps if
  * they are fixed. Lanes with the same number of steps share blocks; a lane that is done is replaced
- * immediately. With fixed steps errors are propagated where the first lane of a block has `added` >
- * 0.
+ * immediately. With fixed steps errors are propagated where lanes have `added` > 0.
  */
 static pendres_status run_block(pendres_context *ctx, pendres_block *block, int fixed,
                                 const pendres_strobe_job *job)

@@ -30,13 +30,15 @@ static const double lattice_frequency = 1e-4, lattice_frequency_ratio = 1.06;
 static const double lattice_speed = 2.0, lattice_speed_ratio = 1.5;
 
 /*
- * Steps of a splitting, with three kicks each, for each of a table's at this error a period. Then
- * multipliers of 480 random pendulums of four forces are right to 1e-5 at nineteen in twenty, and
- * to 1e-3 at all. More exact ones have as many more steps as its order says.
+ * Steps of a Nystrom method for each of a table's at this error a period, where multipliers count
+ * and no trajectory. Then those of random pendulums of four forces are right to 1e-5 at nineteen in
+ * twenty, and to 1e-4 at all. More exact ones have as many more steps as the order says.
  */
-enum { SPLIT_ORDER = 6 };
-static const double split_rough = 1e-4;
-static const double split_steps = 1.4;
+static const double average_rough = 1e-4, average_steps = 0.7;
+/* Averages of such an error a period may be in single precision, which rounds a hundredth of it. */
+static const double average_single = 1e-5;
+/* Its rounding was measured for pendulums that turn by so many radians a period. */
+static const double single_farthest = 50.0;
 
 /* ---- how many steps: probes of a cell ---- */
 

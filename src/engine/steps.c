@@ -417,13 +417,3 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
   *steps = chosen;
   return status;
 }
-
-pendres_status pendres_steps_choose_split(pendres_context *ctx, const pendres_pendulum *p,
-                                          double speed, double tolerance, int *steps)
-{
-  const double rough = fmax(tolerance, split_rough);
-  const pendres_status status = pendres_steps_choose(ctx, p, speed, rough, steps);
-  const double more = pow(rough / tolerance, 1.0 / SPLIT_ORDER);
-  if (status == PENDRES_OK) *steps = pendres_steps_rung((int)ceil(split_steps * more * *steps));
-  return status;
-}

@@ -44,10 +44,6 @@ double pendres_steps_turning_speed(const pendres_pendulum *p);
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                     double tolerance, int *steps);
 
-/* The same for a splitting (kernels_split.h). */
-pendres_status pendres_steps_choose_split(pendres_context *ctx, const pendres_pendulum *p,
-                                          double speed, double tolerance, int *steps);
-
 /* The steps that were chosen for cells of the lattice. */
 typedef struct pendres_steps_memo pendres_steps_memo;
 

@@ -3,9 +3,13 @@
 
 #include <math.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/kernels/coordinates.h"
+#include "engine/kernels/kernels_nystrom.h"
 #include "engine/kernels/tables.h"
+#include "engine/numbers.h"
+#include "model/model.h"
 #include "engine/steps.h"
 
 #define PLACE(value, name) [value] = &pendres_method_##name,
@@ -31,6 +35,27 @@ pendres_status pendres_strobe_choose(pendres_context *ctx, double speed, double 
 {
   lane->way = pendres_strobe_way(ctx, lane->pendulum);
   return pendres_steps_choose(ctx, lane->pendulum, speed, tolerance, &lane->steps);
+}
+
+double pendres_strobe_single_fastest(const pendres_pendulum *p)
+{
+  return single_farthest * p->drive_frequency / two_pi;
+}
+
+pendres_status pendres_strobe_choose_average(pendres_context *ctx, double speed, double tolerance,
+                                             pendres_strobe_lane *lane)
+{
+  const double rough = fmax(tolerance, average_rough);
+  const pendres_status status = pendres_strobe_choose(ctx, speed, rough, lane);
+  const double steps = average_steps * pow(rough / tolerance, 1.0 / PENDRES_NYSTROM_ORDER);
+  if (status != PENDRES_OK) return status;
+  /* Every model has tangents by a Nystrom method, without a drive, too. */
+  lane->way = PENDRES_FLOW_NYSTROM;
+  lane->steps = pendres_steps_rung((int)ceil(steps * lane->steps));
+  if (tolerance >= average_single && speed <= pendres_strobe_single_fastest(lane->pendulum) &&
+      pendres_nystrom_may_single(pendres_model_kind(lane->pendulum)))
+    lane->way = PENDRES_FLOW_SINGLE;
+  return status;
 }
 
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v)

@@ -43,6 +43,14 @@ pendres_status pendres_strobe_choose(pendres_context *ctx, double speed, double 
    or steps. Without a drive, what is at rest stays there by tables alone. */
 pendres_flow_way pendres_strobe_way(const pendres_context *ctx, const pendres_pendulum *p);
 
+/* The speed up to which single precision is exact enough. */
+double pendres_strobe_single_fastest(const pendres_pendulum *p);
+
+/* Choose both for a lane in chaos, where a trajectory counts only as one of many: such an error a
+   period of what does not depend on where it is, as exponents. No errors are carried. */
+pendres_status pendres_strobe_choose_average(pendres_context *ctx, double speed, double tolerance,
+                                             pendres_strobe_lane *lane);
+
 /* A lane at a state (x, v), without its whole turns; the caller sets steps and errors. */
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v);
 /* The present state of a lane. */

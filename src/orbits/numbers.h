@@ -80,9 +80,6 @@ static const double orbit_worst_rounding = 4.0;
 /* A mean so near to the top is at the top, and belongs to the well on one side of it. */
 static const double orbit_tie = 0.01;
 
-/* Rounding in single precision was measured for pendulums that turn by so many radians a period. */
-static const double settle_farthest_in_float = 50.0;
-
 /* Strobes at which runs of long trajectories are compared, at most, at a time. */
 enum { STROBE_MOST_COMPARED = 64 };
 

@@ -29,7 +29,7 @@ double pendres_strobe_noise_of_single_step(void)
 
 double pendres_strobe_noise_fastest(const pendres_context *ctx, const pendres_pendulum *p)
 {
-  const double fastest = settle_farthest_in_float * p->drive_frequency / two_pi;
+  const double fastest = pendres_strobe_single_fastest(p);
   const int may = ctx->options.method == PENDRES_BLOCK_FIXED &&
                   ctx->options.steps_per_period == 0 &&
                   pendres_model_kind(p) == PENDRES_MODEL_PLAIN &&

@@ -184,8 +184,7 @@ typedef struct pendres_flow_error {
 typedef enum pendres_flow_way {
   PENDRES_FLOW_TABLE,   /* a Butcher table, with ARKODE */
   PENDRES_FLOW_NYSTROM, /* a Nystrom method (kernels_nystrom.h) */
-  PENDRES_FLOW_SINGLE,  /* the same in single precision */
-  PENDRES_FLOW_SPLIT    /* exact free motion and kicks, of sixth order (kernels_split.h) */
+  PENDRES_FLOW_SINGLE   /* the same in single precision */
 } pendres_flow_way;
 
 /* A few lanes side by side: where in each vector they are, and their coefficients. */

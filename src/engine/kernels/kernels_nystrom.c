@@ -1,6 +1,8 @@
 /* kernels_nystrom.c -- a period by a Runge-Kutta-Nystrom method; see kernels_nystrom.h. */
 #include "engine/kernels/kernels_nystrom.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -59,27 +61,22 @@ INLINE double mean_decay_near(double x)
 /* Vectors of a group: what fits the registers together with a sine's. */
 enum { WIDE_DOUBLE = PENDRES_VECTOR_LANES, MOST_DOUBLE = WIDE_DOUBLE == 8 ? 8 : 4 };
 
-/* y[v] = df/dy there, as carried errors need it: of a sine within 1e-4. */
-INLINE void slopes_double(pendres_model_terms model, int count, const double *const *power,
-                          pendres_vector *y)
-{
-  double by[MOST_DOUBLE * WIDE_DOUBLE] __attribute__((aligned(64)));
-  PENDRES_VECTOR_EACH pendres_vector_store(by + v * WIDE_DOUBLE, y[v]);
-#pragma omp simd
-  for (int i = 0; i < count * WIDE_DOUBLE; i++) {
-    double unused;
-    if (model >= PENDRES_MODEL_POLYNOMIAL)
-      pendres_kernels_force(model, power, (size_t)i, by[i], &unused, &by[i]);
-    else
-      by[i] = pendres_kernels_cos_roughly(by[i]);
-  }
-  PENDRES_VECTOR_EACH y[v] = pendres_vector_load(by + v * WIDE_DOUBLE);
-}
-
+/* Forces at vectors of places, and their derivatives unless slope is NULL. */
 INLINE void forces_double(pendres_model_terms model, int count, const double *const *power,
-                          pendres_vector *y)
+                          pendres_vector *y, pendres_vector *slope)
 {
-  pendres_kernels_forces(model, count, power, 0, y);
+  double f[MOST_DOUBLE * WIDE_DOUBLE] __attribute__((aligned(64)));
+  double by[MOST_DOUBLE * WIDE_DOUBLE] __attribute__((aligned(64)));
+  if (slope == NULL) {
+    pendres_kernels_forces(model, count, power, 0, y);
+    return;
+  }
+  PENDRES_VECTOR_EACH pendres_vector_store(f + v * WIDE_DOUBLE, y[v]);
+#pragma omp simd
+  for (int i = 0; i < count * WIDE_DOUBLE; i++)
+    pendres_kernels_force(model, power, (size_t)i, f[i], &f[i], &by[i]);
+  PENDRES_VECTOR_EACH y[v] = pendres_vector_load(f + v * WIDE_DOUBLE);
+  PENDRES_VECTOR_EACH slope[v] = pendres_vector_load(by + v * WIDE_DOUBLE);
 }
 
 #define REAL double
@@ -88,7 +85,7 @@ INLINE void forces_double(pendres_model_terms model, int count, const double *co
 #define MOST MOST_DOUBLE
 #define FUSED pendres_vector_fma
 #define FORCES forces_double
-#define SLOPES slopes_double
+#define TO_WHOLE 0x1.8p52
 #define NAME(x) x##_double
 #include "engine/kernels/kernels_nystrom_run.h"
 #undef REAL
@@ -97,7 +94,7 @@ INLINE void forces_double(pendres_model_terms model, int count, const double *co
 #undef MOST
 #undef FUSED
 #undef FORCES
-#undef SLOPES
+#undef TO_WHOLE
 #undef NAME
 
 /* ---- single precision ---- */
@@ -127,21 +124,30 @@ INLINE single all_single(float a)
   return a - (single){0.0f};
 }
 
-/* Adding and subtracting this rounds to a whole number, whose parity is the sum's lowest bit. */
-static const float to_whole = 0x1.8p23f;
-
-/* y[v] = sin y[v]: as in base/sine.h, with a polynomial that is off by 6e-9 of the sine. */
-INLINE void sines_single(pendres_model_terms model, int count, const double *const *power,
-                         single *y)
+/* sin y[v], and cos y[v] unless slope is NULL: as in base/sine.h, with polynomials that are off by
+   6e-9. */
+INLINE void forces_single(pendres_model_terms model, int count, const double *const *power,
+                          single *y, single *slope)
 {
   single t[MOST_SINGLE], s[MOST_SINGLE];
+  const single whole = all_single(0x1.8p23f);
   (void)model, (void)power;
-  PENDRES_VECTOR_EACH t[v] = fused_single(y[v], all_single(0x1.45f306p-2f), all_single(to_whole));
-  PENDRES_VECTOR_EACH s[v] = t[v] - all_single(to_whole);
+  PENDRES_VECTOR_EACH t[v] = fused_single(y[v], all_single(0x1.45f306p-2f), whole);
+  PENDRES_VECTOR_EACH s[v] = t[v] - whole;
   PENDRES_VECTOR_EACH y[v] = fused_single(-s[v], all_single(0x1.921fb6p+1f), y[v]);
   PENDRES_VECTOR_EACH y[v] = fused_single(-s[v], all_single(-0x1.777a5cp-24f), y[v]);
   PENDRES_VECTOR_EACH y[v] = (single)((single_bits)y[v] ^ ((single_bits)t[v] << 31));
   PENDRES_VECTOR_EACH s[v] = y[v] * y[v];
+  if (slope != NULL)
+    PENDRES_VECTOR_EACH
+    {
+      single c = fused_single(s[v], all_single(-0x1.194102p-22f), all_single(0x1.9f8f5ap-16f));
+      c = fused_single(c, s[v], all_single(-0x1.6c149cp-10f));
+      c = fused_single(c, s[v], all_single(0x1.55555p-5f));
+      c = fused_single(c, s[v], all_single(-0.5f));
+      c = fused_single(c, s[v], all_single(1.0f));
+      slope[v] = (single)((single_bits)c ^ ((single_bits)t[v] << 31));
+    }
   PENDRES_VECTOR_EACH t[v] =
     fused_single(s[v], all_single(0x1.5dbdf0p-19f), all_single(-0x1.9f6ffep-13f));
   PENDRES_VECTOR_EACH t[v] = fused_single(t[v], s[v], all_single(0x1.110ed4p-7f));
@@ -150,30 +156,13 @@ INLINE void sines_single(pendres_model_terms model, int count, const double *con
   PENDRES_VECTOR_EACH y[v] = fused_single(s[v], t[v], y[v]);
 }
 
-/* y[v] = cos y[v] within 1e-4, as pendres_kernels_cos_roughly(). */
-INLINE void cosines_single(pendres_model_terms model, int count, const double *const *power,
-                           single *y)
-{
-  (void)model, (void)power;
-  PENDRES_VECTOR_EACH
-  {
-    const single whole = all_single(to_whole);
-    const single turns = fused_single(y[v], all_single(0x1.45f306p-3f), whole) - whole;
-    const single r = fused_single(-turns, all_single(0x1.921fb6p+2f), y[v]), s = r * r;
-    single p = fused_single(s, all_single(1.87708309275e-05f), all_single(-0.00133885087532f));
-    p = fused_single(p, s, all_single(0.0414934583954f));
-    p = fused_single(p, s, all_single(-0.499788065521f));
-    y[v] = fused_single(p, s, all_single(0.99995823162f));
-  }
-}
-
 #define REAL float
 #define VECTOR single
 #define WIDE WIDE_SINGLE
 #define MOST MOST_SINGLE
 #define FUSED fused_single
-#define FORCES sines_single
-#define SLOPES cosines_single
+#define FORCES forces_single
+#define TO_WHOLE 0x1.8p23f
 #define NAME(x) x##_single
 #include "engine/kernels/kernels_nystrom_run.h"
 
@@ -181,49 +170,58 @@ INLINE void cosines_single(pendres_model_terms model, int count, const double *c
 
 typedef void run_some(const pendres_nystrom_steps *, const pendres_nystrom_lanes *, size_t);
 
-#define GROUP(NAME, MODEL, COUNT)                                                             \
-  static void NAME##_##MODEL##_##COUNT(const pendres_nystrom_steps *s,                        \
-                                       const pendres_nystrom_lanes *b, size_t lane)           \
-  {                                                                                           \
-    run_group_##NAME(PENDRES_MODEL_##MODEL, COUNT, s, b, lane);                               \
-  }
+/* As many as are worth the time of compiling them: of the plain pendulum's states most. */
 #if defined(__AVX512F__)
-#define COUNTS(EACH_COUNT, A, B) \
-  EACH_COUNT(A, B, 1)            \
-  EACH_COUNT(A, B, 2)            \
-  EACH_COUNT(A, B, 3)            \
-  EACH_COUNT(A, B, 4)            \
-  EACH_COUNT(A, B, 5)            \
-  EACH_COUNT(A, B, 6)            \
-  EACH_COUNT(A, B, 7)            \
-  EACH_COUNT(A, B, 8)
+#define FEW(EACH_COUNT, A, B) EACH_COUNT(A, B, 1) EACH_COUNT(A, B, 4)
+#define SOME(EACH_COUNT, A, B) FEW(EACH_COUNT, A, B) EACH_COUNT(A, B, 8)
+#define MANY(EACH_COUNT, A, B) \
+  SOME(EACH_COUNT, A, B)       \
+  EACH_COUNT(A, B, 2)          \
+  EACH_COUNT(A, B, 3)          \
+  EACH_COUNT(A, B, 6)
 #elif defined(__AVX__)
-#define COUNTS(EACH_COUNT, A, B) \
-  EACH_COUNT(A, B, 1)            \
-  EACH_COUNT(A, B, 2)            \
-  EACH_COUNT(A, B, 4)
+#define FEW(EACH_COUNT, A, B) EACH_COUNT(A, B, 2) EACH_COUNT(A, B, 4)
+#define SOME FEW
+#define MANY FEW
 #else
-#define COUNTS(EACH_COUNT, A, B) \
-  EACH_COUNT(A, B, 2)            \
-  EACH_COUNT(A, B, 4)
+#define FEW(EACH_COUNT, A, B) EACH_COUNT(A, B, 4)
+#define SOME FEW
+#define MANY FEW
 #endif
 
-#define DOUBLE_GROUP(MODEL, unused, COUNT) GROUP(double, MODEL, COUNT)
-#define DOUBLE_GROUPS(MODEL, name) COUNTS(DOUBLE_GROUP, MODEL, name)
-#define SINGLE_GROUP(MODEL, unused, COUNT) GROUP(single, MODEL, COUNT)
-DOUBLE_GROUPS(PLAIN, plain)
+#define GROUP(REAL_NAME, MODEL, TANGENTS, COUNT)                                        \
+  static void REAL_NAME##_##MODEL##_##TANGENTS##_##COUNT(                               \
+    const pendres_nystrom_steps *s, const pendres_nystrom_lanes *b, size_t lane)        \
+  {                                                                                     \
+    run_group_##REAL_NAME(PENDRES_MODEL_##MODEL, COUNT, TANGENTS, s, b, lane);          \
+  }
+#define DOUBLE_GROUP(MODEL, TANGENTS, COUNT) GROUP(double, MODEL, TANGENTS, COUNT)
+#define SINGLE_GROUP(MODEL, TANGENTS, COUNT) GROUP(single, MODEL, TANGENTS, COUNT)
+#define DOUBLE_GROUPS(MODEL, name) FEW(DOUBLE_GROUP, MODEL, 1) SOME(DOUBLE_GROUP, MODEL, 0)
+#define SINGLE_GROUPS(MODEL, name) FEW(SINGLE_GROUP, MODEL, 1) SOME(SINGLE_GROUP, MODEL, 0)
+FEW(DOUBLE_GROUP, PLAIN, 1)
+MANY(DOUBLE_GROUP, PLAIN, 0)
 DOUBLE_GROUPS(PENDULUM, pendulum)
 DOUBLE_GROUPS(POLYNOMIAL, polynomial)
 PENDRES_FORCE_LIST(DOUBLE_GROUPS)
-COUNTS(SINGLE_GROUP, PLAIN, plain)
+FEW(SINGLE_GROUP, PLAIN, 1)
+MANY(SINGLE_GROUP, PLAIN, 0)
+SINGLE_GROUPS(PENDULUM, pendulum)
+SINGLE_GROUPS(POLYNOMIAL, polynomial)
 
-#define OF_COUNT(MODEL, unused, COUNT) [COUNT] = double_##MODEL##_##COUNT,
-#define OF_MODEL(MODEL, name) [PENDRES_MODEL_##MODEL] = {COUNTS(OF_COUNT, MODEL, name)},
-static run_some *const in_double[PENDRES_MODEL_COUNT][MOST_DOUBLE + 1] = {
-  OF_MODEL(PLAIN, plain) OF_MODEL(PENDULUM, pendulum) OF_MODEL(POLYNOMIAL, polynomial)
-  PENDRES_FORCE_LIST(OF_MODEL)};
-#define OF_SINGLE(MODEL, unused, COUNT) [COUNT] = single_##MODEL##_##COUNT,
-static run_some *const in_single[MOST_SINGLE + 1] = {COUNTS(OF_SINGLE, PLAIN, plain)};
+/* By model, whether there are tangents, and how many vectors. */
+#define OF_DOUBLE(MODEL, TANGENTS, COUNT) [COUNT] = double_##MODEL##_##TANGENTS##_##COUNT,
+#define OF_SINGLE(MODEL, TANGENTS, COUNT) [COUNT] = single_##MODEL##_##TANGENTS##_##COUNT,
+#define IN_DOUBLE(MODEL, name) \
+  [PENDRES_MODEL_##MODEL] = {{SOME(OF_DOUBLE, MODEL, 0)}, {FEW(OF_DOUBLE, MODEL, 1)}},
+static run_some *const in_double[PENDRES_MODEL_COUNT][2][MOST_DOUBLE + 1] = {
+  [PENDRES_MODEL_PLAIN] = {{MANY(OF_DOUBLE, PLAIN, 0)}, {FEW(OF_DOUBLE, PLAIN, 1)}},
+  IN_DOUBLE(PENDULUM, pendulum) IN_DOUBLE(POLYNOMIAL, polynomial) PENDRES_FORCE_LIST(IN_DOUBLE)};
+static run_some *const in_single[PENDRES_MODEL_POLYNOMIAL + 1][2][MOST_SINGLE + 1] = {
+  [PENDRES_MODEL_PLAIN] = {{MANY(OF_SINGLE, PLAIN, 0)}, {FEW(OF_SINGLE, PLAIN, 1)}},
+  [PENDRES_MODEL_PENDULUM] = {{SOME(OF_SINGLE, PENDULUM, 0)}, {FEW(OF_SINGLE, PENDULUM, 1)}},
+  [PENDRES_MODEL_POLYNOMIAL] = {{SOME(OF_SINGLE, POLYNOMIAL, 0)},
+                                {FEW(OF_SINGLE, POLYNOMIAL, 1)}}};
 
 /* All lanes, in as few groups as can be, and as equal. */
 INLINE void run_all(run_some *const *of, size_t wide, size_t most, const pendres_nystrom_steps *s,
@@ -231,23 +229,24 @@ INLINE void run_all(run_some *const *of, size_t wide, size_t most, const pendres
 {
   const size_t vectors = (b->lanes + wide - 1) / wide, groups = (vectors + most - 1) / most;
   size_t lane = 0;
-  for (size_t g = 0; g < groups; g++) {
+  for (size_t g = 0; g < groups && lane < b->lanes; g++) {
     size_t count = (vectors - lane / wide + groups - g - 1) / (groups - g);
     while (of[count] == NULL) count++;
     of[count](s, b, lane);
     lane += count * wide;
-    if (lane >= b->lanes) return;
   }
 }
 
 static void run(const pendres_nystrom_steps *s, const pendres_nystrom_lanes *b)
 {
-  run_all(in_double[b->model], WIDE_DOUBLE, MOST_DOUBLE, s, b);
+  const int tangents = b->tangent_y != NULL;
+  run_all(in_double[b->model][tangents], WIDE_DOUBLE, tangents ? 4 : MOST_DOUBLE, s, b);
 }
 
 static void run_single(const pendres_nystrom_steps *s, const pendres_nystrom_lanes *b)
 {
-  run_all(in_single, WIDE_SINGLE, MOST_SINGLE, s, b);
+  const int tangents = b->tangent_y != NULL;
+  run_all(in_single[b->model][tangents], WIDE_SINGLE, tangents ? 4 : MOST_SINGLE, s, b);
 }
 
 const pendres_kernels_nystrom PENDRES_INSTRUCTIONS_OWN(pendres_kernels_nystrom) = {run, run_single};

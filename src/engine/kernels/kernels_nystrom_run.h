@@ -3,8 +3,9 @@
  *
  * Owns: the loop of kernels_nystrom.c, which includes it for double and for single precision, with
  * REAL the type, VECTOR a vector of it, WIDE how many elements that has, MOST the most vectors of a
- * group, FUSED a fused multiply-add of vectors, FORCES the forces of a model at vectors of places,
- * SLOPES their derivatives as carried errors need them, and NAME(x) what x is called there.
+ * group, FUSED a fused multiply-add of vectors, FORCES those of all models but the polynomial, with
+ * their derivatives unless these are NULL, TO_WHOLE what rounds by being added, and NAME(x) what x
+ * is called there.
  */
 #define EACH _Pragma("GCC unroll 16") for (int v = 0; v < count; v++)
 #define ROW(row) REAL row[MOST * WIDE]
@@ -20,6 +21,7 @@ typedef struct NAME(group) {
   ROW(drive);
   ROW(torque);
   ROW(modulation);
+  REAL power[PENDRES_FORCE_COEFFICIENTS][MOST * WIDE];
   ROW(square); /* (friction h / 2)^2 */
   ROW(gone);   /* 1 - E(h) */
   REAL less[STAGES][MOST * WIDE], more[STAGES][MOST * WIDE]; /* E and 1/E at the stages */
@@ -30,6 +32,10 @@ typedef struct NAME(group) {
   ROW(added);
   ROW(keep);
   ROW(kick);
+  ROW(a); /* the tangent of y, and h times that of u' */
+  ROW(b);
+  REAL bent[STAGES][MOST * WIDE]; /* the slope's */
+  double size[MOST * WIDE];       /* of both, of which the rows hold shares */
 } __attribute__((aligned(64))) NAME(group);
 
 static const REAL NAME(inner)[STAGES][STAGES] = INNER;
@@ -40,21 +46,58 @@ INLINE VECTOR NAME(set)(REAL a)
   return a - (VECTOR){0};
 }
 
-INLINE void NAME(stage)(pendres_model_terms model, int count, int j, REAL cosine,
-                        const double *const *power, NAME(group) *g)
+/* f at y[v], and unless it is NULL its derivative, of a polynomial force. */
+INLINE void NAME(polynomial)(int count, const NAME(group) *g, VECTOR *y, VECTOR *slope)
 {
-  VECTOR y[MOST], f = NAME(set)((REAL)pendres_nystrom_node[j] / (REAL)20);
-  EACH y[v] = FUSED(f, AT(g->p), AT(g->u));
+  enum { LAST = PENDRES_FORCE_COEFFICIENTS - 1 };
+  VECTOR t[MOST], by[MOST];
+  EACH t[v] = AT(g->power[LAST]);
+  EACH by[v] = NAME(set)((REAL)0);
+  for (int i = LAST - 1; i >= 0; i--) {
+    if (slope != NULL) EACH by[v] = FUSED(by[v], y[v], t[v]);
+    EACH t[v] = FUSED(t[v], y[v], AT(g->power[i]));
+  }
+  if (slope != NULL) EACH slope[v] = FUSED(by[v], y[v], t[v]);
+  EACH y[v] = t[v] * y[v];
+}
+
+INLINE void NAME(force)(pendres_model_terms model, int count, const double *const *power,
+                        const NAME(group) *g, VECTOR *y, VECTOR *slope)
+{
+  if (model == PENDRES_MODEL_POLYNOMIAL)
+    NAME(polynomial)(count, g, y, slope);
+  else
+    FORCES(model, count, power, y, slope);
+}
+
+/* Sum over the earlier slopes of a stage, from the start and the speed. */
+INLINE void NAME(sum)(int count, int j, const REAL *at, const REAL *speed,
+                      REAL slope[STAGES][MOST * WIDE], VECTOR *y)
+{
+  VECTOR f = NAME(set)((REAL)pendres_nystrom_node[j] / (REAL)20);
+  EACH y[v] = FUSED(f, AT(speed), AT(at));
   for (int m = 0; m < j; m++) {
     f = NAME(set)(NAME(inner)[j][m]);
-    EACH y[v] = FUSED(f, AT(g->slope[m]), y[v]);
+    EACH y[v] = FUSED(f, AT(slope[m]), y[v]);
   }
+}
+
+INLINE void NAME(stage)(pendres_model_terms model, int count, int tangents, int j, REAL cosine,
+                        const double *const *power, NAME(group) *g)
+{
+  VECTOR y[MOST], slope[MOST];
+  const VECTOR f = NAME(set)(cosine);
+  NAME(sum)(count, j, g->u, g->p, g->slope, y);
   EACH AT(g->slope[j]) = y[v];
   if (j > 0) EACH y[v] = y[v] * AT(g->less[j]);
-  FORCES(model, count, power, y);
-  f = NAME(set)(cosine);
+  NAME(force)(model, count, power, g, y, tangents ? slope : NULL);
   if (model != PENDRES_MODEL_PLAIN)
-    EACH y[v] = y[v] * FUSED(AT(g->modulation), f, NAME(set)((REAL)1));
+    EACH
+    {
+      const VECTOR driven = FUSED(AT(g->modulation), f, NAME(set)((REAL)1));
+      y[v] = y[v] * driven;
+      if (tangents) slope[v] = slope[v] * driven;
+    }
   EACH
   {
     VECTOR rest = f * AT(g->drive);
@@ -63,6 +106,9 @@ INLINE void NAME(stage)(pendres_model_terms model, int count, int j, REAL cosine
   }
   if (j > 0) EACH y[v] = y[v] * AT(g->more[j]);
   EACH AT(g->slope[j]) = FUSED(AT(g->square), AT(g->slope[j]), y[v]);
+  if (!tangents) return;
+  NAME(sum)(count, j, g->a, g->b, g->bent, y);
+  EACH AT(g->bent[j]) = FUSED(-AT(g->stiffness), slope[v], AT(g->square)) * y[v];
 }
 
 /* One of both numbers of the state over a step, by its change so far. */
@@ -78,18 +124,44 @@ INLINE void NAME(damp)(int count, const REAL *gone, VECTOR *change, REAL *state,
   }
 }
 
-INLINE void NAME(end_step)(int count, NAME(group) *g)
+INLINE void NAME(end_sums)(int count, const REAL *speed, REAL slope[STAGES][MOST * WIDE],
+                           VECTOR *u, VECTOR *p)
 {
-  VECTOR u[MOST], p[MOST];
-  EACH u[v] = AT(g->p);
+  EACH u[v] = AT(speed);
   EACH p[v] = NAME(set)((REAL)0);
   for (int m = 0; m < STAGES; m++) {
     const VECTOR a = NAME(set)(NAME(place)[m]), b = NAME(set)(NAME(speed)[m]);
-    EACH u[v] = FUSED(a, AT(g->slope[m]), u[v]);
-    EACH p[v] = FUSED(b, AT(g->slope[m]), p[v]);
+    EACH u[v] = FUSED(a, AT(slope[m]), u[v]);
+    EACH p[v] = FUSED(b, AT(slope[m]), p[v]);
   }
+}
+
+INLINE void NAME(end_step)(int count, int tangents, NAME(group) *g)
+{
+  VECTOR u[MOST], p[MOST];
+  NAME(end_sums)(count, g->p, g->slope, u, p);
   NAME(damp)(count, g->gone, u, g->u, g->lost_u);
   NAME(damp)(count, g->gone, p, g->p, g->lost_p);
+  if (!tangents) return;
+  NAME(end_sums)(count, g->b, g->bent, u, p);
+  EACH
+  {
+    const VECTOR a = AT(g->a) + u[v], b = AT(g->b) + p[v];
+    AT(g->a) = FUSED(-AT(g->gone), a, a);
+    AT(g->b) = FUSED(-AT(g->gone), b, b);
+  }
+}
+
+/* cos y within 1e-4, as pendres_kernels_cos_roughly(). */
+INLINE VECTOR NAME(cosine_roughly)(VECTOR y)
+{
+  const VECTOR shift = NAME(set)(TO_WHOLE);
+  const VECTOR turns = FUSED(y, NAME(set)((REAL)0.15915494309189535), shift) - shift;
+  const VECTOR r = FUSED(-turns, NAME(set)((REAL)6.283185307179586), y), s = r * r;
+  VECTOR p = FUSED(s, NAME(set)((REAL)1.87708309275e-05), NAME(set)((REAL)-0.00133885087532));
+  p = FUSED(p, s, NAME(set)((REAL)0.0414934583954));
+  p = FUSED(p, s, NAME(set)((REAL)-0.499788065521));
+  return FUSED(p, s, NAME(set)((REAL)0.99995823162));
 }
 
 /* Errors over the step from half a step before a state to half a step after it: carry() of
@@ -97,11 +169,14 @@ INLINE void NAME(end_step)(int count, NAME(group) *g)
 INLINE void NAME(carry)(pendres_model_terms model, int count, REAL step, REAL cosine,
                         const double *const *power, NAME(group) *g)
 {
-  VECTOR y[MOST];
+  VECTOR at[MOST], y[MOST];
   const VECTOR half = NAME(set)((REAL)0.5 * step);
   const VECTOR weight = NAME(set)((REAL)1 / (step * step));
-  EACH y[v] = AT(g->u);
-  SLOPES(model, count, power, y);
+  EACH at[v] = AT(g->u);
+  if (model < PENDRES_MODEL_POLYNOMIAL)
+    EACH y[v] = NAME(cosine_roughly)(at[v]);
+  else
+    NAME(force)(model, count, power, g, at, y);
   if (model != PENDRES_MODEL_PLAIN)
     EACH y[v] = y[v] * FUSED(AT(g->modulation), NAME(set)(cosine), NAME(set)((REAL)1));
   EACH
@@ -156,10 +231,25 @@ INLINE void NAME(load)(pendres_model_terms model, double step, const pendres_nys
     if (model != PENDRES_MODEL_PLAIN) {
       g->torque[i] = (REAL)(square * k.torque[at]);
       g->modulation[i] = (REAL)k.modulation[at];
+      for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++)
+        g->power[c][i] = (REAL)k.power[c][at];
     }
   }
-  if (b->off.yy == NULL) return;
+}
+
+/* What lanes carry. */
+INLINE void NAME(load_more)(double step, const pendres_nystrom_lanes *b, size_t lane, size_t lanes,
+                            NAME(group) *g)
+{
   const pendres_carried off = b->off;
+  if (b->tangent_y != NULL)
+    for (size_t i = 0; i < lanes; i++) {
+      const double y = b->tangent_y[lane + i], w = step * b->tangent_w[lane + i];
+      g->size[i] = fmax(fabs(y) + fabs(w), DBL_MIN);
+      g->a[i] = (REAL)(y / g->size[i]);
+      g->b[i] = (REAL)(w / g->size[i]);
+    }
+  if (off.yy == NULL) return;
   _Pragma("omp simd") for (size_t i = 0; i < lanes; i++)
   {
     const size_t at = lane + i;
@@ -183,6 +273,11 @@ INLINE void NAME(store)(double step, const pendres_nystrom_lanes *b, size_t lane
     b->y[at] = y;
     b->w[at] = fma_one(-0.5 * friction[at], y, p * each);
   }
+  if (b->tangent_y != NULL)
+    for (size_t i = 0; i < lanes; i++) {
+      b->tangent_y[lane + i] = g->size[i] * g->a[i];
+      b->tangent_w[lane + i] = g->size[i] * g->b[i] * each;
+    }
   if (b->off.yy == NULL) return;
   _Pragma("omp simd") for (size_t i = 0; i < lanes; i++)
   {
@@ -194,8 +289,9 @@ INLINE void NAME(store)(double step, const pendres_nystrom_lanes *b, size_t lane
 }
 
 /* The lanes of a block from one on that `count` vectors hold. */
-INLINE void NAME(run_group)(pendres_model_terms model, int count, const pendres_nystrom_steps *s,
-                            const pendres_nystrom_lanes *b, size_t lane)
+INLINE void NAME(run_group)(pendres_model_terms model, int count, int tangents,
+                            const pendres_nystrom_steps *s, const pendres_nystrom_lanes *b,
+                            size_t lane)
 {
   NAME(group) g;
   const double *power[PENDRES_FORCE_COEFFICIENTS];
@@ -209,10 +305,11 @@ INLINE void NAME(run_group)(pendres_model_terms model, int count, const pendres_
   for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++)
     power[c] = model > PENDRES_MODEL_PENDULUM ? b->k.power[c] + lane : NULL;
   NAME(load)(model, step, b, lane, lanes, &g);
+  NAME(load_more)(step, b, lane, lanes, &g);
   for (int n = 0; n < s->steps; n++, cosine += STAGES) {
     for (int j = 0; j < STAGES; j++)
-      NAME(stage)(model, count, j, (REAL)cosine[j], power, &g);
-    NAME(end_step)(count, &g);
+      NAME(stage)(model, count, tangents, j, (REAL)cosine[j], power, &g);
+    NAME(end_step)(count, tangents, &g);
     if (b->off.yy != NULL)
       NAME(carry)(model, count, (REAL)step, (REAL)cosine[STAGES - 1], power, &g);
   }

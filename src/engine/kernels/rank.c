@@ -9,6 +9,7 @@ static int by_steps(const void *a, const void *b)
   if (p->model != q->model) return p->model < q->model ? -1 : 1;
   if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
   if (p->way != q->way) return p->way < q->way ? -1 : 1;
+  if (p->carries != q->carries) return p->carries < q->carries ? -1 : 1;
   return p->index < q->index ? -1 : p->index > q->index;
 }
 

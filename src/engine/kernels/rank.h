@@ -13,6 +13,7 @@ typedef struct pendres_rank {
   int steps;
   pendres_model_terms model;
   pendres_flow_way way;
+  int carries; /* errors */
   size_t index, count; /* the first, and how many there are */
 } pendres_rank;
 
@@ -21,7 +22,8 @@ void pendres_rank_order(size_t n, pendres_rank *rank);
 
 static inline int pendres_rank_equal(const pendres_rank *a, const pendres_rank *b)
 {
-  return a->steps == b->steps && a->model == b->model && a->way == b->way;
+  return a->steps == b->steps && a->model == b->model && a->way == b->way &&
+         a->carries == b->carries;
 }
 
 #endif

@@ -102,19 +102,11 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/* To the coordinates of a splitting, and back. */
-static void change(const average_job *a, int back, pendres_strobe_lane *l)
-{
-  if (a->way == PENDRES_FLOW_SPLIT)
-    pendres_block_split_state(l->pendulum, l->steps, back, &l->y, &l->w);
-}
-
 static void load(const average_job *a, size_t lane, runner *r)
 {
   for (int b = 0; b < BATCHES; b++)
     r->growth[0][b] = r->growth[1][b] = r->turned[b] = 0.0;
   r->turns = r->squares = (pendres_mean){.sum = {0.0}};
-  change(a, 0, &r->lane);
   pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
   if (a->beside == PENDRES_BESIDE_TANGENTS) pendres_tangents_put(a->block, lane, r->u);
 }
@@ -167,7 +159,6 @@ static pendres_status average_block(const average_job *a, size_t n, const pendre
     for (size_t i = 0; i < n && status == PENDRES_OK; i++)
       arrive(a, i, k, &weights, &runners[rank[i].index]);
   }
-  for (size_t i = 0; i < n; i++) change(a, 1, &runners[rank[i].index].lane);
   return status;
 }
 
@@ -189,11 +180,11 @@ static pendres_status average_class(pendres_context *ctx, runner *runners, long 
   return status;
 }
 
-/* Beside a Nystrom method there are no tangents. */
+/* Where an exponent's error is told by steps twice as long, these are a table's. */
 static pendres_flow_way way_of(const runner *r)
 {
-  const int both = r->lane.way == PENDRES_FLOW_NYSTROM && r->beside == PENDRES_BESIDE_TANGENTS;
-  return both ? PENDRES_FLOW_TABLE : r->lane.way;
+  const int told = !r->adrift && r->beside == PENDRES_BESIDE_TANGENTS;
+  return told ? PENDRES_FLOW_TABLE : r->lane.way;
 }
 
 /* Those with one thing beside them. */

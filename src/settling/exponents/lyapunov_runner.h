@@ -50,8 +50,9 @@ typedef struct pendres_runner {
   int rotates;         /* it may be on a rotation that is not locked to the drive */
   pendres_runner_beside beside;
   int rough;           /* its mean turns are known, and are to be averaged again with more steps */
-  double u[2][2];      /* tangent vectors by steps, and by steps twice as long; by a splitting
-                          both are by its steps */
+  int adrift;          /* its steps are right for averages alone, and no errors are carried */
+  double u[2][2];      /* tangent vectors by steps, and by steps twice as long; adrift both are by
+                          its steps */
   /* Sums over the periods of each batch. */
   double growth[2][BATCHES], turned[BATCHES];
   pendres_mean turns, squares; /* of rotations: turns a period, and w at its end, squared */

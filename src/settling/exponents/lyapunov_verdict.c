@@ -63,7 +63,7 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const job *j = arg;
   pendres_runner *r = &j->runner[index];
-  const int exactly = lane->way != PENDRES_FLOW_SPLIT;
+  const int exactly = !r->adrift;
   if (exactly) pendres_runner_trust(r, lane, pendres_settle_error_ratio(lane->worst));
   if (r->followed && !(r->doubt <= 1.0)) pendres_runner_pass(r, lane);
   if (pendres_runner_leaves(r, lane)) return 1;
@@ -202,16 +202,16 @@ typedef struct round_of {
   double enough;
 } round_of;
 
-/* Whether a runner's averages are taken by a splitting: means of rotations must be more exact. */
-static int splits(const job *j, const pendres_runner *r, const round_of *now)
+/* Whether a runner's averages are taken roughly: means of rotations must be more exact. */
+static int averages_roughly(const job *j, const pendres_runner *r, const round_of *now)
 {
   return r->beside == PENDRES_BESIDE_TANGENTS && j->coarse && !(r->rotates && now->number > 0);
 }
 
 /* Judge runners by their averages; those on chaos or on rotations that are not locked are done. So
    are those that shrink, and still do not come back: their orbits have more periods than are
-   looked for. First averages by a splitting, whose steps may be beyond a fold, tell strong chaos
-   alone. */
+   looked for. First averages, whose steps are so rough that they may be beyond a fold, tell strong
+   chaos alone. */
 static void judge(const job *j, const round_of *now)
 {
   const long batch = now->batch, periods = batch * BATCHES;
@@ -226,7 +226,7 @@ static void judge(const job *j, const round_of *now)
     const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
     const int chaotic = told == PENDRES_GROWTH_CHAOS && !pendres_batches_change(r->growth[0]) &&
                         forgets_start(j, &r->lane);
-    const int by_table = !splits(j, r, now), roughly = !by_table && now->number == 0;
+    const int exactly = !averages_roughly(j, r, now), roughly = !exactly && now->number == 0;
     const double weak = exponent_weak * fmax(1.0, 1.0 / r->lane.pendulum->drive_frequency);
     const int strong = chaotic && !(roughly && growth < weak);
     j->out[i] = (pendres_settled){
@@ -234,7 +234,7 @@ static void judge(const job *j, const round_of *now)
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
       .rotation = turned, .rotation_error = turned_error};
     if (r->beside == PENDRES_BESIDE_NOTHING) j->out[i].exponent = j->out[i].exponent_error = NAN;
-    if (!chaotic && r->rotates && by_table)
+    if (!chaotic && r->rotates && exactly)
       r->rough = pendres_means_tell(r, periods, now->enough, &j->out[i]);
     const int ordered = told == PENDRES_GROWTH_ORDER && !roughly;
     if (strong || r->rough || ordered ||
@@ -297,6 +297,7 @@ static pendres_status load(pendres_context *ctx, const job *j, size_t i)
 /* After a run by other steps: with its own again. */
 static void go_on_exactly(const pendres_context *ctx, pendres_runner *r)
 {
+  r->adrift = 0;
   r->lane.steps = r->steps;
   r->lane.way = pendres_strobe_way(ctx, r->lane.pendulum);
 }
@@ -312,12 +313,14 @@ static pendres_status run_lanes(pendres_context *ctx, const job *j)
   for (size_t i = 0; i < j->n && room.status == PENDRES_OK; i++) {
     lanes[i] = j->runner[i].lane;
     const pendres_runner *r = &j->runner[i];
+    if (r->adrift) lanes[i].added = 0.0; /* it carries no errors */
     if (r->state == PENDRES_RUNNER_MOVING && lanes[i].period < r->until) which[moving++] = i;
   }
   pendres_status status = room.status;
   if (status == PENDRES_OK)
     status = pendres_strobe_run_some(ctx, moving, which, lanes, visit, (void *)j);
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    lanes[i].added = j->runner[i].lane.added;
     j->runner[i].lane = lanes[i];
     go_on_exactly(ctx, &j->runner[i]);
   }
@@ -358,17 +361,16 @@ static double speed_of(const pendres_strobe_lane *lane)
               pendres_steps_turning_speed(lane->pendulum));
 }
 
-/* Go on by a splitting of this error a period. */
-static pendres_status split(pendres_context *ctx, pendres_runner *r, double accuracy)
+/* Go on with steps that are right for averages, to this error a period. */
+static pendres_status go_on_roughly(pendres_context *ctx, pendres_runner *r, double accuracy)
 {
-  r->lane.way = PENDRES_FLOW_SPLIT;
+  r->adrift = 1;
   r->near = fmin(r->near, caught_closer * caught_close_by); /* points come back by chance */
-  return pendres_steps_choose_split(ctx, r->lane.pendulum, speed_of(&r->lane), accuracy,
-                                    &r->lane.steps);
+  return pendres_strobe_choose_average(ctx, speed_of(&r->lane), accuracy, &r->lane);
 }
 
-/* Run all that move until their time is over; those whose errors are large already, and copies, by
-   a splitting. Steps that the caller has chosen are kept. */
+/* Run all that move until their time is over; those whose errors are large already, and copies,
+   roughly. Steps that the caller has chosen are kept. */
 static pendres_status run_on(pendres_context *ctx, const job *j)
 {
   pendres_status status = PENDRES_OK;
@@ -376,7 +378,7 @@ static pendres_status run_on(pendres_context *ctx, const job *j)
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING || ctx->options.steps_per_period > 0) continue;
     if (r->doubt > 1.0 || j->copies > 0)
-      status = split(ctx, r, pendres_accuracy_to_follow(ctx));
+      status = go_on_roughly(ctx, r, pendres_accuracy_to_follow(ctx));
     else
       r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   }
@@ -412,7 +414,7 @@ static pendres_status choose_steps(pendres_context *ctx, const job *j, const rou
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_MOVING) continue;
-    if (splits(j, r, now)) status = split(ctx, r, accuracy);
+    if (averages_roughly(j, r, now)) status = go_on_roughly(ctx, r, accuracy);
     if (now->number > 0 && ctx->options.steps_per_period == 0)
       r->lane.steps = pendres_steps_rung_of_few(r->lane.steps);
   }
