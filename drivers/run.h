@@ -87,7 +87,8 @@ void together_silence(void);
  * is found by computing a small part of the run (farm/trial.h). If that ends in the middle of a
  * task the reported time is a lower bound: the larger of two values, one as if no task took longer
  * than the part of that one, the other from a rule that depends on the damping. Where each point
- * has an ensemble, some members of it at one point tell how long they take.
+ * has an ensemble, some members of it at one point tell how long they take; but a search ends when
+ * its budget of work is spent, whatever its members.
  */
 
 /* Print on standard output what a deck would compute, and what that would take: a little of it is

@@ -431,6 +431,7 @@ static void states_that_are_outdated(void **state)
   const off_t records = size_now() - first;
   save("run.journal.new", (const unsigned char *)"what a kill left", 16);
   check_ok(journal_open(path, head, 1, &j, words));
+  assert_int_equal(access("run.journal.new", F_OK), -1);
   put_state(j, 1, 100, 7); /* of another task, which goes on */
   for (int i = 1; i <= STATES; i++) {
     put_state(j, 0, (size_t)i * EACH, (unsigned char)i);

@@ -242,6 +242,24 @@ static pendres_status load_own(journal *j, char *words)
   return PENDRES_OK;
 }
 
+/* What a run that was killed while it wrote its journal anew has left: PATH.new, to be freed. */
+static char *new_name(const journal *j)
+{
+  const size_t size = strlen(j->path) + sizeof ".new";
+  char *name = malloc(size);
+  if (name != NULL) snprintf(name, size, "%s.new", j->path);
+  return name;
+}
+
+static void drop_new(const journal *j)
+{
+  char words[FILE_WORDS], *name = j->locked ? new_name(j) : NULL;
+  const int fd = name != NULL ? file_open(name, FILE_TRUSTED, 0, words) : -1;
+  if (fd >= 0) (void)file_remove(fd, name);
+  if (fd >= 0) close(fd);
+  free(name);
+}
+
 static pendres_status build(journal *j, const char *path, const char *head, journal_from from,
                             char *words)
 {
@@ -258,6 +276,7 @@ static pendres_status build(journal *j, const char *path, const char *head, jour
     status = clear_own(j, words);
   if (status == PENDRES_OK) status = settle_head(j, words);
   if (status == PENDRES_OK) status = load_own(j, words);
+  if (status == PENDRES_OK) drop_new(j);
   const size_t used = strlen(words);
   if (status == PENDRES_OK && j->others[0] != '\0')
     snprintf(words + used, JOURNAL_WORDS - used, "%s%s", used > 0 ? "; " : "", j->others);
@@ -395,11 +414,9 @@ static int replace_own(journal *j, const char *name)
    cannot be left out they stay, until there are as many again. */
 static void compact(journal *j)
 {
-  const size_t size = strlen(j->path) + sizeof ".new";
   const off_t counts = j->end - j->index.dead;
-  char *name = j->locked && j->index.dead >= counts + JOURNAL_DEAD ? malloc(size) : NULL;
+  char *name = j->locked && j->index.dead >= counts + JOURNAL_DEAD ? new_name(j) : NULL;
   if (name == NULL) return;
-  snprintf(name, size, "%s.new", j->path);
   (void)replace_own(j, name);
   free(name);
   j->index.dead = 0;
