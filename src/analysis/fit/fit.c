@@ -242,6 +242,9 @@ static pendres_status fit(pendres_context *ctx, pendres_fit_call *c)
   if (pendres_pendulum_check(&p, &why) != PENDRES_OK)
     return pendres_room_close(
       &room, pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the first guess: %s", why));
+  /* On a line the drive is in a unit of its own, which no tolerance can be told in. */
+  const double tolerance = ctx->options.tolerance, length = pendres_units_of(&p).length;
+  if (m.lines) ctx->options.tolerance = fmax(tolerance, fit_finest * length);
   pendres_door d = pendres_door_open(ctx, &p);
   set_units(&m, &d.scales.unit);
   m.narrow = 1.0 / start[0][PENDRES_FIT_INTERNAL_Q] + 1.0 / start[0][PENDRES_FIT_COUPLING_Q];
@@ -251,6 +254,7 @@ static pendres_status fit(pendres_context *ctx, pendres_fit_call *c)
     for (size_t i = 0; i < m.data; i++)
       pendres_units_out(&d.scales, &pendres_dim_guess, 1, &(*c->out)->point[i].orbit);
   const pendres_status closed = pendres_door_close(&d);
+  ctx->options.tolerance = tolerance;
   return pendres_room_close(&room, status != PENDRES_OK ? status : closed);
 }
 

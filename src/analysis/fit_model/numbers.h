@@ -73,6 +73,10 @@ static const double fit_torn = 4.0;
    errors of any instrument. */
 static const double fit_accuracy = 1e-7;
 
+/* The tolerance on a line is at least this share of the model's unit of length, with which orbits
+   are as exact as said above. */
+static const double fit_finest = 1e-8;
+
 /* An orbit this close to a fold, as a share of the piece of the curve, may be lost to it. */
 static const double fit_lost_near_fold = 0.05;
 
