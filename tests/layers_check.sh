@@ -48,7 +48,7 @@ src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions
   continuation/units.h
   analysis/fit_model/internal.h analysis/line/line.h analysis/resonance/response_parts.h'
 drivers_doors='system/apart.h system/bytes.h system/clock.h system/ending.h system/file.h system/grow.h system/text.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
-  farm/trial.h deck/deck.h deck/namelist/namelist.h deck/namelist/lex.h deck/si/si.h
+  farm/trial.h deck/deck.h deck/table.h deck/namelist/namelist.h deck/namelist/lex.h deck/si/si.h
   results/columns.h results/failed.h results/results.h results/stack.h
   scenes/along.h scenes/numbers.h scenes/outer.h scenes/points.h scenes/scene.h oracle/reference.h'
 
