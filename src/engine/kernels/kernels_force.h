@@ -97,28 +97,4 @@ PENDRES_VECTOR_INLINE void pendres_kernels_force(pendres_model_terms model,
     pendres_kernels_sincos(y, f, slope);
 }
 
-/* The second derivative of f at a lane's y, where f is `force`. Of a force of its own header it is
-   a difference of slopes, right to a ten-thousand-millionth. */
-PENDRES_VECTOR_INLINE double pendres_kernels_curvature(pendres_model_terms model,
-                                                       const double *const *power, size_t i,
-                                                       double y, double force)
-{
-  if (model == PENDRES_MODEL_POLYNOMIAL) {
-    enum { LAST = PENDRES_FORCE_COEFFICIENTS - 1 };
-    double bend = LAST * (LAST + 1) * power[LAST][i];
-#pragma GCC unroll 8
-    for (int c = LAST - 1; c > 0; c--)
-      bend = __builtin_fma(bend, y, c * (c + 1) * power[c][i]);
-    return bend;
-  }
-  if (model > PENDRES_MODEL_POLYNOMIAL) {
-    const double apart = 0x1p-17;
-    double unused, before, after;
-    pendres_kernels_own_force(model, power, i, y - apart, &unused, &before);
-    pendres_kernels_own_force(model, power, i, y + apart, &unused, &after);
-    return (after - before) * (0.5 / apart);
-  }
-  return -force;
-}
-
 #endif
