@@ -220,6 +220,32 @@ static void touchstone(void **state)
               NULL);
 }
 
+/* All that can be measured has a name in files of results. */
+static void named(void **state)
+{
+  (void)state;
+  static const char deck_text[] =
+    "&scene kind = 'fit' /\n&pendulum force = 'polynomial', force_coefficients = 1 /\n"
+    "&data file = '%s', observable = 's_parameter', error = 0.01, columns = 'f', 're', 'im' /\n"
+    "&fit model = 'reflection', free = 'internal_q', 'coupling_q' /\n";
+  char path[100], lines[700], *names = NULL;
+  scene_path("named", path);
+  FILE *f = fopen(path, "w");
+  assert_non_null(f);
+  fprintf(f, "f,re,im\n");
+  for (int i = -5; i <= 5; i++) /* Q 20, half of it by the line: S is 0 on resonance */
+    fprintf(f, "%.17g,%.17g,%.17g\n", 1.0 + 0.02 * i, 0.64 * i * i / (1.0 + 0.64 * i * i),
+            0.8 * i / (1.0 + 0.64 * i * i));
+  assert_int_equal(fclose(f), 0);
+  snprintf(lines, sizeof lines, deck_text, path);
+  (void)scene_run_marked(NULL, lines, 1, "names");
+  pendres_store *s = scene_open("names");
+  check_ok(pendres_store_read_attribute_text(s, NULL, "datum_observable", "flag_meanings", &names));
+  assert_non_null(strstr(names, "reflection_imaginary"));
+  free(names);
+  pendres_store_free(s);
+}
+
 static void refused(void **state)
 {
   (void)state;
@@ -248,7 +274,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(units), cmocka_unit_test(angles), cmocka_unit_test(numbers),
-    cmocka_unit_test(parameters), cmocka_unit_test(touchstone), cmocka_unit_test(refused),
+    cmocka_unit_test(parameters), cmocka_unit_test(touchstone), cmocka_unit_test(named),
+    cmocka_unit_test(refused),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -45,7 +45,7 @@ scene_names scene_settled_names(const pendres_pendulum *p)
 }
 
 /* The names as a list for flag_meanings; how many. */
-enum { MOST_NAMES = 16 };
+enum { MOST_NAMES = 32 };
 static int meanings_of(scene_names names, const char *meanings[MOST_NAMES])
 {
   int n = 0;
