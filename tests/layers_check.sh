@@ -25,7 +25,7 @@ layers()
 # Doors: the headers of a folder that other folders may include.
 src_doors='base/angles.h base/bytes.h base/grow.h base/guard.h base/instructions.h base/numbers.h base/mix.h base/sine.h base/sized.h
   base/student.h
-  model/equation.h model/forces.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
+  model/equation.h model/forces.h model/formula/formula.h model/model.h model/parameter.h model/rotation_slope.h model/units.h
   engine/kernels/coordinates.h engine/kernels/kernels.h engine/kernels/kernels_chart.h
   engine/kernels/kernels_nystrom.h engine/kernels/kernels_force.h
   engine/kernels/rank.h engine/kernels/tables.h

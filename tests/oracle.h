@@ -19,10 +19,14 @@
 enum { ORACLE_SIZE = 6, ORACLE_PARTS = 32 };
 
 /* y'' + gamma y' + f(y) (1 + b cos omega t) = torque + drive cos omega t; f is sin y, or where
-   `polynomial` is set the sum of a[k - 1] y^k, or where `ring` is set sin y + a[0] y. */
+   `polynomial` is set the sum of a[k - 1] y^k, or where `ring` is set sin y + a[0] y, or what
+   `own`, a function of the test's, makes of y; its derivative is then left out. */
 typedef struct oracle {
   long double gamma, drive, omega, torque, b, a[PENDRES_FORCE_COEFFICIENTS];
   int polynomial, ring;
+  long double (*own)(const void *arg, long double y);
+  const void *arg;
+  int parts; /* of a period; 0: ORACLE_PARTS */
   int reflects; /* oracle_miss() asks for the mirror image, y -> -y, of the start */
 } oracle;
 
@@ -49,6 +53,7 @@ static inline void oracle_slope(const oracle *p, long double t, const long doubl
   }
   if (!p->polynomial) f = sinl(y), by = cosl(y);
   if (p->ring) f += p->a[0] * y, by += p->a[0];
+  if (p->own != NULL) f = p->own(p->arg, y), by = 0.0L;
   const long double strength = 1.0L + p->b * drive;
   for (int k = 0; k < ORACLE_SIZE; k += 2) {
     d[k] = s[k + 1];
@@ -79,7 +84,8 @@ static inline void oracle_midpoint(const oracle *p, long double t, long double s
 static inline void oracle_part(const oracle *p, int part, long double *s)
 {
   enum { COLUMNS = 8 };
-  const long double step = 2.0L * ORACLE_PI / p->omega / ORACLE_PARTS;
+  const int parts = p->parts > 0 ? p->parts : ORACLE_PARTS;
+  const long double step = 2.0L * ORACLE_PI / p->omega / parts;
   long double table[COLUMNS][ORACLE_SIZE];
   for (int k = 0; k < COLUMNS; k++) {
     oracle_midpoint(p, part * step, step, 2 * (k + 1), s, table[k]);
@@ -95,7 +101,8 @@ static inline void oracle_part(const oracle *p, int part, long double *s)
 /* From time 0 on, over so many periods; s is replaced. */
 static inline void oracle_advance(const oracle *p, int periods, long double *s)
 {
-  for (int part = 0; part < ORACLE_PARTS * periods; part++) oracle_part(p, part, s);
+  const int parts = p->parts > 0 ? p->parts : ORACLE_PARTS;
+  for (int part = 0; part < parts * periods; part++) oracle_part(p, part, s);
 }
 
 /* How a start (y, v) misses being that of an orbit of so many periods and turns (0, 1), and the

@@ -129,6 +129,9 @@ static void models(void **state)
   assert_true(isnan(pendres_pendulum_energy(&forceless, 0.0, 0.0)));
   assert_true(isnan(x));
   assert_null(pendres_model_of((pendres_force)77));
+  assert_null(pendres_force_text((pendres_force)77));
+  assert_int_equal(pendres_force_define(NULL, NULL, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_force_define("x", NULL, NULL), PENDRES_INVALID_ARGUMENT);
   assert_false(pendres_pendulum_symmetric(NULL));
   assert_true(pendres_units_of(NULL).length == 1.0 && pendres_units_of(NULL).time == 1.0);
   assert_false(pendres_pendulum_leaves(NULL));

@@ -27,6 +27,9 @@
 #define LLVMFuzzerTestOneInput fuzz_collect
 #include "fuzz/fuzz_collect.c"
 #undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_formula
+#include "fuzz/fuzz_formula.c"
+#undef LLVMFuzzerTestOneInput
 
 typedef int harness(const uint8_t *data, size_t size);
 
@@ -145,12 +148,28 @@ static void collectors(void **state)
   }
 }
 
+/* Words of formulas in any order, too. */
+static void formulas(void **state)
+{
+  static const char *const word[] = {"x", "a1", "(", ")", "+", "-", "*", "/", "^", "sin(", "log(",
+                                     "1", "2.5", "e", ".", " ", "sqrt(", "abs(", "pi", ","};
+  enum { TEXTS = 3000, LONGEST = 24, WORDS = sizeof word / sizeof word[0] };
+  uint32_t number = 42;
+  (void)state;
+  replay("formula", fuzz_formula);
+  for (int i = 0; i < TEXTS; i++) {
+    char text[LONGEST * 6] = "";
+    for (int k = i % LONGEST; k >= 0; k--) strcat(text, word[(chance(&number) >> 16) % WORDS]);
+    (void)fuzz_formula((const uint8_t *)text, strlen(text));
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(namelists), cmocka_unit_test(decks), cmocka_unit_test(journals),
     cmocka_unit_test(files_of_results), cmocka_unit_test(data_of_fits),
-    cmocka_unit_test(collectors),
+    cmocka_unit_test(collectors), cmocka_unit_test(formulas),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

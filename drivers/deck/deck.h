@@ -122,7 +122,8 @@ typedef enum deck_axis_id {
   DECK_AXIS_COUNT
 } deck_axis_id;
 
-enum { DECK_TITLE = 256, DECK_PATH = 1024, DECK_NAME = 64, DECK_MAX_COUNT = 1000000 };
+enum { DECK_TITLE = 256, DECK_PATH = 1024, DECK_NAME = 64, DECK_FORMULA = 401,
+       DECK_MAX_COUNT = 1000000 };
 
 /** Values along one axis. A scene without the axis has count 0. */
 typedef struct deck_axis {
@@ -167,6 +168,7 @@ typedef struct deck {
   double drive_period;      /* both it and the frequency are set, whichever was given */
   int by_period;            /* nonzero: drive_period was given */
   char force[DECK_NAME];    /* a name of pendres_model_of() */
+  char formula[DECK_FORMULA]; /* as pendres_force_text() has it; "": the force is none */
 
   deck_axis axis[DECK_AXIS_COUNT];
   int64_t resolution;       /* number of parts into which each step of the ranges is divided */

@@ -131,6 +131,7 @@ static int apply_scalar(deck_builder *b, const deck_key *key, const namelist_val
   case DECK_LOGICAL:
     return namelist_value_logical(b->nl, v, key->name, f, b->errors);
   case DECK_STRING:
+    if (key->offset == offsetof(deck, formula)) return deck_formula_read(b, v, f, key->size);
     return namelist_value_string(b->nl, v, key->name, f, key->size, b->errors);
   case DECK_CHOICE:
     return apply_choice(b, key, v);
@@ -416,6 +417,7 @@ int deck_key_applies(const deck_key *key, const deck *d)
   case DECK_WITH_SEARCH: return deck_searches(d);
   case DECK_UNLESS_AXIS:
     return d->axis[key->axis].listed_count + d->axis[key->axis].range_count == 0;
+  case DECK_WITH_FORMULA: return d->formula[0] != '\0';
   case DECK_WITH_OUTER: return d->outer.key[0] != '\0';
   case DECK_BY_FREQUENCY: return !d->by_period;
   case DECK_BY_PERIOD: return d->by_period;

@@ -49,7 +49,7 @@ static int stage_of(const char *group, const char *name)
   if (strcmp(group, "outer") == 0 && strcmp(name, "key") == 0) return STAGE_FORCE;
   if (strcmp(name, "rate") == 0 || strcmp(name, "protocol") == 0) return STAGE_RAMP;
   if (strcmp(group, "pendulum") != 0) return STAGE_REST;
-  if (strcmp(name, "force") == 0) return STAGE_FORCE;
+  if (strcmp(name, "force") == 0 || strcmp(name, "formula") == 0) return STAGE_FORCE;
   return strcmp(name, "force_coefficients") == 0 ? STAGE_SCALES : STAGE_REST;
 }
 
@@ -130,7 +130,10 @@ static void read_groups(deck_builder *b)
     read_settings(b, stage);
     if (stage == STAGE_SCENE) check_kind(b, found);
     if (stage == STAGE_SCENE && b->scene != 0) deck_key_defaults(b);
-    if (stage == STAGE_FORCE) find_force(b->d);
+    if (stage == STAGE_FORCE) {
+      find_force(b->d);
+      deck_formula_find(b);
+    }
     if (stage == STAGE_FORCE && b->scene != 0) deck_outer_find(b);
     if (stage == STAGE_SCALES && b->scene != 0) deck_scales_find(b);
   }

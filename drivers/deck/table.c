@@ -112,7 +112,7 @@ static const char *const forces[] = { /* as in pendulum.h */
 #define FORCE_NAME(code, name) #name,
   PENDRES_FORCE_LIST(FORCE_NAME)
 #undef FORCE_NAME
-  NULL
+  "formula", NULL
 };
 static const char *const ends[] = { "attractor", "well", NULL }; /* as pendres_basin_end */
 static const char *const units[] = { "ensemble", "sweep", NULL };
@@ -190,12 +190,15 @@ const deck_key deck_table[] = {
   { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RATIO },
   { CHOICE("pendulum", "force", force), IN(MODELS | FREE), .choices = forces,
     .text = "pendulum",
-    SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, or "
-         "another one (docs/models.md)") },
+    SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, a "
+         "'formula', or another one (docs/models.md)") },
+  { STRING("pendulum", "formula", formula), IN(MODELS | FREE), .when = DECK_WITH_FORMULA,
+    SAYS(NULL, "f as a text: 'x + a1*x^3', with x, a1 to a5 and pi, + - * / ^, and sin cos tan exp "
+         "log tanh sqrt abs sign atan (docs/models.md)") },
   { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients),
     IN(MODELS | FREE), RANGE(-BIG, BIG),
     SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5; of "
-         "'squid' a1") },
+         "'squid' a1; of a formula what it has") },
   { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE,
     IS(TEMPERATURE, "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },

@@ -37,6 +37,7 @@ typedef enum deck_type {
   X(WITH_SEARCH, "only where a resonance is looked for",                                           \
     "no resonance is looked for: that takes lines along the drive's frequency or period")          \
   X(WITH_OUTER, NULL, NULL)   /* with an outer axis */                                             \
+  X(WITH_FORMULA, NULL, NULL) /* with a formula */                                                 \
   /* Those that another key may give instead: */                                                   \
   X(UNLESS_AXIS, NULL, NULL)  /* unless the key's axis has values in &sweep */                     \
   X(BY_FREQUENCY, NULL, NULL) /* unless the drive is given by its period */                        \
@@ -122,6 +123,7 @@ typedef struct deck_builder {
   deck_given given[DECK_MAX_KEYS];
   double in_si[PENDRES_FORCE_COEFFICIENTS]; /* coefficients that were given in SI, or NaN */
   double damping;            /* that a resistance makes, or NaN */
+  pendres_force formula;     /* the force that 'formula' describes */
   int no_scales;             /* nonzero: &units has errors, which were reported */
   int out_of_memory;
 } deck_builder;
@@ -168,6 +170,12 @@ const char *deck_unit_example(const deck_key *key);
 void deck_scales_find(deck_builder *b);
 /* The damping that follows from a resistance, once all keys are read. */
 void deck_scales_damping(deck_builder *b);
+
+/* formula.c: */
+/* Read a formula, in its standard form. 1, or 0 with the error reported. */
+int deck_formula_read(deck_builder *b, const namelist_value *v, char *formula, size_t size);
+/* Whether the force is a formula, and then which. */
+void deck_formula_find(deck_builder *b);
 
 /* fit.c: what concerns several keys of a fit. */
 void deck_check_fit(deck_builder *b);

@@ -336,7 +336,7 @@ int scene_check_attractor(const pendres_attractor *a)
 {
   const pendres_orbit *o = &a->orbit;
   return scene_check_code((int)a->label, PENDRES_LABEL_COUNT) &&
-         scene_check_code((int)o->pendulum.force, PENDRES_FORCE_COUNT) &&
+         pendres_model_of(o->pendulum.force) != NULL &&
          scene_check_code(o->period, DECK_MAX_COUNT + 1) && scene_check_code(o->symmetric, 2) &&
          scene_check_code(o->stable, 2) && scene_check_code(o->steps, MOST_STEPS);
 }
@@ -344,7 +344,7 @@ int scene_check_attractor(const pendres_attractor *a)
 int scene_check_response(const pendres_response *r)
 {
   int good = r->states <= PENDRES_RESPONSE_STATES &&
-             scene_check_code((int)r->pendulum.force, PENDRES_FORCE_COUNT);
+             pendres_model_of(r->pendulum.force) != NULL;
   for (size_t i = 0; good && i < r->states; i++) good = scene_check_attractor(&r->state[i]);
   return good;
 }

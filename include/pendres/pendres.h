@@ -21,6 +21,7 @@
 #include <pendres/status.h>
 #include <pendres/names.h>
 #include <pendres/pendulum.h>
+#include <pendres/formula.h>
 #include <pendres/quantity.h>
 #include <pendres/parameter.h>
 #include <pendres/sweep.h>

@@ -56,7 +56,8 @@ typedef enum pendres_force {
 #define PENDRES_FORCE_CODE(code, name) PENDRES_FORCE_##code,
   PENDRES_FORCE_LIST(PENDRES_FORCE_CODE)
 #undef PENDRES_FORCE_CODE
-  PENDRES_FORCE_COUNT           /**< how many there are; not a force */
+  PENDRES_FORCE_COUNT,          /**< how many there are; not a force */
+  PENDRES_FORCE_FORMULA = 1 << 30 /**< from here on: formulas, by number (formula.h) */
 } pendres_force;
 
 /** Half a turn in radians; C has no name of its own for it. */

@@ -89,13 +89,16 @@ def pendulum(**fields):
     """Pendulums by their parameters, dimensionless: damping (1/Q), drive_amplitude (torque over
     m g l), drive_frequency (over that of small oscillations), temperature (kT over m g l), and
     whatever else the library's pendres_pendulum has. force=[a1, a2, ...], five at most, is the
-    polynomial a1 x + a2 x^2 + ...; other forces have names, and force_coefficients: force="squid".
+    polynomial a1 x + a2 x^2 + ...; other forces have names, and force_coefficients: force="squid",
+    or are formulas: force="x + a1*x**3".
 
     Arrays are broadcast: pendulum(damping=[0.1, 0.2], drive_amplitude=0.2, drive_frequency=1)
     makes two; so are those of force_coefficients along all but their last dimension. The result is
     a numpy array with the parameters as fields and attributes.
     """
     values = force_and_coefficients(fields)
+    if is_formula(values.get("force")):
+        values["force"] = _number_of(values["force"])
     if "force_coefficients" in values:
         values["force_coefficients"] = _padded(values["force_coefficients"])
     shapes = [np.shape(value)[:-1] if key == "force_coefficients" else np.shape(value)
@@ -120,6 +123,21 @@ def force_and_coefficients(fields):
     if fields.get("force_coefficients") is not None:
         raise TypeError("force: coefficients are given here or in force_coefficients, not in both")
     return {**fields, "force": "polynomial", "force_coefficients": force}
+
+
+def is_formula(force):
+    """Whether a force is a formula, and no name: it has more than letters, or is x."""
+    return (isinstance(force, str) and force.upper() not in enumerations["pendres_force"].__members__
+            and (force == "x" or not force.replace("_", "").isalpha()))
+
+
+def _number_of(formula):
+    out, error = ffi.new("pendres_force *"), ffi.new("pendres_formula_error *")
+    status = lib.pendres_force_define(formula.encode(), out, error)
+    if status != lib.PENDRES_OK:
+        words = ffi.string(error.message).decode() or "out of memory"
+        raise errors[status](f"force: {words}\n  {formula}\n  {' ' * error.at}^")
+    return int(out[0])
 
 
 def _padded(coefficients):

@@ -25,7 +25,7 @@ import weakref
 import numpy as np
 
 from . import _files
-from ._handles import force_and_coefficients
+from ._handles import force_and_coefficients, is_formula
 from ._library import HERE, declared, errors, lib, of_tree
 
 # What the program's exit codes mean (docs/files.md).
@@ -189,6 +189,8 @@ def _sorted_into_groups(kind, given):
     given = {key: value for key, value in given.items() if value is not None}
     if "force" in given:
         given = force_and_coefficients(given)
+        if is_formula(given["force"]):
+            given = given | {"force": "formula", "formula": given["force"]}
     where = {key: its for key, its in _groups_of(kind).items() if key not in ("kind", "output")}
     names = {group for its in where.values() for group in its} | set(kinds())
     groups = {"scene": {"kind": kind}}

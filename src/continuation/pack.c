@@ -29,13 +29,13 @@ static pendres_curve head_of(const pendres_curve *c)
 
 static int orbit_fits(const pendres_orbit *o)
 {
-  return (unsigned)o->pendulum.force < PENDRES_FORCE_COUNT && o->period >= 1 &&
+  return pendres_model_of(o->pendulum.force) != NULL && o->period >= 1 &&
          o->period <= ORBIT_LONGEST_PERIOD;
 }
 
 static int map_fits(const pendres_map *m)
 {
-  return (unsigned)m->force < PENDRES_FORCE_COUNT && (unsigned)m->mirror <= PENDRES_MIRROR_WHOLE &&
+  return pendres_model_of(m->force) != NULL && (unsigned)m->mirror <= PENDRES_MIRROR_WHOLE &&
          m->period >= 1 && m->period <= ORBIT_LONGEST_PERIOD;
 }
 

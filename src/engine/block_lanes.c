@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/block_internal.h"
+#include "model/formula/formula.h"
 
 int pendres_block_lanes_open(pendres_block *b)
 {
@@ -36,6 +37,7 @@ void pendres_block_clear(pendres_block *b)
 {
   pendres_block_resize(b, 0);
   b->shape.model = PENDRES_MODEL_PLAIN;
+  b->shape.coefficients.formula = NULL;
 }
 
 void pendres_block_resize(pendres_block *b, size_t lanes)
@@ -84,6 +86,8 @@ void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p
     b->coefficient[POWERS + i][lane] = p->force_coefficients[i];
   const pendres_model_terms model = pendres_model_kind(p);
   if (model > b->shape.model) b->shape.model = model;
+  if (model >= PENDRES_MODEL_FORMULA)
+    b->shape.coefficients.formula = pendres_formula_of(p->force);
   for (size_t r = 0; r < b->shape.rows; r++) data[r * stride + lane] = 0.0;
   pendres_block_put_state(b, lane, y, w);
   if (b->shape.rows >= PENDRES_ROWS_VARIATIONAL) {

@@ -111,6 +111,7 @@ static int open_ended(const pendres_pendulum *p)
 /* The largest distance that a speed can lead to, if all terms of the force had the same sign. */
 static double reach_of(const pendres_pendulum *p, double speed)
 {
+  const double edge = pendres_model_edge(p);
   const double energy = 0.5 * speed * speed;
   double low = 0.0, high = 1.0;
   while (pendres_model_climb(p, high) < energy && high < pendres_farthest) high *= 2.0;
@@ -119,7 +120,7 @@ static double reach_of(const pendres_pendulum *p, double speed)
     if (pendres_model_climb(p, middle) < energy) low = middle;
     else high = middle;
   }
-  return high;
+  return fmin(high, edge);
 }
 
 /* The frequency of oscillations as fast as the stiffest spring up to `reach`, parametric drive and
@@ -177,6 +178,7 @@ static void load_probe(pendres_block *b, size_t lane, int i, const probed *of)
 typedef struct sight {
   int steps, stride, dense, points;
   int growing;
+  double edge; /* near a pole of the force: what gets beyond leaves */
   int unbound; /* probes may be on their way to infinity: what is wild from the start is left out */
   size_t first, lanes; /* probes in the block */
   double omega, rate; /* of the drive, and of the unit of time in which errors grow */
@@ -188,6 +190,7 @@ static sight sight_of(const probed *of, int steps, int stride, int growing)
   const double omega = of->pendulum.drive_frequency;
   const int unbound = open_ended(&of->pendulum);
   sight s = {.steps = steps, .stride = stride, .growing = growing, .unbound = unbound,
+             .edge = pendres_model_edge(&of->pendulum),
              .omega = omega, .rate = unbound ? omega / of->pace : omega};
   s.dense = steps / stride < PROBE_POINTS - 1 ? steps / stride : PROBE_POINTS - 1;
   s.points = s.dense + (s.dense * stride < steps);
@@ -254,6 +257,7 @@ static double probe_error(const sight *coarse, const sight *fine, size_t i)
     if ((k > 0 || coarse->unbound) && !(fine->growth[k][i] <= probe_wild)) break;
     const double dy = fabs(coarse->y[k][i] - fine->y[k][i]);
     const double dv = fabs(coarse->v[k][i] - fine->v[k][i]);
+    if (isfinite(coarse->edge) && !(fabs(fine->y[k][i]) <= coarse->edge)) break; /* it left */
     if (!(dy + dv < INFINITY)) return INFINITY;
     largest = fmax(largest, fmax(dy, dv));
   }

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "model/equation.h"
+#include "model/formula/formula.h"
 #include "model/forces.h"
 #include "model/numbers.h"
 #include "model/parameter.h"
@@ -81,11 +82,14 @@ static const pendres_model *const models[PENDRES_FORCE_COUNT] = {
 
 const pendres_model *pendres_model_of(pendres_force force)
 {
+  const pendres_formula *f = pendres_formula_of(force);
+  if (f != NULL) return &f->model;
   return (unsigned)force < PENDRES_FORCE_COUNT ? models[force] : NULL;
 }
 
 pendres_model_terms pendres_model_kind(const pendres_pendulum *p)
 {
+  if (p->force >= PENDRES_FORCE_FORMULA) return (pendres_model_terms)p->force;
   if (p->force != PENDRES_FORCE_PENDULUM)
     return (pendres_model_terms)((int)p->force - (int)PENDRES_FORCE_POLYNOMIAL +
                                  (int)PENDRES_MODEL_POLYNOMIAL);
@@ -97,8 +101,9 @@ const char *pendres_model_check(const pendres_pendulum *p)
 {
   if (!isfinite(p->torque)) return "the torque must be finite";
   if (!isfinite(p->parametric_amplitude)) return "the parametric amplitude must be finite";
-  if ((unsigned)p->force >= PENDRES_FORCE_COUNT) return "the force is of no kind that there is";
-  const int used = models[p->force]->coefficients;
+  const pendres_model *model = pendres_model_of(p->force);
+  if (model == NULL) return "the force is of no kind that there is";
+  const int used = model->coefficients;
   int any = 0;
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) {
     const double a = p->force_coefficients[i];
@@ -108,18 +113,25 @@ const char *pendres_model_check(const pendres_pendulum *p)
   }
   if (p->force == PENDRES_FORCE_POLYNOMIAL && !any)
     return "a polynomial force needs a coefficient that is not zero";
+  double force, slope;
+  pendres_model_force(p, 0.0, &force, &slope);
+  if (!(isfinite(force) && isfinite(slope)))
+    return "a formula and its derivative must be finite at x = 0, with these coefficients";
   return NULL;
 }
 
 double pendres_model_centre(const pendres_pendulum *p, double near)
 {
-  if (p->parametric_amplitude != 0.0 || models[p->force]->centre == NULL) return NAN;
+  const pendres_formula *f = pendres_formula_of(p->force);
+  if (p->parametric_amplitude != 0.0) return NAN;
+  if (f != NULL) return pendres_formula_centre(f, p->force_coefficients, p->torque);
+  if (models[p->force]->centre == NULL) return NAN;
   return models[p->force]->centre(p->force_coefficients, p->torque, isfinite(near) ? near : 0.0);
 }
 
 int pendres_pendulum_symmetric(const pendres_pendulum *p)
 {
-  return p != NULL && (unsigned)p->force < PENDRES_FORCE_COUNT &&
+  return p != NULL && pendres_model_of(p->force) != NULL &&
          isfinite(pendres_model_centre(p, 0.0));
 }
 
@@ -128,6 +140,14 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
   if (p->force == PENDRES_FORCE_PENDULUM) {
     *force = sin(y);
     *slope = cos(y);
+    return;
+  }
+  const pendres_formula *f = pendres_formula_of(p->force);
+  if (f != NULL) {
+    double out[FORMULA_OUTPUTS];
+    pendres_formula_at(f, FORMULA_SLOPES, p->force_coefficients, y, out);
+    *force = out[FORMULA_OUT_FORCE];
+    *slope = out[FORMULA_OUT_SLOPE];
     return;
   }
   if (p->force != PENDRES_FORCE_POLYNOMIAL) {
@@ -175,7 +195,10 @@ static double polynomial_potential(const double *a, double x)
 
 double pendres_model_potential(const pendres_pendulum *p, double x)
 {
+  const pendres_formula *f = p != NULL ? pendres_formula_of(p->force) : NULL;
   if (p == NULL) return NAN;
+  if (f != NULL)
+    return pendres_formula_potential(f, p->force_coefficients, x) - p->torque * x;
   switch (p->force) {
   case PENDRES_FORCE_PENDULUM: return -sin(x) - p->torque * x;
   case PENDRES_FORCE_POLYNOMIAL:
@@ -193,13 +216,13 @@ double pendres_model_potential(const pendres_pendulum *p, double x)
 
 double pendres_model_turn(const pendres_pendulum *p)
 {
-  const double period = models[p->force]->period;
+  const double period = pendres_model_of(p->force)->period;
   return period > 0.0 ? period : 0x1p1000;
 }
 
 double pendres_model_origin(const pendres_pendulum *p)
 {
-  return models[p->force]->origin;
+  return pendres_model_of(p->force)->origin;
 }
 
 double pendres_model_settling(const pendres_pendulum *p)
@@ -224,6 +247,7 @@ double pendres_model_climb(const pendres_pendulum *p, double reach)
     for (int k = 0; k < 2; k++) {
       double force, slope;
       pendres_model_force(p, k == 0 ? i * h : -i * h, &force, &slope);
+      if (isnan(force)) return INFINITY; /* nothing comes from there */
       const double weight = i == 0 || i == MODEL_SAMPLES ? 1.0 : i % 2 != 0 ? 4.0 : 2.0;
       side[k] += weight * h / 3.0 * fabs(force);
     }
@@ -299,11 +323,8 @@ double pendres_model_distance(const pendres_pendulum *p, double x, double v)
  * A length beyond which, on one side, force and drives together push outwards for ever, whatever
  * the phase: the force exceeds what drive and torque can balance. Infinite if there is none.
  */
-static double far_out(const pendres_pendulum *p, double side)
+static double far_out(const pendres_pendulum *p, double side, double need)
 {
-  const double rest = 1.0 - fabs(p->parametric_amplitude);
-  if (models[p->force]->outward == NULL || !(rest > 0.0)) return INFINITY;
-  const double need = (fabs(p->drive_amplitude) - side * p->torque) / rest;
   return models[p->force]->outward(p->force_coefficients, side, need) * (1.0 + 1e-9);
 }
 
@@ -315,9 +336,13 @@ int pendres_pendulum_rotates(const pendres_pendulum *p)
 
 int pendres_pendulum_leaves(const pendres_pendulum *p)
 {
-  if (p == NULL || (unsigned)p->force >= PENDRES_FORCE_COUNT) return 0;
-  pendres_force_outward *outward = models[p->force]->outward;
+  if (p == NULL || pendres_model_of(p->force) == NULL) return 0;
+  pendres_force_outward *outward = pendres_model_of(p->force)->outward;
+  const pendres_formula *f = pendres_formula_of(p->force);
   const double *a = p->force_coefficients;
+  if (f != NULL)
+    return f->bounded || pendres_formula_leads_out(f, a, formula_far, 0.0) ||
+           pendres_formula_leads_out(f, a, -formula_far, 0.0);
   return outward != NULL && fabs(p->parametric_amplitude) < 1.0 &&
          (isfinite(outward(a, 1.0, 0.0)) || isfinite(outward(a, -1.0, 0.0)));
 }
@@ -326,11 +351,29 @@ int pendres_model_escapes(const pendres_pendulum *p, double y, double w)
 {
   const double side = y < 0.0 ? -1.0 : 1.0;
   double force, slope;
-  if (models[p->force]->outward == NULL || !(side * w >= 0.0)) return 0;
+  const double rest = 1.0 - fabs(p->parametric_amplitude);
+  const double need = (fabs(p->drive_amplitude) - side * p->torque) / rest;
+  const pendres_formula *f = pendres_formula_of(p->force);
+  if (pendres_model_of(p->force)->outward == NULL || !(rest > 0.0) || !(side * w >= 0.0)) return 0;
   pendres_model_force(p, y, &force, &slope);
   /* This decides for most states. */
   if (!(-side * force > 0.0)) return 0;
-  return side * y > far_out(p, side);
+  if (f != NULL) return pendres_formula_leads_out(f, p->force_coefficients, y, need);
+  return side * y > far_out(p, side, need);
+}
+
+int pendres_model_bounded(const pendres_pendulum *p)
+{
+  const pendres_formula *f = pendres_formula_of(p->force);
+  return f != NULL && f->bounded;
+}
+
+double pendres_model_edge(const pendres_pendulum *p)
+{
+  const pendres_formula *f = pendres_formula_of(p->force);
+  if (f == NULL || !f->bounded) return INFINITY;
+  return model_inside * fmin(pendres_formula_edge(f, p->force_coefficients, 1.0),
+                             pendres_formula_edge(f, p->force_coefficients, -1.0));
 }
 
 int pendres_model_driven(const pendres_pendulum *p)

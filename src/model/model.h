@@ -17,8 +17,15 @@ typedef enum pendres_model_terms {
 #define PENDRES_MODEL_CODE(code, name) PENDRES_MODEL_##code, /* another force, likewise */
   PENDRES_FORCE_LIST(PENDRES_MODEL_CODE)
 #undef PENDRES_MODEL_CODE
-  PENDRES_MODEL_COUNT
+  PENDRES_MODEL_COUNT,
+  PENDRES_MODEL_FORMULA = PENDRES_FORCE_FORMULA /* from here on: formulas, by their number */
 } pendres_model_terms;
+
+/* The place of kernels in a list of them: all formulas have the same, the last. */
+static inline int pendres_model_kernel(pendres_model_terms terms)
+{
+  return terms >= PENDRES_MODEL_FORMULA ? (int)PENDRES_MODEL_COUNT : (int)terms;
+}
 
 /* The force of terms beyond PENDRES_MODEL_POLYNOMIAL: both follow the same list. */
 #define PENDRES_MODEL_FORCE(terms) \
@@ -83,6 +90,13 @@ double pendres_model_distance(const pendres_pendulum *p, double x, double v);
 
 /* Whether a pendulum in a state is certainly on its way to infinity; see pendres_settled. */
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
+
+/* Whether the force is defined within bounds alone: beyond them it is NaN, and so are states. */
+int pendres_model_bounded(const pendres_pendulum *p);
+
+/* Most of the way to the nearest pole: what comes closer escapes, or is found to need more steps
+   than are chosen for motions within. Infinite if there is none. */
+double pendres_model_edge(const pendres_pendulum *p);
 
 /* Whether the equation depends on the drive's phase; otherwise its frequency is but a clock. */
 int pendres_model_driven(const pendres_pendulum *p);

@@ -26,6 +26,14 @@ enum {
    decimals, and each product and sum is. */
 static const double model_roundings = 16.0;
 
+/* Steps are chosen for motions within this share of the way to a pole: what comes closer escapes,
+   or is found to need more steps. */
+static const double model_inside = 0.75;
+
+/* From here on a formula is asked whether it leads to infinity: far beyond what counts in units in
+   which lengths are of order one. */
+static const double formula_far = 1024.0;
+
 /* ---- rotations without a drive, by series and by collocation ---- */
 
 /* Dampings of which rotations are found. Beyond them the force is all, or the friction. */

@@ -188,11 +188,13 @@ kick_by(pendres_model_terms terms, size_t stride, const pendres_langevin_rows *r
   }
 }
 
-#define KICK(name, terms)                                                                      \
-  static void name(size_t stride, const pendres_langevin_rows *rows, const double *reach,      \
-                   const double *decay, double cosine, double sine, const double *noise)       \
-  {                                                                                            \
-    kick_by(terms, stride, rows, reach, decay, cosine, sine, noise);                           \
+#define KICK_ARGUMENTS                                                                     \
+  size_t stride, const pendres_langevin_rows *rows, const double *reach, const double *decay, \
+    double cosine, double sine, const double *noise
+#define KICK(name, terms)                                               \
+  static void name(KICK_ARGUMENTS)                                      \
+  {                                                                     \
+    kick_by(terms, stride, rows, reach, decay, cosine, sine, noise);    \
   }
 KICK(kick_plain, PENDRES_MODEL_PLAIN)
 KICK(kick_pendulum, PENDRES_MODEL_PENDULUM)
@@ -201,6 +203,42 @@ KICK(kick_polynomial, PENDRES_MODEL_POLYNOMIAL)
 PENDRES_FORCE_LIST(KICK_OWN)
 #undef KICK_OWN
 #undef KICK
+
+/* The rows from a lane on. */
+static pendres_langevin_rows rows_from(const pendres_langevin_rows *rows, size_t lane)
+{
+  pendres_langevin_rows r = *rows;
+  r.u += lane;
+  r.w += lane;
+  r.pivot_cos += lane;
+  r.pivot_sin += lane;
+  r.push += lane;
+  r.spread += lane;
+  r.bend += lane;
+  r.torque += lane;
+  r.parametric += lane;
+  return r;
+}
+
+/* A formula has all lanes of a strip go through its operations: their places come first. */
+static void kick_formula(KICK_ARGUMENTS)
+{
+  pendres_kernels_formula f;
+  for (size_t lane = 0, lanes; lane < stride; lane += lanes) {
+    lanes = stride - lane < FORMULA_LANES ? stride - lane : FORMULA_LANES;
+    pendres_langevin_rows own = rows_from(rows, lane);
+    pendres_kernels_formula_open(&f, rows->formula, FORMULA_SLOPES, rows->coefficient, lane);
+#pragma omp simd
+    for (size_t i = 0; i < lanes; i++)
+      f.y[i] = FMA(reach[lane + i], own.w[i], own.u[i]) +
+               FMA(own.pivot_cos[i], cosine, own.pivot_sin[i] * sine);
+    pendres_kernels_formula_at(&f, lanes, f.y);
+    own.coefficient[FORMULA_OUT_FORCE] = f.value[FORMULA_OUT_FORCE];
+    own.coefficient[FORMULA_OUT_SLOPE] = f.value[FORMULA_OUT_SLOPE];
+    kick_by(PENDRES_MODEL_FORMULA, lanes, &own, reach + lane, decay + lane, cosine, sine,
+            noise + lane);
+  }
+}
 #define KICK_OF(code, name) [PENDRES_MODEL_##code] = kick_##name,
 
 static void sample(size_t stride, const pendres_langevin_rows *rows,
@@ -226,5 +264,5 @@ const pendres_kernels_langevin PENDRES_INSTRUCTIONS_OWN(pendres_kernels_langevin
   .drift = drift,
   .kick = {[PENDRES_MODEL_PLAIN] = kick_plain, [PENDRES_MODEL_PENDULUM] = kick_pendulum,
            [PENDRES_MODEL_POLYNOMIAL] = kick_polynomial,
-           PENDRES_FORCE_LIST(KICK_OF)},
+           PENDRES_FORCE_LIST(KICK_OF)[PENDRES_MODEL_COUNT] = kick_formula},
   .sample = sample};

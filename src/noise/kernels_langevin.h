@@ -20,7 +20,7 @@
 enum { PENDRES_LANGEVIN_WORDS = 4 };
 
 /* How many kinds of forces there are, and kicks by them. */
-enum { PENDRES_LANGEVIN_FORCES = PENDRES_MODEL_COUNT };
+enum { PENDRES_LANGEVIN_FORCES = PENDRES_MODEL_COUNT + 1 };
 
 /*
  * A block in the frame of a free particle that the drive shakes: y = u + pivot, where
@@ -35,7 +35,8 @@ typedef struct pendres_langevin_rows {
   const double *bend;   /* the coefficient c of the fourth-order correction 1 - c f'(y) */
   const double *torque; /* I; this and the next are not read where all pendulums are plain */
   const double *parametric;                              /* b */
-  const double *coefficient[PENDRES_FORCE_COEFFICIENTS]; /* of polynomial forces: a1, a2, ... */
+  const double *coefficient[PENDRES_FORCE_COEFFICIENTS]; /* of the force: a1, a2, ... */
+  const struct pendres_formula *formula;                 /* the force, if it is one */
 } pendres_langevin_rows;
 
 typedef struct pendres_kernels_langevin {
@@ -49,7 +50,7 @@ typedef struct pendres_kernels_langevin {
   /* Move freely: u += reach w, w *= decay. */
   void (*drift)(size_t stride, const double *reach, const double *decay, double *u, double *w);
   /* Move freely, then kick at the drive phase whose cosine and sine are given: for each of the
-   * forces that pendres_model_terms lists, since all pendulums of a block have the same. */
+   * forces that pendres_model_kernel() numbers, since all pendulums of a block have the same. */
   void (*kick[PENDRES_LANGEVIN_FORCES])(size_t stride, const pendres_langevin_rows *rows,
                                         const double *reach, const double *decay, double cosine,
                                         double sine, const double *gauss);

@@ -37,6 +37,7 @@
 #include "base/angles.h"
 #include "base/instructions.h"
 #include "base/sine.h"
+#include "model/formula/formula.h"
 #include "noise/numbers.h"
 
 static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
@@ -181,6 +182,7 @@ void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const p
   b->v[lane] = v;
   set_constants(b, lane, p);
   b->terms = pendres_model_kind(p);
+  b->rows.formula = pendres_formula_of(p->force);
   b->origin = pendres_model_origin(p);
   b->turn = pendres_model_turn(p);
   if (p->temperature > 0.0 && p->damping > 0.0) b->noisy = 1;
@@ -246,7 +248,8 @@ static void kick(pendres_langevin_block *b, int k, const double *gauss)
   if (b->harmonics && d == PENDRES_LANGEVIN_BETWEEN)
     b->kernels->sample(b->stride, &b->rows, b->reach[PENDRES_LANGEVIN_EDGE], start[0], start[1],
                        b->cosine, b->sine);
-  b->kernels->kick[b->terms](b->stride, &b->rows, b->reach[d], b->decay[d], at[0], at[1], gauss);
+  b->kernels->kick[pendres_model_kernel(b->terms)](b->stride, &b->rows, b->reach[d],
+                                                   b->decay[d], at[0], at[1], gauss);
 }
 
 /* The Gaussian numbers of kick k; one call of the generator serves four kicks. */
@@ -286,6 +289,7 @@ static void tune(pendres_langevin_block *b, const pendres_pendulum *p)
 {
   enum { FIXED = 2 + 2 * PENDRES_LANGEVIN_DURATIONS + 7 /* rows but coefficients of a force */ };
   b->terms = pendres_model_kind(p);
+  b->rows.formula = pendres_formula_of(p->force);
   const size_t rows = b->terms >= PENDRES_MODEL_POLYNOMIAL ? FIXED + COEFFICIENTS : FIXED;
   set_constants(b, 0, p);
   for (size_t k = 0; k < rows; k++)
@@ -330,10 +334,11 @@ pendres_status pendres_langevin_block_moving(pendres_langevin_block *b, uint32_t
       b->kernels->drift(b->stride, edge, b->decay[PENDRES_LANGEVIN_EDGE], b->rows.u, b->rows.w);
       retune(b, &p, start, &frequency);
     }
-    b->kernels->kick[b->terms](b->stride, &b->rows, edge, b->decay[PENDRES_LANGEVIN_EDGE],
-                               start[2], start[3], noise(b, period, 2 * step));
-    b->kernels->kick[b->terms](b->stride, &b->rows, inner, b->decay[PENDRES_LANGEVIN_INNER],
-                               start[4], start[5], noise(b, period, 2 * step + 1));
+    const int kernel = pendres_model_kernel(b->terms);
+    b->kernels->kick[kernel](b->stride, &b->rows, edge, b->decay[PENDRES_LANGEVIN_EDGE],
+                             start[2], start[3], noise(b, period, 2 * step));
+    b->kernels->kick[kernel](b->stride, &b->rows, inner, b->decay[PENDRES_LANGEVIN_INNER],
+                             start[4], start[5], noise(b, period, 2 * step + 1));
   }
   leave(b);
   return PENDRES_OK;

@@ -27,6 +27,7 @@ uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor)
     hash = mix_in(mix_in(hash, p->torque), p->parametric_amplitude);
     for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
       hash = mix_in(hash, p->force_coefficients[i]);
+    if (p->force >= PENDRES_FORCE_FORMULA) hash = pendres_mix(hash ^ (uint64_t)p->force);
   }
   /* The low bits number trajectories, and the top bit marks those that measure the bias. */
   return (hash >> 1) & ~(uint64_t)(IDS - 1);

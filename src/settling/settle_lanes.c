@@ -213,6 +213,10 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
 static int escapes(const pendres_settle_labelling *l, size_t i, const pendres_attractor_set *c,
                    const pendres_strobe_lane *lane)
 {
+  if (isnan(lane->y) && pendres_model_bounded(lane->pendulum)) {
+    note_escape(l, i, lane, l->before[i].worst); /* it got to where the force is not defined */
+    return 1;
+  }
   if (pendres_escape_lost(lane->y, lane->w)) return 1;
   l->before[i] = place_of(lane);
   if (!pendres_escape_certain(lane->pendulum, &c->beside, lane->y, lane->w)) return 0;

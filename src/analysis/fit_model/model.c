@@ -8,6 +8,7 @@
 #include <gsl/gsl_sf_bessel.h>
 
 #include "base/angles.h"
+#include "model/model.h"
 
 /* ---- values ---- */
 
@@ -34,6 +35,23 @@ double pendres_fit_out(const fit_model *m, pendres_parameter p, const fit_values
   return p == PENDRES_DRIVE_FREQUENCY ? value * v[scale] : value / v[scale];
 }
 
+/* That of a formula, by its values along a swing. */
+static double mean_stiffness(const fit_model *m, const fit_values v, double a)
+{
+  enum { POINTS = 16 };
+  pendres_pendulum p = m->base;
+  double sum = 0.0;
+  a = fmax(a, 1e-6);
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) p.force_coefficients[k] = v[PENDRES_A1 + k];
+  for (int k = 0; k < POINTS; k++) {
+    const double c = cos(two_pi * (k + 0.5) / POINTS);
+    double force, slope;
+    pendres_model_force(&p, a * c, &force, &slope);
+    sum += force * c;
+  }
+  return sum * 2.0 / (POINTS * a);
+}
+
 double pendres_fit_stiffness(const fit_model *m, const fit_values v, double a)
 {
   const double sine = a > 1e-6 ? 2.0 * gsl_sf_bessel_J1(fmin(a, 1e3)) / a : 1.0;
@@ -41,7 +59,7 @@ double pendres_fit_stiffness(const fit_model *m, const fit_values v, double a)
   case PENDRES_FORCE_POLYNOMIAL:
     return v[PENDRES_A1] + a * a * (0.75 * v[PENDRES_A3] + 0.625 * a * a * v[PENDRES_A5]);
   case PENDRES_FORCE_SQUID: return sine + v[PENDRES_A1];
-  default: return sine;
+  default: return m->base.force < PENDRES_FORCE_FORMULA ? sine : mean_stiffness(m, v, a);
   }
 }
 

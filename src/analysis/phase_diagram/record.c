@@ -64,7 +64,7 @@ void pendres_phase_done_free(pendres_phase_done *l)
 
 static int point_fits(const pendres_phase_point *p)
 {
-  return (unsigned)p->pendulum.force < PENDRES_FORCE_COUNT &&
+  return pendres_model_of(p->pendulum.force) != NULL &&
          (unsigned)p->regime < PENDRES_REGIME_COUNT && (unsigned)p->exact < PENDRES_REGIME_COUNT &&
          (unsigned)p->other < 2 * PENDRES_OTHER_UNSTABLE;
 }

@@ -57,17 +57,16 @@ static void sum(const pendres_sum *q, size_t at, size_t n)
 }
 
 /*
- * The slope of w of `count` vectors, y given and used up. w is read again: in registers it would
- * push out what the force needs.
+ * The slope of w of `count` vectors, y[v] being their force and w the slope of y, which stands
+ * there. It is read again: in registers it would push out what the force needs.
  */
-PENDRES_VECTOR_INLINE void accelerate(pendres_model_terms model, int count,
-                                      const pendres_coefficients *k, size_t lane,
-                                      double cos_theta, vec *y, const double *w, double *slope)
+PENDRES_VECTOR_INLINE void push(pendres_model_terms model, int count, const pendres_strip *s,
+                                size_t lane, const pendres_operation *o, vec *y)
 {
+  const pendres_coefficients *k = &s->k;
   const double *stiffness = k->stiffness + lane, *drive = k->drive + lane;
-  const double *friction = k->friction + lane;
-  const vec f = pendres_vector_set(cos_theta);
-  pendres_kernels_forces(model, count, k->power, lane, y);
+  const double *friction = k->friction + lane, *w = o->slope + s->at + lane;
+  const vec f = pendres_vector_set(o->cos_theta);
   if (model != PENDRES_MODEL_PLAIN) {
     const vec one = pendres_vector_set(1.0);
     PENDRES_VECTOR_EACH
@@ -85,15 +84,23 @@ PENDRES_VECTOR_INLINE void accelerate(pendres_model_terms model, int count,
     const vec force = pendres_vector_fma(pendres_vector_load(drive + i), f, rest);
     y[v] = pendres_vector_fma(-pendres_vector_load(stiffness + i), y[v], force);
   }
+  double *slope = o->slope + s->at + s->lanes + lane;
   PENDRES_VECTOR_EACH pendres_vector_store(slope + v * LANES, y[v]);
 }
 
-/* A stage of `count` vectors of a strip from `lane` on: the sum, and the slope at it. */
-PENDRES_VECTOR_INLINE void stage_vectors(pendres_model_terms model, int count,
-                                         const pendres_strip *s, size_t lane,
-                                         const pendres_operation *o, int keep)
+/* The same, y given and used up. */
+PENDRES_VECTOR_INLINE void accelerate(pendres_model_terms model, int count, const pendres_strip *s,
+                                      size_t lane, const pendres_operation *o, vec *y)
 {
-  vec y[GROUP], w[GROUP];
+  pendres_kernels_forces(model, count, s->k.power, lane, y);
+  push(model, count, s, lane, o, y);
+}
+
+/* The sums of a stage of `count` vectors of a strip from `lane` on: y, and w as the slope of y. */
+PENDRES_VECTOR_INLINE void stage_sums(int count, const pendres_strip *s, size_t lane,
+                                      const pendres_operation *o, int keep, vec *y)
+{
+  vec w[GROUP];
   const pendres_sum *q = o->sum;
   const size_t at_y = s->at + lane, at_w = at_y + s->lanes;
   const double *py = pendres_vector_address(q->term[0].x, at_y);
@@ -114,7 +121,16 @@ PENDRES_VECTOR_INLINE void stage_vectors(pendres_model_terms model, int count,
     PENDRES_VECTOR_EACH pendres_vector_store(q->z + at_w + v * LANES, w[v]);
   }
   PENDRES_VECTOR_EACH pendres_vector_store(o->slope + at_y + v * LANES, w[v]);
-  accelerate(model, count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
+}
+
+/* A stage of `count` vectors of a strip from `lane` on: the sum, and the slope at it. */
+PENDRES_VECTOR_INLINE void stage_vectors(pendres_model_terms model, int count,
+                                         const pendres_strip *s, size_t lane,
+                                         const pendres_operation *o, int keep)
+{
+  vec y[GROUP];
+  stage_sums(count, s, lane, o, keep, y);
+  accelerate(model, count, s, lane, o, y);
 }
 
 PENDRES_VECTOR_INLINE void slope_vectors(pendres_model_terms model, int count,
@@ -126,7 +142,7 @@ PENDRES_VECTOR_INLINE void slope_vectors(pendres_model_terms model, int count,
 
   PENDRES_VECTOR_EACH y[v] = pendres_vector_load(o->from + at_y + v * LANES);
   copy_vectors(count, o->from + at_w, o->slope + at_y);
-  accelerate(model, count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
+  accelerate(model, count, s, lane, o, y);
 }
 
 /* The forces on a lane, and the factors by which an error of y and one of w enter them. */
@@ -143,7 +159,7 @@ PENDRES_VECTOR_INLINE felt feel(pendres_model_terms model, const pendres_coeffic
   const double drag = k->friction[i] * w;
   felt a = {.drag = -k->friction[i], .modulation = 1.0};
   double by_y;
-  pendres_kernels_force(model, k->power, i, y, &a.bare, &by_y);
+  pendres_kernels_force(model, pendres_kernels_source(model, k), i, y, &a.bare, &by_y);
   a.force = a.bare;
   double rest = -drag;
   if (model != PENDRES_MODEL_PLAIN) {
@@ -235,7 +251,9 @@ PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, siz
     for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) own[p] = k.power[p][i];
 #pragma GCC unroll 8
     for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) {
-      if (model > PENDRES_MODEL_POLYNOMIAL)
+      if (model == PENDRES_MODEL_FORMULA)
+        by = strength * k.value[FORMULA_OUT_BY + p][i];
+      else if (model > PENDRES_MODEL_POLYNOMIAL)
         by = strength * pendres_forces_by(PENDRES_MODEL_FORCE(model), own, y, p);
       derive(&a, by, PENDRES_ROW_BY_POWERS + 2 * p, stride, i, s, d);
       by *= y;
@@ -260,7 +278,7 @@ PENDRES_VECTOR_INLINE void carry(pendres_model_terms model, const pendres_strip 
     double by_y;
     if (model >= PENDRES_MODEL_POLYNOMIAL) {
       double unused;
-      pendres_kernels_force(model, k.power, i, y[i], &unused, &by_y);
+      pendres_kernels_force(model, pendres_kernels_source(model, &k), i, y[i], &unused, &by_y);
     } else {
       by_y = pendres_kernels_cos_roughly(y[i]);
     }
@@ -304,7 +322,7 @@ PENDRES_VECTOR_INLINE void turn(pendres_model_terms model, int second, const pen
 #pragma omp simd
   for (size_t i = 0; i < s->lanes; i++) {
     double unused, by_y;
-    pendres_kernels_force(model, k.power, i, y[i], &unused, &by_y);
+    pendres_kernels_force(model, pendres_kernels_source(model, &k), i, y[i], &unused, &by_y);
     if (model != PENDRES_MODEL_PLAIN) by_y *= FMA(k.modulation[i], cos_theta, 1.0);
     const double drag = 0.5 * k.friction[i];
     const double spring = FMA(k.stiffness[i], by_y, -(drag * drag));
@@ -388,12 +406,15 @@ PENDRES_FORCE_LIST(RUN_STATE_4)
 
 /* The same for the other equations. */
 PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, const pendres_strip *s,
-                                    const pendres_operation *o, size_t n)
+                                    const pendres_operation *o, size_t n,
+                                    pendres_kernels_formula *formula)
 {
   const size_t size = rows * s->lanes;
   for (const pendres_operation *end = o + n; o < end; o++) {
     const double *from = o->sum != NULL ? o->sum->z : o->from;
     if (o->sum != NULL) sum(o->sum, s->at, size);
+    if (model == PENDRES_MODEL_FORMULA && o->slope != NULL)
+      pendres_kernels_formula_at(formula, s->lanes, from + s->at);
     if (o->slope != NULL && rows == PENDRES_ROWS_VARIATIONAL)
       rhs_variational(model, s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
     else if (o->slope != NULL)
@@ -414,13 +435,15 @@ PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, cons
   static void run_rows_##MODEL(size_t rows, const pendres_strip *s,              \
                                const pendres_operation *o, size_t n)             \
   {                                                                              \
-    run_rows(PENDRES_MODEL_##MODEL, rows, s, o, n);                              \
+    run_rows(PENDRES_MODEL_##MODEL, rows, s, o, n, NULL);                            \
   }
 RUN_ROWS(PLAIN)
 RUN_ROWS(PENDULUM)
 RUN_ROWS(POLYNOMIAL)
 #define RUN_ROWS_OWN(CODE, name) RUN_ROWS(CODE)
 PENDRES_FORCE_LIST(RUN_ROWS_OWN)
+
+#include "engine/kernels/kernels_strips.h"
 
 /* Of forces beyond the pendulum's. */
 #define OF_STATE(CODE, name) [PENDRES_MODEL_##CODE] = run_state_##CODE##_4,
@@ -434,6 +457,10 @@ static void (*const rows_of[PENDRES_MODEL_COUNT])(size_t, const pendres_strip *,
 
 static void run_states(const pendres_strip *s, const pendres_operation *o, size_t n)
 {
+  if (s->model >= PENDRES_MODEL_FORMULA) {
+    run_state_formula(s, o, n);
+    return;
+  }
   if (s->model >= PENDRES_MODEL_POLYNOMIAL) {
     states_of[s->model](s, o, n);
     return;
@@ -458,6 +485,8 @@ static void run(size_t rows, const pendres_strip *s, const pendres_operation *o,
 {
   if (rows == PENDRES_ROWS_STATE)
     run_states(s, o, n);
+  else if (s->model >= PENDRES_MODEL_FORMULA)
+    run_rows_formula(rows, s, o, n);
   else if (s->model >= PENDRES_MODEL_POLYNOMIAL)
     rows_of[s->model](rows, s, o, n);
   else if (s->model == PENDRES_MODEL_PENDULUM || rows > PENDRES_ROWS_SENSITIVITY)

@@ -49,8 +49,18 @@ typedef struct pendres_coefficients {
   PENDRES_COEFFICIENTS_PLAIN(PENDRES_COEFFICIENT_ARRAY)
   PENDRES_COEFFICIENTS_OTHER(PENDRES_COEFFICIENT_ARRAY)
 #undef PENDRES_COEFFICIENT_ARRAY
-  const double *power[PENDRES_FORCE_COEFFICIENTS]; /* a1 .. a5 of a polynomial force */
+  const double *power[PENDRES_FORCE_COEFFICIENTS]; /* a1 .. a5 of a force that has them */
+  const struct pendres_formula *formula; /* of all lanes; NULL: the force is no formula */
+  const double *const *value; /* within a kernel: what the formula gives, of each lane */
 } pendres_coefficients;
+
+/* From what pendres_kernels_force() takes a lane's force: the values of a formula that was computed
+   at the lanes' y, or coefficients. */
+static inline const double *const *pendres_kernels_source(pendres_model_terms model,
+                                                          const pendres_coefficients *k)
+{
+  return model == PENDRES_MODEL_FORMULA ? k->value : k->power;
+}
 
 /*
  * Rows of a state of lanes, each row as long as there are lanes, lanes side by side:

@@ -9,6 +9,7 @@
 
 #include <pendres/pendulum.h>
 
+#include "engine/kernels/kernels_formula.h"
 #include "engine/kernels/kernels_vector.h"
 #include "model/forces.h"
 #include "model/model.h"
@@ -89,7 +90,10 @@ PENDRES_VECTOR_INLINE void pendres_kernels_force(pendres_model_terms model,
                                                  const double *const *power, size_t i, double y,
                                                  double *f, double *slope)
 {
-  if (model == PENDRES_MODEL_POLYNOMIAL)
+  if (model == PENDRES_MODEL_FORMULA) {
+    *f = power[FORMULA_OUT_FORCE][i];
+    *slope = power[FORMULA_OUT_SLOPE][i];
+  } else if (model == PENDRES_MODEL_POLYNOMIAL)
     pendres_polynomial_force(power, i, y, f, slope);
   else if (model > PENDRES_MODEL_POLYNOMIAL)
     pendres_kernels_own_force(model, power, i, y, f, slope);

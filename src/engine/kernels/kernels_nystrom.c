@@ -61,20 +61,43 @@ INLINE double mean_decay_near(double x)
 /* Vectors of a group: what fits the registers together with a sine's. */
 enum { WIDE_DOUBLE = PENDRES_VECTOR_LANES, MOST_DOUBLE = WIDE_DOUBLE == 8 ? 8 : 4 };
 
+/* What a group's forces come from: coefficients of its lanes, or a formula that was given them. */
+typedef struct source {
+  const double *power[PENDRES_FORCE_COEFFICIENTS];
+  pendres_kernels_formula *force, *slope;
+} source;
+
+/* The same of a formula as forces_double() below. */
+INLINE void formula_double(int count, pendres_kernels_formula *f, pendres_vector *y,
+                           pendres_vector *slope)
+{
+  PENDRES_VECTOR_EACH pendres_vector_store(f->y + v * WIDE_DOUBLE, y[v]);
+  pendres_kernels_formula_at(f, (size_t)count * WIDE_DOUBLE, f->y);
+  PENDRES_VECTOR_EACH y[v] =
+    pendres_vector_load(f->value[FORMULA_OUT_FORCE] + v * WIDE_DOUBLE);
+  if (slope == NULL) return;
+  PENDRES_VECTOR_EACH slope[v] =
+    pendres_vector_load(f->value[FORMULA_OUT_SLOPE] + v * WIDE_DOUBLE);
+}
+
 /* Forces at vectors of places, and their derivatives unless slope is NULL. */
-INLINE void forces_double(pendres_model_terms model, int count, const double *const *power,
+INLINE void forces_double(pendres_model_terms model, int count, const source *from,
                           pendres_vector *y, pendres_vector *slope)
 {
   double f[MOST_DOUBLE * WIDE_DOUBLE] __attribute__((aligned(64)));
   double by[MOST_DOUBLE * WIDE_DOUBLE] __attribute__((aligned(64)));
+  if (model == PENDRES_MODEL_FORMULA) {
+    formula_double(count, slope != NULL ? from->slope : from->force, y, slope);
+    return;
+  }
   if (slope == NULL) {
-    pendres_kernels_forces(model, count, power, 0, y);
+    pendres_kernels_forces(model, count, from->power, 0, y);
     return;
   }
   PENDRES_VECTOR_EACH pendres_vector_store(f + v * WIDE_DOUBLE, y[v]);
 #pragma omp simd
   for (int i = 0; i < count * WIDE_DOUBLE; i++)
-    pendres_kernels_force(model, power, (size_t)i, f[i], &f[i], &by[i]);
+    pendres_kernels_force(model, from->power, (size_t)i, f[i], &f[i], &by[i]);
   PENDRES_VECTOR_EACH y[v] = pendres_vector_load(f + v * WIDE_DOUBLE);
   PENDRES_VECTOR_EACH slope[v] = pendres_vector_load(by + v * WIDE_DOUBLE);
 }
@@ -126,12 +149,12 @@ INLINE single all_single(float a)
 
 /* sin y[v], and cos y[v] unless slope is NULL: as in base/sine.h, with polynomials that are off by
    6e-9. */
-INLINE void forces_single(pendres_model_terms model, int count, const double *const *power,
+INLINE void forces_single(pendres_model_terms model, int count, const source *from,
                           single *y, single *slope)
 {
   single t[MOST_SINGLE], s[MOST_SINGLE];
   const single whole = all_single(0x1.8p23f);
-  (void)model, (void)power;
+  (void)model, (void)from;
   PENDRES_VECTOR_EACH t[v] = fused_single(y[v], all_single(0x1.45f306p-2f), whole);
   PENDRES_VECTOR_EACH s[v] = t[v] - whole;
   PENDRES_VECTOR_EACH y[v] = fused_single(-s[v], all_single(0x1.921fb6p+1f), y[v]);
@@ -204,6 +227,7 @@ MANY(DOUBLE_GROUP, PLAIN, 0)
 DOUBLE_GROUPS(PENDULUM, pendulum)
 DOUBLE_GROUPS(POLYNOMIAL, polynomial)
 PENDRES_FORCE_LIST(DOUBLE_GROUPS)
+DOUBLE_GROUPS(FORMULA, formula)
 FEW(SINGLE_GROUP, PLAIN, 1)
 MANY(SINGLE_GROUP, PLAIN, 0)
 SINGLE_GROUPS(PENDULUM, pendulum)
@@ -214,7 +238,8 @@ SINGLE_GROUPS(POLYNOMIAL, polynomial)
 #define OF_SINGLE(MODEL, TANGENTS, COUNT) [COUNT] = single_##MODEL##_##TANGENTS##_##COUNT,
 #define IN_DOUBLE(MODEL, name) \
   [PENDRES_MODEL_##MODEL] = {{SOME(OF_DOUBLE, MODEL, 0)}, {FEW(OF_DOUBLE, MODEL, 1)}},
-static run_some *const in_double[PENDRES_MODEL_COUNT][2][MOST_DOUBLE + 1] = {
+static run_some *const in_double[PENDRES_MODEL_COUNT + 1][2][MOST_DOUBLE + 1] = {
+  [PENDRES_MODEL_COUNT] = {{SOME(OF_DOUBLE, FORMULA, 0)}, {FEW(OF_DOUBLE, FORMULA, 1)}},
   [PENDRES_MODEL_PLAIN] = {{MANY(OF_DOUBLE, PLAIN, 0)}, {FEW(OF_DOUBLE, PLAIN, 1)}},
   IN_DOUBLE(PENDULUM, pendulum) IN_DOUBLE(POLYNOMIAL, polynomial) PENDRES_FORCE_LIST(IN_DOUBLE)};
 static run_some *const in_single[PENDRES_MODEL_POLYNOMIAL + 1][2][MOST_SINGLE + 1] = {
@@ -240,7 +265,8 @@ INLINE void run_all(run_some *const *of, size_t wide, size_t most, const pendres
 static void run(const pendres_nystrom_steps *s, const pendres_nystrom_lanes *b)
 {
   const int tangents = b->tangent_y != NULL;
-  run_all(in_double[b->model][tangents], WIDE_DOUBLE, tangents ? 4 : MOST_DOUBLE, s, b);
+  run_all(in_double[pendres_model_kernel(b->model)][tangents], WIDE_DOUBLE,
+          tangents ? 4 : MOST_DOUBLE, s, b);
 }
 
 static void run_single(const pendres_nystrom_steps *s, const pendres_nystrom_lanes *b)

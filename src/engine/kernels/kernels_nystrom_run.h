@@ -61,13 +61,13 @@ INLINE void NAME(polynomial)(int count, const NAME(group) *g, VECTOR *y, VECTOR 
   EACH y[v] = t[v] * y[v];
 }
 
-INLINE void NAME(force)(pendres_model_terms model, int count, const double *const *power,
+INLINE void NAME(force)(pendres_model_terms model, int count, const source *from,
                         const NAME(group) *g, VECTOR *y, VECTOR *slope)
 {
   if (model == PENDRES_MODEL_POLYNOMIAL)
     NAME(polynomial)(count, g, y, slope);
   else
-    FORCES(model, count, power, y, slope);
+    FORCES(model, count, from, y, slope);
 }
 
 /* Sum over the earlier slopes of a stage, from the start and the speed. */
@@ -83,14 +83,14 @@ INLINE void NAME(sum)(int count, int j, const REAL *at, const REAL *speed,
 }
 
 INLINE void NAME(stage)(pendres_model_terms model, int count, int tangents, int j, REAL cosine,
-                        const double *const *power, NAME(group) *g)
+                        const source *from, NAME(group) *g)
 {
   VECTOR y[MOST], slope[MOST];
   const VECTOR f = NAME(set)(cosine);
   NAME(sum)(count, j, g->u, g->p, g->slope, y);
   EACH AT(g->slope[j]) = y[v];
   if (j > 0) EACH y[v] = y[v] * AT(g->less[j]);
-  NAME(force)(model, count, power, g, y, tangents ? slope : NULL);
+  NAME(force)(model, count, from, g, y, tangents ? slope : NULL);
   if (model != PENDRES_MODEL_PLAIN)
     EACH
     {
@@ -167,7 +167,7 @@ INLINE VECTOR NAME(cosine_roughly)(VECTOR y)
 /* Errors over the step from half a step before a state to half a step after it: carry() of
    kernels.c. */
 INLINE void NAME(carry)(pendres_model_terms model, int count, REAL step, REAL cosine,
-                        const double *const *power, NAME(group) *g)
+                        const source *from, NAME(group) *g)
 {
   VECTOR at[MOST], y[MOST];
   const VECTOR half = NAME(set)((REAL)0.5 * step);
@@ -176,7 +176,7 @@ INLINE void NAME(carry)(pendres_model_terms model, int count, REAL step, REAL co
   if (model < PENDRES_MODEL_POLYNOMIAL)
     EACH y[v] = NAME(cosine_roughly)(at[v]);
   else
-    NAME(force)(model, count, power, g, at, y);
+    NAME(force)(model, count, from, g, at, y);
   if (model != PENDRES_MODEL_PLAIN)
     EACH y[v] = y[v] * FUSED(AT(g->modulation), NAME(set)(cosine), NAME(set)((REAL)1));
   EACH
@@ -294,7 +294,8 @@ INLINE void NAME(run_group)(pendres_model_terms model, int count, int tangents,
                             size_t lane)
 {
   NAME(group) g;
-  const double *power[PENDRES_FORCE_COEFFICIENTS];
+  source from;
+  pendres_kernels_formula formula[2]; /* of one alone */
   const double step = two_pi / s->steps, *cosine = s->cosine;
   size_t lanes = (size_t)count * WIDE;
   if (lane + lanes > b->lanes) {
@@ -303,15 +304,23 @@ INLINE void NAME(run_group)(pendres_model_terms model, int count, int tangents,
     lanes = b->lanes - lane;
   }
   for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++)
-    power[c] = model > PENDRES_MODEL_PENDULUM ? b->k.power[c] + lane : NULL;
+    from.power[c] = model > PENDRES_MODEL_PENDULUM ? b->k.power[c] + lane : NULL;
   NAME(load)(model, step, b, lane, lanes, &g);
   NAME(load_more)(step, b, lane, lanes, &g);
+  if (model == PENDRES_MODEL_FORMULA) {
+    /* Of as many lanes as the vectors have, which may be more than the block has. */
+    for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) from.power[c] = (const void *)g.power[c];
+    from.force = &formula[0];
+    from.slope = &formula[1];
+    pendres_kernels_formula_open(from.force, b->k.formula, FORMULA_FORCES, from.power, 0);
+    pendres_kernels_formula_open(from.slope, b->k.formula, FORMULA_SLOPES, from.power, 0);
+  }
   for (int n = 0; n < s->steps; n++, cosine += STAGES) {
     for (int j = 0; j < STAGES; j++)
-      NAME(stage)(model, count, tangents, j, (REAL)cosine[j], power, &g);
+      NAME(stage)(model, count, tangents, j, (REAL)cosine[j], &from, &g);
     NAME(end_step)(count, tangents, &g);
     if (b->off.yy != NULL)
-      NAME(carry)(model, count, (REAL)step, (REAL)cosine[STAGES - 1], power, &g);
+      NAME(carry)(model, count, (REAL)step, (REAL)cosine[STAGES - 1], &from, &g);
   }
   NAME(store)(step, b, lane, lanes, &g);
 }

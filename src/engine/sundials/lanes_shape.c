@@ -39,6 +39,7 @@ void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operati
     if (s->model != PENDRES_MODEL_PLAIN || s->rows > PENDRES_ROWS_SENSITIVITY) {
       PENDRES_COEFFICIENTS_OTHER(SET_FROM_LANE)
       for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) strip.k.power[i] = k->power[i] + lane;
+      strip.k.formula = k->formula;
     }
     if (off->yy != NULL)
       strip.off = (pendres_carried){off->yy + lane,    off->yw + lane,   off->ww + lane,

@@ -123,6 +123,7 @@ static void watch_escape(void *arg, int step, const pendres_rows *rows)
   const double w = pendres_rows_get(rows, PENDRES_ROW_W, 0);
   (void)step;
   p->lost |= pendres_escape_lost(y, w);
+  p->escapes |= isnan(y) && pendres_model_bounded(p->pendulum);
   if (!p->lost) p->escapes |= pendres_model_escapes(p->pendulum, y, w);
 }
 
