@@ -210,7 +210,9 @@ static void touchstone(void **state)
     {"a.s2p", "# Hz S RI X\n", "a.s2p:1: the option line has no such word as 'X'"},
     {"a.s2p", "# Hz S RI\n1 2 3 4 5 6 7 8 9 1\n", "a.s2p:2: the line has more numbers"},
     {"a.s2p", "# Hz S RI\n1 2 3 4 x\n", "a.s2p:2: this is no number: 'x'"},
-    {"a.s2p", "# Hz S RI\n1 2 3 4\n", "is not complete"},
+    {"a.s2p", "# Hz S RI\n1 2 3\n", "is not complete"},
+    {"a.s2p", "# Hz S RI\n1 2 3 4\n", "a.s2p:2: one of a pair"},
+    {"a.s2p", "# Hz S RI\n1 1 1\n2 1 1\n3 1 1\n", "a.s2p:3: pairs of the matrix before this line"},
     {"a.s1p", "# Hz S RI\n2 1 1\n1 1 1\n", "a.s1p:3: frequencies ascend"},
     {"a.ts", "[Version] 2.0\n[Mixed-Mode Order] D2,3\n", "mixed modes"},
     {"a.s9p", "# Hz S RI\n1 1 1\n", "more than 5 ports"},
@@ -250,7 +252,8 @@ static void refused(void **state)
 {
   (void)state;
   static const char two[] = "columns = '1', '2'",
-                    phase[] = "columns = '1', '2', observable = 'phase_lag'";
+                    phase[] = "columns = '1', '2', observable = 'phase_lag'",
+                    parts[] = "columns = '1', '2', '3', observable = 's_parameter'";
   static const struct { const char *text, *keys, *words; } bad[] = {
     {"f (V), a\n1, 2\n", two, "is in 'V', and is to be the drive_frequency, in Hz"},
     {"f (1/s), a\n1, 2\n", two, "in Hz"},
@@ -263,6 +266,11 @@ static void refused(void **state)
     {"1,2\n", "format = 'nanonis'", "has a line [DATA]"},
     {"BEGIN A\n1,2\nBEGIN B\n1,2\n", "", "there are several tables"},
     {"1;0.2\n1;0,2\n", "", "tell data.decimal"},
+    {"1;0.2\n1;\"1,234\"\n", "", "tell data.decimal"},
+    {"1, 0.2, 0.1\n", "columns = '1', '2', 'direction=3'", "not 0.1 as in column 3"},
+    {"f, p (deg), m\n1, 2, 3\n", parts, "column 2 is an angle"},
+    {"f, m, phase\n1, 2, 3\n", parts, "column 3 is a phase without a unit"},
+    {"f, m\n1, 2\n", "observable = 's_parameter', columns = '1', '2'", "'s_parameter' is known"},
     {"1,2\n3,\"1,23\"\n", "", "data.txt:2: '1,23' in column 2 is no number"}};
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
     read_data("data.txt", bad[k].text, bad[k].keys, bad[k].words, NULL);

@@ -27,15 +27,15 @@ typedef struct reader {
   int gaps; /* some lines have not all of them */
   pendres_fit_observable kind[OBSERVABLES];
   deck_column_unit unit[FIT_COLUMNS];
-  int line, polar;    /* the observables are parts of an S-parameter; or magnitude and phase */
-  int sign;           /* of i w t in the data */
+  int line, polar; /* the observables are parts of an S-parameter; or magnitude and phase */
+  int sign;        /* of i w t in the data */
 } reader;
 
 #define FAIL(r, ...) (void)scene_fail((r)->run, PENDRES_INVALID_ARGUMENT, __VA_ARGS__)
 
 /* ---- columns ------------------------------------------------------------------------------- */
 
-/* The column of a name or a number, told by the deck; NONE, and a failure, if there is none. */
+/* The column of a name or number that the deck tells; NONE, and a failure, if there is none. */
 static int column_of(const reader *r, const char *word)
 {
   double number;
@@ -155,11 +155,9 @@ static void take_told(reader *r)
       FAIL(r, "data.columns: '%s' is no role: roles are axis, the observables, these with _error, "
            "direction, and a parameter", word);
     /* A name that is a role in itself says more than its place. */
-    const int says = equals == NULL && strcmp(r->text.plain[at], "direction") == 0 &&
-                     take_role(r, "direction", at);
-    if (equals == NULL && !says &&
-        n < FIT_COLUMNS)
-      column[n++] = at;
+    if (equals != NULL || (strcmp(r->text.plain[at], "direction") == 0 &&
+                           take_role(r, "direction", at))) continue;
+    if (n < FIT_COLUMNS) column[n++] = at;
   }
   if (scene_going(r->run)) take_in_order(r, n, column);
 }
@@ -213,6 +211,17 @@ static int is_angle(const char *unit)
   return unit[0] != '\0' && strcmp(unit, "1") != 0 && deck_column_unit_read(unit, "rad", &read) > 0;
 }
 
+/* A phase is the second of the two columns of an S-parameter, and has a unit. */
+static void check_part(const reader *r, size_t i)
+{
+  const int at = r->observable[i], angle = is_angle(r->text.unit[at]);
+  const int phase = strncasecmp(r->text.name[at], "phase", 5) == 0;
+  if ((i == 0 && angle) || (phase && r->text.unit[at][0] == '\0'))
+    FAIL(r, "%s:%zu: column %d is %s: tell frequency, magnitude and phase of S in this order in "
+         "data.columns, and their units, as 'deg', in data.units", r->out->path, r->text.line,
+         at + 1, angle ? "an angle, and not a part or the magnitude" : "a phase without a unit");
+}
+
 static void take_units(reader *r)
 {
   deck_si si;
@@ -227,6 +236,7 @@ static void take_units(reader *r)
                                               : unit_of_observable(r, r->kind[i], &si);
     const char *name = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
     const int at = r->observable[i], error = r->error[i];
+    if (r->line && scene_going(r->run)) check_part(r, i);
     r->polar |= i == 1 && r->line && is_angle(r->text.unit[at]);
     take_unit(r, at, i == 1 && r->polar ? "rad" : of, name);
     if (r->polar && error != NONE)
@@ -286,7 +296,8 @@ static void find_columns(void *to)
   const char *missing = r->axis == NONE && !are_places(r) ? r->d->data.axis : NULL;
   for (size_t i = 0; i < r->observables; i++)
     if (r->observable[i] == NONE && missing == NULL)
-      missing = pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE, (int)r->kind[i]);
+      missing = r->line ? "s_parameter" : pendres_name_get(PENDRES_NAMES_FIT_OBSERVABLE,
+                                                           (int)r->kind[i]);
   if (missing != NULL)
     FAIL(r, "%s:%zu: no column of '%s' is known: name it in the first line, or tell the columns in "
          "data.columns", r->out->path, r->text.line, missing);
@@ -320,8 +331,9 @@ static int read_direction(const reader *r, size_t n, char *const *cell)
   if (r->direction < (int)n && strcasecmp(cell[r->direction], "up") == 0) return 1;
   if (r->direction < (int)n && strcasecmp(cell[r->direction], "down") == 0) return -1;
   const double x = read_number(r, n, cell, r->direction, "direction (1, -1, up or down)");
-  if (scene_going(r->run) && x == 0.0)
-    FAIL(r, "%s:%zu: a direction is 1 or up, -1 or down, not 0", r->out->path, r->text.line);
+  if (scene_going(r->run) && fabs(x) != 1.0)
+    FAIL(r, "%s:%zu: a direction is 1 or up, -1 or down, not %g as in column %d", r->out->path,
+         r->text.line, x, r->direction + 1);
   return x > 0.0 ? 1 : -1;
 }
 

@@ -53,7 +53,7 @@ static size_t split(const fit_text *t, char *text, char *cell[FIT_COLUMNS])
     if (length > 1 && at[0] == '"' && at[length - 1] == '"') {
       at[length - 1] = '\0';
       at++;
-      if (!t->comma) close_thousands(at);
+      if (!t->comma && separator != ';') close_thousands(at); /* beside ; a comma is a point */
     }
     cell[n++] = at;
     if (last) break;

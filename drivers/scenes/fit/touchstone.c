@@ -226,6 +226,12 @@ static void read_numbers(touchstone *t, char *line)
     fail(t, "the line has more numbers than the matrix has left: see the number of ports", NULL);
     return;
   }
+  if (n % 2 != (t->count == 0)) {
+    fail(t, t->count == 0 ? "one of a pair of numbers is missing behind the frequency"
+                          : "pairs of the matrix before this line are missing: see the number of "
+                            "ports that the file's name tells", NULL);
+    return;
+  }
   memcpy(&t->number[t->count], number, n * sizeof *number);
   t->count += (int)n;
   if (t->count == record_of(t)) write_record(t);
