@@ -185,6 +185,8 @@ static const char *const good[] = {
   "&scene kind='fit' /\n&data file='a.csv' columns='1','volts','direction=3' /\n"
   "&fit free='damping','a1','frequency_scale' fixed='offset 0.1' bounds='a1 0 2' huber=2 /\n"
   "&pendulum force='polynomial' drive_amplitude=0.1 /\n",
+  "&scene kind='escape' /\n&pendulum drive_amplitude=0 drive_frequency=1 damping=0.5 /\n"
+  "&sweep torque=0.5,0.8 /\n&escape x=2.5 v=0.1 /\n",
 };
 
 enum { GOOD = sizeof good / sizeof *good };

@@ -56,6 +56,9 @@ deck points bifurcation_diagram '&pendulum damping = 0.5, drive_frequency = 0.66
   &bifurcation_diagram x = 1.6, strobes = 5, attractors = F, bifurcations = F, exponents = F /'
 deck map lyapunov_map '&pendulum damping = 0.5 / &precision tolerance = 1e-4 /
   &sweep drive_amplitude_range = 0.9, 1.5, 6, drive_frequency_range = 0.6, 0.7, 4 /'
+deck away escape "$p, damping = 0.12, drive_period = 7.7 / &escape from = 'sa' /"
+deck actions escape "&pendulum damping = 0.5, drive_amplitude = 0, drive_frequency = 1 /
+  &sweep torque = 0.5, 0.8 / &escape x = 2.5 /"
 deck rates switching "$p, damping = 0.12, drive_period = 7.7 / &sweep temperature = 0.02, 0.03 /
   &noise trajectories = 200, periods = 20 /"
 deck branches branches "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"

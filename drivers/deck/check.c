@@ -144,8 +144,8 @@ static const char *group_of(const deck_builder *b, const char *name)
 /* Check keys that have an effect only together with others. */
 static void check_idle_keys(deck_builder *b)
 {
-  const char *group = group_of(b, "start");
-  const deck_given *start = deck_given_of(b, group, "start");
+  const char *name = b->d->kind == DECK_ESCAPE ? "from" : "start", *group = group_of(b, name);
+  const deck_given *start = deck_given_of(b, group, name);
   const deck_given *x = deck_given_of(b, group, "x");
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
@@ -157,12 +157,12 @@ static void check_idle_keys(deck_builder *b)
     namelist_error_at(b->given[i].nl, deck_place_of(&b->given[i], key->name),
                       b->errors, "'%s' is not used: %s", key->name, why);
   }
-  if (deck_in_scene(b, group, "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
+  if (deck_in_scene(b, group, name) && b->d->orbit.start[0] == '\0' && !start->broken &&
       !x->given && !x->broken && (x->group == NULL || !x->group->broken)) {
     char message[200];
     snprintf(message, sizeof message,
-             "scene '%s' needs 'start' ('sa', 'la' or a number) or 'x' (and 'v') in &%s",
-             deck_kind_name(b->d->kind), group);
+             "scene '%s' needs '%s' ('sa', 'la' or a number) or 'x' (and 'v') in &%s",
+             deck_kind_name(b->d->kind), name, group);
     deck_complain_of_group(b, x->group, message);
   }
 }

@@ -68,6 +68,9 @@
   ITEM(LYAPUNOV_MAP, "lyapunov_map",                                                              \
        "largest Lyapunov exponent, period and winding over two parameters",                       \
        .layout = DECK_MOVING, .least = 2, .most = 2, .takes = "a map has two axes")               \
+  ITEM(ESCAPE, "escape",                                                                          \
+       "least action with which noise carries a pendulum out of a state, and its path",           \
+       .layout = DECK_MOVING, .most = 2, .takes = "results have two axes at most")                \
   ITEM(FIT, "fit",                                                                                \
        "parameters of an oscillator and scales of an instrument from measured responses",         \
        .most = 0)

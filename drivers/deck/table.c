@@ -33,6 +33,7 @@
 #define HYSTERESIS BIT(HYSTERESIS)
 #define DIAGRAM BIT(BIFURCATION_DIAGRAM)
 #define MAP BIT(LYAPUNOV_MAP)
+#define ESCAPE BIT(ESCAPE)
 #define FIT BIT(FIT)
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
@@ -41,7 +42,7 @@
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters is an axis */
-#define ALONG (PATH | MAP)                         /* one or two of the parameters are axes */
+#define ALONG (PATH | MAP | ESCAPE)                /* two of the parameters are axes, at most */
 #define SETTLING (ALONG | CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES)
 #define MEMBERS (CURVE | RESPONSE | PHASE | BRANCHES)
 #define RESULTS (FREE | DRIVEN | ALONG | FIT)      /* scenes with one tolerance */
@@ -168,7 +169,7 @@ const deck_key deck_table[] = {
     .number = NAN },
   { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(PATH), NOT_NEGATIVE,
     EXAMPLE("0.2") },
-  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(MAP), NOT_NEGATIVE },
+  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(MAP | ESCAPE), NOT_NEGATIVE },
   { VALUE("damping", DAMPING), IN(CURVE | RESPONSE | GRID), POSITIVE },
   { VALUE("damping", DAMPING), NEEDED_IN(ALONG), POSITIVE, EXAMPLE("0.12") },
   { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(POINT), FREQUENCY,
@@ -229,7 +230,8 @@ const deck_key deck_table[] = {
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(PATH), NOT_NEGATIVE,
     IS(FORCE, "amplitude F0 of the drive; where results have two axes it is one of them "
          "instead of the value in &pendulum, and the damping or the drive has one value") },
-  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP | ESCAPE), NOT_NEGATIVE,
+    EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(CURVE | RESPONSE | GRID), POSITIVE },
   PENDRES_PARAMETERS_OTHER(SWEEP_OTHER)
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
@@ -317,6 +319,14 @@ const deck_key deck_table[] = {
     .when = DECK_WITHOUT_START, IS(POSITION, "initial position, at the drive's maximum") },
   { REAL("hysteresis", "v", orbit.v), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = 0,
     .when = DECK_WITHOUT_START, IS(VELOCITY, "initial velocity") },
+
+  { CHOICE("escape", "from", orbit.start), IN(ESCAPE), .choices = starts, EXAMPLE("'sa'"),
+    SAYS(NULL, "state that is left: SA, LA, or its number in the order of amplitude; without it "
+         "the one reached from 'x', 'v'") },
+  { REAL("escape", "x", orbit.x), IN(ESCAPE), RANGE(-BIG, BIG), .number = NAN,
+    .when = DECK_WITHOUT_START, IS(POSITION, "position from which the state is reached") },
+  { REAL("escape", "v", orbit.v), IN(ESCAPE), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_WITHOUT_START, IS(VELOCITY, "velocity there") },
 
   { REAL("hysteresis", "rate", ramp.rate), IN(HYSTERESIS), POSITIVE, .number = NAN,
     IS(SWEPT,

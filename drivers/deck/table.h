@@ -29,7 +29,7 @@ typedef enum deck_type {
     "it concerns noise, and there is no 'temperature' above 0")                                    \
   X(WITH_RAMP, "only with 'rate' or 'protocol'",                                                   \
     "it concerns ramps, and there is no 'rate' or 'protocol'")                                     \
-  X(WITHOUT_START, "only where 'start' is not given", "'start' names an attractor")                \
+  X(WITHOUT_START, "only where no attractor is named", "an attractor is named")                    \
   X(OFF_LINE, "only with shape = 'rectangle' or 'random'",                                         \
     "the starts are on a line, see 'shape'")                                                       \
   X(IN_RECTANGLE, "only with shape = 'rectangle'", "'shape' is not 'rectangle'")                   \

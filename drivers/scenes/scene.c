@@ -19,6 +19,7 @@
   X(hysteresis)            \
   X(bifurcation_diagram)   \
   X(lyapunov_map)          \
+  X(escape)                \
   X(fit)
 
 #define DECLARE(name) extern const scene_kind scene_##name;

@@ -49,6 +49,9 @@ QUANTITY(x, POSITION, "position",
   "the particle's coordinate in the potential -sin x; the pendulum's angle from rest is x - pi/2",
   "the oscillator's coordinate, in the units of its equation")
 QUANTITY(v, VELOCITY, "velocity", "dx/dt, in units of omega0", "dx/dt")
+QUANTITY(action, ENERGY, "least action out of the state",
+  "S of the rate of leaving, which is a prefactor times exp(-S/T) at small temperatures T",
+  NULL)
 QUANTITY(drive_phase, PHASE, "phase of the drive, omega t", NULL, NULL)
 QUANTITY(drive, FORCE, "drive, F0 cos(omega t)", NULL, NULL)
 QUANTITY(period, NUMBER, "drive periods until the orbit closes", NULL, NULL)

@@ -29,6 +29,35 @@ def draw_free_oscillation(h, path):
     return fig
 
 
+def draw_escape(h, path):
+    """The path over the boundary, with its noise; along one or two parameters the action."""
+    if "path_x" in h:
+        fig, axes = figure(h, 5.2, 2, 1)
+        factor, across = amplitude_axis(h, "path_x", "position $x$")
+        axes[0].plot(factor * h["path_x"], h["path_v"], color=EXACT, lw=0.8)
+        axes[0].plot(factor * h["path_x"][0], h["path_v"][0], "o", color=SA, label="state")
+        axes[0].plot(factor * h["saddle_x"][0], h["saddle_v"][0], "x", color=LA, label="saddle")
+        axes[0].set(xlabel=across, ylabel="velocity $v$")
+        legend(axes[0])
+        axes[1].plot(h["path_phase"] / (2 * np.pi), h["path_noise"], color=EXACT, lw=0.8)
+        axes[1].set(xlabel="drive periods", ylabel="noise along the path")
+        return fig
+    fig, ax = figure(h, 3.3)
+    name = h.axis_of("action", 0)
+    if h["action"].ndim == 1:
+        across, below = parameter_axis(h, h[name], name)
+        ax.plot(across, h["action"], ".-", color=EXACT)
+        ax.set(xlabel=below, ylabel="least action $S$", ylim=(0, None))
+        return fig
+    other = h.axis_of("action", 1)
+    across, below = parameter_axis(h, h[other], other)
+    up, beside = parameter_axis(h, h[name], name)
+    shown = ax.pcolormesh(across, up, h["action"], shading="nearest", rasterized=True)
+    fig.colorbar(shown, ax=ax, label="least action $S$")
+    ax.set(xlabel=below, ylabel=beside)
+    return fig
+
+
 def resonance_axes(ax, h, labels):
     """Resonance frequency against amplitude; values of the axis are written beside their points:
     `labels` of dampings, some of the others."""

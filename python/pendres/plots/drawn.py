@@ -22,6 +22,7 @@ DRAWERS = {  # by the root attribute `scene`
     "work_precision": validation.draw_work_precision,
     "hard_cases": validation.draw_hard_cases,
     "switching": curves.draw_switching,
+    "escape": curves.draw_escape,
     "fit": fits.draw_fit,
 }
 

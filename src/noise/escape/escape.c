@@ -17,7 +17,8 @@
 
 enum {
   COLUMNS = 6, /* of a path's table */
-  ROWS = 4000  /* of it, at most */
+  ROWS = 4000, /* of it, at most, but for one */
+  BETWEEN = 12 /* points a piece */
 };
 
 struct pendres_escapes {
@@ -34,24 +35,39 @@ static int is_final(pendres_status status)
   return status == PENDRES_INTERRUPTED || status == PENDRES_OUT_OF_MEMORY;
 }
 
-/* The table of a path: nodes, of very long ones some. */
+/* The table of a path: nodes with points between, of very long ones some nodes. */
 static pendres_status tabulate(void *found, const pendres_way *path)
 {
   struct found *out = found;
+  pendres_escape *way = &out->way;
   const pendres_pendulum *p = &path->flow->p;
-  const size_t pieces = (size_t)path->flow->grid.pieces;
-  const size_t nodes = (size_t)path->periods * pieces + 1, each = (nodes + ROWS - 1) / ROWS;
-  const size_t n = (nodes - 1) / each + 1;
+  const pendres_way_grid grid = path->flow->grid;
+  const size_t pieces = (size_t)path->periods * (size_t)grid.pieces;
+  const size_t each = (pieces + ROWS - 1) / ROWS, rooms = ROWS / pieces;
+  const size_t parts = rooms > BETWEEN ? BETWEEN : rooms > 1 ? rooms : 1;
+  const size_t n = pieces / each * parts + 1;
+  const pendres_way_grid fine = {grid.pieces * (int)parts,
+                                 (grid.steps + (int)parts - 1) / (int)parts};
   double *t = malloc(COLUMNS * n * sizeof *t);
-  if (t == NULL) return PENDRES_OUT_OF_MEMORY;
+  double *cosine = malloc((size_t)(fine.pieces * fine.steps) * PATH_STAGES * sizeof *cosine);
+  pendres_way_flow flow;
+  out->table = t;
+  if (t == NULL || cosine == NULL) {
+    free(cosine);
+    return PENDRES_OUT_OF_MEMORY;
+  }
+  pendres_way_flow_make(p, fine, cosine, &flow);
+  double z[PATH_SIZE];
   for (size_t k = 0; k < n; k++) {
-    const double *z = path->z + PATH_SIZE * each * k;
-    t[k] = two_pi * (double)(each * k) / (double)pieces;
+    const size_t node = k / parts * each, part = k % parts;
+    if (part == 0) memcpy(z, path->z + PATH_SIZE * node, sizeof z);
+    const size_t at = node * parts + part;
+    t[k] = two_pi * (double)at / (double)fine.pieces;
     for (size_t i = 0; i < PATH_SIZE; i++) t[(i + 1) * n + k] = z[i];
     t[(COLUMNS - 1) * n + k] = 2.0 * p->damping * z[PATH_Q];
+    pendres_way_piece(&flow, (int)(at % (size_t)fine.pieces), z, NULL, NULL);
   }
-  pendres_escape *way = &out->way;
-  out->table = t;
+  free(cosine);
   way->points = n;
   way->phase = t;
   way->x = t + n;
