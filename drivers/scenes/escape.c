@@ -146,7 +146,7 @@ static int check_whole(const scene_points *p, const void *row)
 
 static const scene_column columns[] = {
   SCENE_COLUMN(row, action, NULL),
-  SCENE_CODE(row, escape, "kind of motion that the path leads to", scene_fate_names),
+  SCENE_CODE(row, escape, "kind of motion that the path leads to", scene_motion_names),
   {SCENE_TYPED(SCENE_NUMBER, "escape_to", row, escape_to,
                "attractor that the path leads to, by amplitude from 1 on; 0: none")},
   {SCENE_TYPED(SCENE_NUMBER, "escape_well", row, escape_well,
@@ -197,7 +197,7 @@ static void write_whole(scene_run *run, const work *w)
     fprintf(run->table, "way %zu leads to ", k + 1);
     if (r->escape_to > 0)
       fprintf(run->table, "attractor %d, well %d\n", r->escape_to, r->escape_well);
-    else fprintf(run->table, "what is %s\n", scene_fate_names(r->escape));
+    else fprintf(run->table, "what is %s\n", scene_motion_names(r->escape));
   }
 }
 
@@ -210,7 +210,7 @@ static void tabulate(scene_run *run, const work *w)
     char name[SCENE_TOLD];
     scene_point_name(w->d, k, p->axes, p->axis, name, sizeof name);
     fprintf(run->table, "%-32s %20.12g %9.1e  %s %d\n", name, rows[k].action,
-            rows[k].action_error, scene_fate_names(rows[k].escape), rows[k].escape_to);
+            rows[k].action_error, scene_motion_names(rows[k].escape), rows[k].escape_to);
   }
   if (p->n > TABLE_ROWS) fprintf(run->table, "... and %zu more\n", p->n - TABLE_ROWS);
 }

@@ -11,15 +11,12 @@
 #include "engine/room.h"
 #include "model/equation.h"
 #include "model/model.h"
+#include "noise/escape/numbers.h"
 #include "noise/escape/path.h"
 #include "noise/escape/saddles.h"
 #include "settling/attractor_internal.h"
 
-enum {
-  COLUMNS = 6, /* of a path's table */
-  ROWS = 4000, /* of it, at most, but for one */
-  BETWEEN = 12 /* points a piece */
-};
+enum { COLUMNS = 6 }; /* of a path's table */
 
 struct pendres_escapes {
   size_t count;
@@ -43,8 +40,8 @@ static pendres_status tabulate(void *found, const pendres_way *path)
   const pendres_pendulum *p = &path->flow->p;
   const pendres_way_grid grid = path->flow->grid;
   const size_t pieces = (size_t)path->periods * (size_t)grid.pieces;
-  const size_t each = (pieces + ROWS - 1) / ROWS, rooms = ROWS / pieces;
-  const size_t parts = rooms > BETWEEN ? BETWEEN : rooms > 1 ? rooms : 1;
+  const size_t each = (pieces + TABLE_ROWS - 1) / TABLE_ROWS, rooms = TABLE_ROWS / pieces;
+  const size_t parts = rooms > TABLE_BETWEEN ? TABLE_BETWEEN : rooms > 1 ? rooms : 1;
   const size_t n = pieces / each * parts + 1;
   const pendres_way_grid fine = {grid.pieces * (int)parts,
                                  (grid.steps + (int)parts - 1) / (int)parts};
@@ -149,6 +146,9 @@ static pendres_status escapes_find(pendres_context *ctx, const pendres_attractor
 {
   if (set == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractors and out");
   *out = NULL;
+  if (set->sets != 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "these are attractors of several parameter sets");
   const char *wrong = refuse(pendres_attractors_get(set, from));
   if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
   pendres_escapes *ways = calloc(1, sizeof *ways);

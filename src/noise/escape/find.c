@@ -5,16 +5,8 @@
 #include "base/angles.h"
 #include "engine/room.h"
 #include "model/model.h"
+#include "noise/escape/numbers.h"
 #include "noise/escape/path.h"
-
-/* How far from the state a motion that comes to it may be at the window's end, relative to the
-   saddle's distance. */
-static const double most_off = 0.1;
-/* How close to its ends, relative to their distance, a path is when it is cut off there. */
-static const double way_cut = 1e-4;
-/* Steps of the grid on which candidates are minimised, and of the integration, in units of the
-   shortest time of the equation; errors grow by no more than e^3 on a piece. */
-static const double coarse_step = 0.15, fine_step = 0.2, piece_folds = 3.0;
 
 pendres_status pendres_way_plan(const pendres_way_end *from, const pendres_way_end *to,
                                 const pendres_pendulum *p, double reach, pendres_way_plan_of *out)
@@ -25,12 +17,12 @@ pendres_status pendres_way_plan(const pendres_way_end *from, const pendres_way_e
                                                                    ? p->drive_frequency : 0.0));
   const double folds = -log(way_cut);
   const double periods = ceil(folds / from->grows) + ceil(folds / to->grows) + 2.0;
-  out->grid.pieces = (int)ceil(period * p->damping / piece_folds + period / quick / 3.0);
-  out->grid.steps = (int)ceil(period / out->grid.pieces / (fine_step * quick));
-  out->each = (int)ceil(period / out->grid.pieces / (coarse_step * quick)) * out->grid.pieces;
+  out->grid.pieces = (int)ceil(period * p->damping / way_folds + period / quick / 3.0);
+  out->grid.steps = (int)ceil(period / out->grid.pieces / (way_fine * quick));
+  out->each = (int)ceil(period / out->grid.pieces / (way_coarse * quick)) * out->grid.pieces;
   out->periods = (long)periods;
   out->cut = way_cut;
-  return periods * out->each < PATH_MOST_POINTS ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
+  return periods * out->each < WAY_MOST_POINTS ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
 }
 
 /* Positions of a motion without noise from a state on, `points` of the grid of candidates. */
@@ -229,7 +221,7 @@ pendres_status pendres_way_try(pendres_context *ctx, const pendres_way_guess *gu
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
   if (guess->side == 0.0) blend(&s);
   else off = reverse(&s);
-  if (!(off < most_off)) return pendres_room_close(&room, PENDRES_NOT_FOUND);
+  if (!(off < way_off)) return pendres_room_close(&room, PENDRES_NOT_FOUND);
   /* Reversed motions are paths already where detailed balance holds. */
   pendres_status status = PENDRES_OK;
   if (!pendres_model_driven(&path->flow->p) && guess->side != 0.0) turn_round(path, guess);

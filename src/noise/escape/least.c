@@ -11,18 +11,10 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
+#include "noise/escape/numbers.h"
 #include "noise/escape/path.h"
 
-enum {
-  SHARES = 4,  /* of a drive period, by which guesses are shifted */
-  SIDES = 3,   /* between both orbits, and from either side of the saddle */
-  STRIDES = 16, TRIAL = 64 /* parts of it, by which paths are */
-};
-static const double finer = 1.4, longer = 1.0; /* steps, e-folds at ends, of what counts */
-static const double level = 1e-5; /* of the derivative by a shift, relative to its largest */
-/* Actions that differ by less, relative to them, are those of one path; and what another phase may
-   make of one is negligible, or little enough to stand in its error where no phase is found. */
-static const double alike = 1e-7, negligible = 1e-8, little = 1e-5;
+enum { SIDES = 3 }; /* guesses: between both orbits, and from either side of the saddle */
 
 /* A path with what it needs. */
 typedef struct drawn {
@@ -57,7 +49,7 @@ static pendres_status move(pendres_context *ctx, pendres_way *path, double shift
   path->shift = 0.0;
   if (status != PENDRES_OK) return status;
   const double most = 2.0 * fmax(slope, fabs(path->slack)) * fabs(shift);
-  const int same = fabs(path->action - before) <= most + negligible * before &&
+  const int same = fabs(path->action - before) <= most + least_negligible * before &&
                    fabs(path->slack) * fabs(shift) < 0.1 * before;
   return same ? PENDRES_OK : PENDRES_NOT_CONVERGED;
 }
@@ -67,11 +59,11 @@ static pendres_status move(pendres_context *ctx, pendres_way *path, double shift
 static pendres_status find_phase(pendres_context *ctx, double period, pendres_way *path)
 {
   const double first = path->action;
-  double at = period / TRIAL, a = 0.0, fa = path->slack, most = fabs(fa);
+  double at = period / LEAST_TRIAL, a = 0.0, fa = path->slack, most = fabs(fa);
   pendres_status status = move(ctx, path, at);
   double b = at, fb = path->slack;
-  const double stride = path->action < first ? period / STRIDES : -period / STRIDES;
-  for (int k = 0; k < STRIDES && status == PENDRES_OK && (fa < 0.0) == (fb < 0.0); k++) {
+  const double stride = path->action < first ? period / LEAST_STRIDES : -period / LEAST_STRIDES;
+  for (int k = 0; k < LEAST_STRIDES && status == PENDRES_OK && (fa < 0.0) == (fb < 0.0); k++) {
     if (k > 0 || stride > 0.0) fa = fb, a = b;
     status = move(ctx, path, a + stride - at);
     at = b = a + stride;
@@ -79,7 +71,8 @@ static pendres_status find_phase(pendres_context *ctx, double period, pendres_wa
     most = fmax(most, fabs(fb));
   }
   if (status == PENDRES_OK && (fa < 0.0) == (fb < 0.0)) return PENDRES_NOT_CONVERGED;
-  for (int k = 0; k < STRIDES && status == PENDRES_OK && fabs(path->slack) > level * most; k++) {
+  for (int k = 0; k < LEAST_STRIDES && status == PENDRES_OK; k++) {
+    if (fabs(path->slack) <= least_level * most) break;
     const double next = b - fb * (b - a) / (fb - fa);
     status = move(ctx, path, next - at);
     at = next;
@@ -106,11 +99,11 @@ static pendres_status attempt(const pendres_way_search *c, const pendres_way_gue
   pendres_status status = pendres_way_try(c->ctx, guess, each, path, &coarse);
   if (status != PENDRES_OK || !pendres_model_driven(&c->state->pendulum)) return status;
   *phase = fabs(path->slack) * period;
-  if (*phase <= negligible * path->action) return status;
+  if (*phase <= least_negligible * path->action) return status;
   const pendres_way kept = *path;
   memcpy(d->spare, path->z, d->values * sizeof *path->z);
   status = find_phase(c->ctx, period, path);
-  if (status == PENDRES_NOT_CONVERGED && *phase <= little * kept.action) {
+  if (status == PENDRES_NOT_CONVERGED && *phase <= least_little * kept.action) {
     *path = kept;
     memcpy(path->z, d->spare, d->values * sizeof *path->z);
     return PENDRES_OK;
@@ -129,11 +122,11 @@ static int is_final(pendres_status status)
 static pendres_status survey(const pendres_way_search *c, int each, drawn *d, double *nodes,
                              pendres_way_found *out)
 {
-  double actions[SIDES * SHARES], phase;
+  double actions[SIDES * LEAST_SHARES], phase;
   out->paths = 0;
   out->phase = 0.0;
-  for (int k = 0; k < SIDES * SHARES; k++) {
-    const pendres_way_guess guess = {k % SIDES - 1, (double)(k / SIDES) / SHARES};
+  for (int k = 0; k < SIDES * LEAST_SHARES; k++) {
+    const pendres_way_guess guess = {k % SIDES - 1, (double)(k / SIDES) / LEAST_SHARES};
     const int shifts = pendres_model_driven(&c->state->pendulum) && !(out->phase > 0.0);
     if (k % SIDES == 0 && out->paths > 0 && !shifts) break;
     const pendres_status tried = attempt(c, &guess, each, d, &phase);
@@ -141,9 +134,9 @@ static pendres_status survey(const pendres_way_search *c, int each, drawn *d, do
     const double action = d->path.action;
     if (tried != PENDRES_OK || !(action > 0.0)) continue;
     size_t known = 0;
-    while (known < out->paths && fabs(actions[known] - action) > alike * action) known++;
+    while (known < out->paths && fabs(actions[known] - action) > least_alike * action) known++;
     if (known == out->paths) actions[out->paths++] = action;
-    if (out->paths > 1 && !(action < out->action * (1.0 - alike))) continue;
+    if (out->paths > 1 && !(action < out->action * (1.0 - least_alike))) continue;
     out->action = action;
     out->phase = phase;
     out->middle = d->path.middle;
@@ -176,12 +169,12 @@ static pendres_status lengthen(const pendres_way_search *c, const pendres_way_pl
 {
   pendres_room room = pendres_room_open(c->ctx, "the path of an escape");
   pendres_way_plan_of wide = *plan;
-  const long before = (long)ceil(longer / c->from.grows / c->from.cycle) * c->from.cycle;
-  const long after = (long)ceil(longer / c->to.grows / c->to.cycle) * c->to.cycle;
+  const long before = (long)ceil(least_longer / c->from.grows / c->from.cycle) * c->from.cycle;
+  const long after = (long)ceil(least_longer / c->to.grows / c->to.cycle) * c->to.cycle;
   drawn d;
-  wide.grid.steps = (int)ceil(finer * plan->grid.steps);
+  wide.grid.steps = (int)ceil(least_finer * plan->grid.steps);
   wide.periods = plan->periods + before + after;
-  wide.cut = plan->cut / exp(longer);
+  wide.cut = plan->cut / exp(least_longer);
   pendres_status status = draw(c, &wide, &room, &d);
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   const size_t pieces = (size_t)plan->grid.pieces, skip = (size_t)before * pieces;
@@ -193,7 +186,7 @@ static pendres_status lengthen(const pendres_way_search *c, const pendres_way_pl
   status = pendres_way_polish(c->ctx, &d.path);
   if (status != PENDRES_OK) return pendres_room_close(&room, status);
   out->error = fabs(d.path.action - out->action) + out->phase +
-               fabs(d.path.ends) * d.path.cut + 0x1p-44 * fabs(d.path.action);
+               fabs(d.path.ends) * d.path.cut + least_rounding * fabs(d.path.action);
   out->action = d.path.action;
   status = c->take(c->arg, &d.path);
   return pendres_room_close(&room, status);
@@ -217,7 +210,7 @@ pendres_status pendres_way_least(pendres_way_search *c, pendres_way_found *out)
   drawn d;
   status = draw(c, &plan, &room, &d);
   double *nodes = pendres_room_take(&room, d.values, sizeof *nodes);
-  if (room.status == PENDRES_OK) status = survey(c, plan.each, &d, nodes, out);
+  status = room.status != PENDRES_OK ? room.status : survey(c, plan.each, &d, nodes, out);
   if (status == PENDRES_OK) status = lengthen(c, &plan, nodes, out);
   return pendres_room_close(&room, status);
 }

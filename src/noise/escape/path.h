@@ -114,8 +114,6 @@ typedef struct pendres_way_plan_of {
   double cut;   /* how close to its ends, relative to their distance, it is cut off there */
 } pendres_way_plan_of;
 
-enum { PATH_MOST_POINTS = 4000000 };
-
 /* For motions up to a reach. PENDRES_TOLERANCE_UNREACHABLE: it takes too long. */
 pendres_status pendres_way_plan(const pendres_way_end *from, const pendres_way_end *to,
                                 const pendres_pendulum *p, double reach, pendres_way_plan_of *out);

@@ -16,19 +16,14 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/room.h"
+#include "noise/escape/numbers.h"
 #include "noise/escape/path.h"
 
 enum {
   BAND = 2 * PATH_SIZE + 1,              /* diagonals on either side, at most */
   ROW = 3 * BAND + 1,                    /* of the matrix, with what pivoting needs */
-  SQUARE = PATH_SIZE * PATH_SIZE,
-  NEWTON = 40                            /* iterations, at most */
+  SQUARE = PATH_SIZE * PATH_SIZE
 };
-static const double last_step = 1e-8;    /* of Newton's method: what remains is its square */
-static const double small_step = 1e-6;   /* of it: where nothing improves, rounding is reached, */
-static const double rounding = 1e-12;    /* as where pieces meet as closely */
-static const double least_part = 1e-3;   /* of a Newton step: where less does not help, none does */
-
 typedef struct system {
   const pendres_way *path;
   size_t pieces, unknowns, middle;
@@ -148,7 +143,7 @@ static int go(system_t *s, double *z)
 {
   const size_t n = PATH_SIZE * (s->pieces + 1);
   const double before = length(s->right, s->unknowns), slack = s->slack;
-  for (double part = 1.0; part >= least_part; part *= 0.5) {
+  for (double part = 1.0; part >= polish_least; part *= 0.5) {
     for (size_t k = 0; k <= s->pieces; k++)
       for (size_t i = 0; i < PATH_SIZE; i++)
         s->trial[PATH_SIZE * k + i] =
@@ -158,7 +153,7 @@ static int go(system_t *s, double *z)
     s->action = look(s, s->trial, part == 1.0);
     s->fresh = part == 1.0;
     const double after = length(s->right, s->unknowns);
-    if (after < before * (1.0 - 0.1 * part) || (part == 1.0 && after < small_step)) {
+    if (after < before * (1.0 - 0.1 * part) || (part == 1.0 && after < polish_small)) {
       memcpy(z, s->trial, n * sizeof *z);
       return 1;
     }
@@ -191,12 +186,15 @@ static void aim(system_t *s)
   }
 }
 
-static pendres_status iterate(system_t *s, pendres_way *path, gsl_vector_uint *order)
+static pendres_status iterate(pendres_context *ctx, system_t *s, pendres_way *path,
+                              gsl_vector_uint *order)
 {
   const size_t values = s->unknowns;
   int close = 0;
   aim(s);
-  for (int k = 0; k < NEWTON; k++) {
+  for (int k = 0; k < POLISH_NEWTON; k++) {
+    const pendres_status stop = pendres_context_poll(ctx);
+    if (stop != PENDRES_OK) return stop;
     if (!s->fresh) s->action = look(s, path->z, 1);
     const double action = s->action;
     if (!isfinite(action)) return PENDRES_NOT_CONVERGED;
@@ -204,11 +202,11 @@ static pendres_status iterate(system_t *s, pendres_way *path, gsl_vector_uint *o
     path->ends = outside(path, s->pieces);
     path->slack = path->pinned ? s->slack * s->steep : 0.0;
     path->action = action + path->ends;
-    if (close || path->residual < rounding) return PENDRES_OK;
+    if (close || path->residual < polish_rounding) return PENDRES_OK;
     if (!solve(s, order)) return PENDRES_NOT_CONVERGED;
     const double size = length(s->step, values);
-    if (!go(s, path->z)) return size < small_step ? PENDRES_OK : PENDRES_NOT_CONVERGED;
-    close = size < last_step;
+    if (!go(s, path->z)) return size < polish_small ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+    close = size < polish_last;
   }
   return PENDRES_NOT_CONVERGED;
 }
@@ -223,11 +221,10 @@ pendres_status pendres_way_polish(pendres_context *ctx, pendres_way *path)
   s.band = pendres_room_take(&room, s.unknowns * ROW, sizeof *s.band);
   s.right = pendres_room_take(&room, s.unknowns, sizeof *s.right);
   s.step = pendres_room_take(&room, s.unknowns, sizeof *s.step);
+  unsigned *pivots = pendres_room_take(&room, s.unknowns, sizeof *pivots);
   s.trial = pendres_room_take(&room, PATH_SIZE * (s.pieces + 1), sizeof *s.trial);
   path->residual = path->action = path->ends = NAN;
   if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
-  gsl_vector_uint *order = gsl_vector_uint_alloc(s.unknowns);
-  pendres_status status = order != NULL ? iterate(&s, path, order) : PENDRES_OUT_OF_MEMORY;
-  gsl_vector_uint_free(order);
-  return pendres_room_close(&room, status);
+  gsl_vector_uint_view order = gsl_vector_uint_view_array(pivots, s.unknowns);
+  return pendres_room_close(&room, iterate(ctx, &s, path, &order.vector));
 }

@@ -10,18 +10,16 @@
 #include <gsl/gsl_linalg.h>
 
 #include "base/angles.h"
+#include "engine/context_internal.h"
 #include "engine/room.h"
 #include "model/model.h"
+#include "noise/escape/numbers.h"
 #include "noise/escape/path.h"
 
 enum {
   STENCIL = PATH_STENCIL, HALF = STENCIL / 2, /* points of a difference */
-  KEPT = HALF + 1,                            /* at either end */
-  ROUNDS = 200                                /* steps, at most */
+  KEPT = HALF + 1 /* at either end */
 };
-static const double done = 1e-7;     /* relative fall of the action after which none counts */
-static const double stiffest = 1e12; /* of the method's own spring: nothing moves any more */
-
 typedef struct chain {
   const pendres_pendulum *p;
   size_t points;
@@ -82,12 +80,14 @@ static void build(const chain *c, double spring)
   for (size_t i = 0; i < n; i++) c->band[i * STENCIL] *= 1.0 + spring;
 }
 
-static pendres_status descend(const chain *c, double *x, double *action)
+static pendres_status descend(pendres_context *ctx, const chain *c, double *x, double *action)
 {
   const size_t n = c->points - 2 * KEPT;
   double spring = 1e-3;
   *action = look(c, x, 1);
-  for (int k = 0; k < ROUNDS && spring < stiffest; k++) {
+  for (int k = 0; k < RELAX_ROUNDS && spring < relax_stiffest; k++) {
+    const pendres_status stop = pendres_context_poll(ctx);
+    if (stop != PENDRES_OK) return stop;
     build(c, spring);
     gsl_matrix_view band = gsl_matrix_view_array(c->band, n, STENCIL);
     gsl_vector_view right = gsl_vector_view_array(c->right, n);
@@ -101,7 +101,7 @@ static pendres_status descend(const chain *c, double *x, double *action)
     for (size_t i = 0; i < n; i++) c->trial[i + KEPT] += c->right[i];
     const double there = look(c, c->trial, 1);
     if (there < *action) {
-      const int last = *action - there < done * there && spring < 1e-2;
+      const int last = *action - there < relax_done * there && spring < 1e-2;
       memcpy(x, c->trial, c->points * sizeof *x);
       *action = there;
       spring = fmax(0.1 * spring, 1e-12);
@@ -128,6 +128,6 @@ pendres_status pendres_way_relax(pendres_context *ctx, const pendres_pendulum *p
   c.band = pendres_room_take(&room, points * STENCIL, sizeof *c.band);
   c.right = pendres_room_take(&room, points, sizeof *c.right);
   *action = NAN;
-  const pendres_status status = room.status == PENDRES_OK ? descend(&c, x, action) : room.status;
-  return pendres_room_close(&room, status);
+  if (room.status != PENDRES_OK) return pendres_room_close(&room, room.status);
+  return pendres_room_close(&room, descend(ctx, &c, x, action));
 }

@@ -7,23 +7,12 @@
 #include "engine/room.h"
 #include "model/equation.h"
 #include "model/model.h"
+#include "noise/escape/numbers.h"
 #include "noise/escape/path.h"
 #include "noise/escape/saddles.h"
 #include "orbits/orbit_same.h"
 #include "settling/attractor_internal.h"
 #include "settling/settle.h"
-
-enum {
-  CUTS = 16,      /* parts into which a line is cut at a time */
-  ROUNDS = 6,     /* of cutting: to 2^-24 of its length */
-  CYCLES = 4,     /* the longest cycle of a saddle that is looked for, in drive periods */
-  RAYS = 4,       /* along both axes, beside the lines to other attractors */
-  AFTER = 10,     /* drive periods for which a boundary point is followed, at least, and ... */
-  MOST_AFTER = 20000
-};
-static const double fade = 24.0; /* ... the e-folds of decay */
-static const double leaves = 10.0; /* growth of the distance over a cycle, once it has been least */
-static const double beside = 1e-4; /* of the distance to the state: where the other side is tried */
 
 typedef struct search {
   pendres_context *ctx;
@@ -47,26 +36,26 @@ static pendres_status cross(const search *s, const double to[2], double bracket[
   bracket[0] = 0.0;
   bracket[1] = 1.0;
   *crosses = 1;
-  for (int round = 0; round < ROUNDS && *crosses; round++) {
-    double x[CUTS], v[CUTS];
-    pendres_settled outcome[CUTS];
+  for (int round = 0; round < SADDLE_ROUNDS && *crosses; round++) {
+    double x[SADDLE_CUTS], v[SADDLE_CUTS];
+    pendres_settled outcome[SADDLE_CUTS];
     const double low = bracket[0], width = bracket[1] - bracket[0];
-    for (int k = 0; k < CUTS; k++) {
-      const double share = low + width * (k + 1) / CUTS;
+    for (int k = 0; k < SADDLE_CUTS; k++) {
+      const double share = low + width * (k + 1) / SADDLE_CUTS;
       x[k] = o->x + share * (to[0] - o->x);
       v[k] = o->v + share * (to[1] - o->v);
     }
     /* Labels need not be certain: what is found is a saddle, or it is not. */
-    const pendres_settle_starts starts = {.n = CUTS, .x = x, .v = v};
+    const pendres_settle_starts starts = {.n = SADDLE_CUTS, .x = x, .v = v};
     const pendres_status status =
       pendres_settle_known(s->ctx, s->set->attractor_sets, &starts,
                            pendres_accuracy_to_settle(s->ctx), PENDRES_SETTLE_SHORT, outcome);
     if (status != PENDRES_OK) return status;
     int first = 0;
-    while (first < CUTS && stays(s, &outcome[first])) first++;
-    *crosses = first < CUTS;
-    bracket[0] = low + width * first / CUTS;
-    bracket[1] = low + width * (first + 1) / CUTS;
+    while (first < SADDLE_CUTS && stays(s, &outcome[first])) first++;
+    *crosses = first < SADDLE_CUTS;
+    bracket[0] = low + width * first / SADDLE_CUTS;
+    bracket[1] = low + width * (first + 1) / SADDLE_CUTS;
   }
   return PENDRES_OK;
 }
@@ -94,13 +83,13 @@ static pendres_status arrive(const search *s, double x, double v, pendres_saddle
     s->x[n] = x;
     s->v[n] = v;
   }
-  for (int cycle = 1; cycle <= CYCLES && !*found; cycle++) {
+  for (int cycle = 1; cycle <= SADDLE_CYCLES && !*found; cycle++) {
     long best = -1;
     double least = INFINITY;
     for (long k = 0; k + cycle < n; k++) {
       const double d = pendres_model_distance(p, remainder(s->x[k + cycle] - s->x[k], turn),
                                               s->v[k + cycle] - s->v[k]);
-      if (d > leaves * least) break; /* for one side or the other */
+      if (d > saddle_leaves * least) break; /* for one side or the other */
       if (d >= least) continue;
       least = d;
       best = k;
@@ -118,7 +107,7 @@ static pendres_status arrive(const search *s, double x, double v, pendres_saddle
       continue;
     out->x = out->orbit.x + turn * rint((s->x[best] - out->orbit.x) / turn);
     *found = pendres_model_distance(p, out->x - s->x[best], out->orbit.v - s->v[best]) <=
-             0.1 * pendres_model_distance(p, out->x - s->home->orbit.x,
+             saddle_near * pendres_model_distance(p, out->x - s->home->orbit.x,
                                           out->orbit.v - s->home->orbit.v);
   }
   return PENDRES_OK;
@@ -134,7 +123,7 @@ static pendres_status look_beyond(const search *s, pendres_saddle *a)
   pendres_settled outcome[2];
   pendres_way_direction(m, a->orbit.multiplier_re[0], e);
   for (int k = 0; k < 2; k++) {
-    const double part = k == 0 ? beside * apart : -beside * apart;
+    const double part = k == 0 ? saddle_beside * apart : -saddle_beside * apart;
     x[k] = a->x + part * e[0];
     v[k] = a->orbit.v + part * e[1];
   }
@@ -174,19 +163,19 @@ pendres_status pendres_saddles_find(pendres_context *ctx, const pendres_attracto
   const pendres_orbit *o = &home->orbit;
   const double fading = pendres_equation_fading(&o->pendulum);
   search s = {.ctx = ctx, .set = set, .from = from, .home = home,
-              .after = (long)fmin(MOST_AFTER, AFTER + fade / fading)};
+              .after = (long)fmin(SADDLE_MOST_AFTER, SADDLE_AFTER + saddle_fade / fading)};
   const double turn = pendres_model_of(o->pendulum.force)->period;
-  const double far = turn > 0.0 ? turn : 3.0 * pendres_model_scale(&o->pendulum);
-  static const double ray[RAYS][2] = {{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}};
+  const double far = turn > 0.0 ? turn : saddle_far * pendres_model_scale(&o->pendulum);
+  static const double ray[SADDLE_RAYS][2] = {{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}};
   pendres_room room = pendres_room_open(ctx, "the boundary of a basin");
   s.x = pendres_room_take(&room, (size_t)s.after + 1, sizeof *s.x);
   s.v = pendres_room_take(&room, (size_t)s.after + 1, sizeof *s.v);
   pendres_status status = room.status;
   *count = 0;
-  const size_t lines = RAYS + pendres_attractors_count(set);
+  const size_t lines = SADDLE_RAYS + pendres_attractors_count(set);
   for (size_t i = 0; i < lines && status == PENDRES_OK && *count < PENDRES_SADDLES_MOST; i++) {
     double to[2];
-    const size_t others = lines - RAYS;
+    const size_t others = lines - SADDLE_RAYS;
     if (i >= others) {
       if (i - others >= 2 && *count > 0) break; /* a kick is for what no other line has found */
       to[0] = o->x + far * ray[i - others][0];
