@@ -173,8 +173,8 @@ double pendres_model_bend(const pendres_pendulum *p, double y)
     for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 1; i--) sum = fma(sum, y, i * (i + 1) * a[i]);
     return sum;
   }
-  pendres_forces_at(p->force, a, y + h, &force, &right);
-  pendres_forces_at(p->force, a, y - h, &force, &left);
+  pendres_model_force(p, y + h, &force, &right);
+  pendres_model_force(p, y - h, &force, &left);
   return 0.5 * (right - left) / h;
 }
 
