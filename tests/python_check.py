@@ -563,6 +563,8 @@ def test_plot():
     assert "file is gone" in raised(FileNotFoundError, pendres.plot, 3)
     away = pendres.escape(damping=0.5, drive_amplitude=0, drive_frequency=1, torque=0.8, x=2.5)
     assert abs(float(away.action[0]) - 0.1703982259307) < 1e-11
+    for part in (data.isel(drive_frequency=slice(2)), data * 2, data[list(data.data_vars)[0]]):
+        assert "no longer what the file holds" in raised(ValueError, pendres.plot, part)
     line = pendres.lyapunov_map(damping=[0.5], drive_amplitude=[1.0, 1.15], drive_frequency=2 / 3)
     assert line.lyapunov.dims == ("damping", "drive_amplitude") and line.lyapunov.shape == (1, 2)
     assert len(pendres.plot(line).axes) == 1

@@ -31,7 +31,7 @@ def open(path, group=None):  # pylint: disable=redefined-builtin
     path = _source_of(path)
     with xarray.open_dataset(path, engine=reader, group=group) as data:
         found = data.load()
-    found.encoding["source"] = os.path.abspath(path)
+    found.encoding.update(source=os.path.abspath(path), group=group)
     _accessor()
     return found
 
@@ -66,7 +66,17 @@ def plot(data, **chosen):
     except ImportError as why:
         raise ImportError(f"pictures need {why.name}: pip install 'pendres[plots]' (Debian: "
                           "python3-h5py python3-matplotlib)") from None
-    return figures(_source_of(data), **chosen)
+    return figures(_whole(data), **chosen)
+
+
+def _whole(data):
+    """The file of what is all that it holds: a selection would be drawn as if it were none."""
+    path = _source_of(data)
+    named = isinstance(data, (str, os.PathLike))
+    if not named and not open(path, data.encoding.get("group")).equals(data):
+        raise ValueError("a picture is that of a whole file, and this is no longer what the file "
+                         "holds: draw parts of it by data.NAME.plot(), as xarray does")
+    return path
 
 
 def _source_of(data):
