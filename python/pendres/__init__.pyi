@@ -131,6 +131,7 @@ class Force(enum.IntEnum):
     PENDULUM = 0
     POLYNOMIAL = 1
     SQUID = 2
+    FORMULA = 1073741824
 class IntegrationFailed(Error):
     ...
 class Internal(Error):
