@@ -303,13 +303,12 @@ INLINE void NAME(run_group)(pendres_model_terms model, int count, int tangents,
     memset(&g, 0, sizeof g);
     lanes = b->lanes - lane;
   }
-  for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++)
-    from.power[c] = model > PENDRES_MODEL_PENDULUM ? b->k.power[c] + lane : NULL;
+  /* In double precision of as many lanes as the vectors have, which may be more than the block
+     has. */
+  for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) from.power[c] = (const void *)g.power[c];
   NAME(load)(model, step, b, lane, lanes, &g);
   NAME(load_more)(step, b, lane, lanes, &g);
   if (model == PENDRES_MODEL_FORMULA) {
-    /* Of as many lanes as the vectors have, which may be more than the block has. */
-    for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) from.power[c] = (const void *)g.power[c];
     from.force = &formula[0];
     from.slope = &formula[1];
     pendres_kernels_formula_open(from.force, b->k.formula, FORMULA_FORCES, from.power, 0);
