@@ -227,9 +227,9 @@ RECORD(whole_cloud, pendres_cloud, PART(pendres_cloud, measured, cloud),
 RECORD(rate, pendres_switching_rate, V(exposure, TIME), V(value, RATE), V(error, RATE),
        V(lower, RATE), V(upper, RATE), V(mean_time, TIME), V(mean_time_error, TIME));
 
-/* But for the logarithm of a rate. */
 RECORD(escape, pendres_escape, PART(pendres_escape, saddle, orbit),
        ROW(pendres_escape, saddle_x, POSITION), ROWS(pendres_escape, action, ENERGY));
+/* But for the logarithm of a rate. */
 RECORD(activation, pendres_switching_activation,
        ROWS(pendres_switching_activation, energy, ENERGY),
        OWN(pendres_switching_activation, temperature));

@@ -81,7 +81,7 @@ static pendres_status go_over(pendres_context *ctx, const pendres_orbit *state,
 {
   pendres_way_search search = {.ctx = ctx, .state = state, .saddle = saddle->orbit,
                                .take = tabulate, .arg = out};
-  pendres_way_found least;
+  pendres_way_found least = {0};
   search.saddle.x = saddle->x;
   out->way = (pendres_escape){.saddle = saddle->orbit, .saddle_x = saddle->x,
                               .label = saddle->leads.label, .attractor = saddle->leads.attractor,
