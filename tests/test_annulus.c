@@ -91,6 +91,18 @@ static void beside_rest(void **state)
   check_near(drift, exact.mean_velocity / p.drive_frequency, error);
 }
 
+/* Strongly damped, some starts move as the torque pushes, but not over the top: to either side. */
+static void short_of_the_top(void **state)
+{
+  double drift, error;
+  (void)state;
+  for (int way = -1; way <= 1; way += 2) {
+    const pendres_pendulum p = {.damping = 0.7, .torque = 0.9 * way, .drive_frequency = 1.4};
+    const size_t turning = compare_starts(&p, PENDRES_LABEL_RUNNING, &drift, &error);
+    assert_true(turning > 0 && turning < STARTS);
+  }
+}
+
 /* What averages tell of the same pendulum: a state at rest, and one that rotates. */
 static void by_averages(void **state)
 {
@@ -299,7 +311,8 @@ static void locks_and_ways(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(beside_rest), cmocka_unit_test(by_averages), cmocka_unit_test(hardly_turning),
+    cmocka_unit_test(beside_rest), cmocka_unit_test(short_of_the_top),
+    cmocka_unit_test(by_averages), cmocka_unit_test(hardly_turning),
     cmocka_unit_test(without_lock), cmocka_unit_test(members), cmocka_unit_test(resonance),
     cmocka_unit_test(slow_or_weak),
     cmocka_unit_test(locks_and_ways),

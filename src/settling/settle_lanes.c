@@ -163,7 +163,8 @@ static int turns_over(const pendres_settle_labelling *l, size_t i, const pendres
                       const pendres_strobe_lane *lane)
 {
   const double now = angle_of(lane), last = l->before != NULL ? l->before[i].angle : now;
-  return c->turns && pendres_undriven_rotates(&c->pendulum, last, now,
+  const double origin = pendres_model_origin(&c->pendulum); /* of angles */
+  return c->turns && pendres_undriven_rotates(&c->pendulum, last + origin, now + origin,
                                               c->pendulum.drive_frequency * lane->w);
 }
 
