@@ -38,18 +38,20 @@ static inline double uniform(double from, double to)
 /* Some vectors of all rows, one lane after the other within a row, and the equation's numbers. */
 typedef struct bench {
   double *vector[VECTORS], *stiffness, *drive, *friction, *inverse, *torque, *modulation;
-  double *power[PENDRES_FORCE_COEFFICIENTS];
+  double *nonlinear, *quadratic, *cubic;
+  double *power[PENDRES_FORCE_POWERS];
   double *tangent[TANGENTS]; /* their y, y, w, w, and what is kept of them */
   pendres_sum sum[3];
 } bench;
 
 static inline void close_bench(bench *b)
 {
-  double *const one[] = {b->stiffness, b->drive, b->friction, b->inverse, b->torque, b->modulation};
+  double *const one[] = {b->stiffness, b->drive, b->friction, b->inverse, b->torque, b->modulation,
+                         b->nonlinear, b->quadratic, b->cubic};
   for (size_t i = 0; i < sizeof one / sizeof *one; i++) free(one[i]);
   for (int i = 0; i < VECTORS; i++) free(b->vector[i]);
   for (int i = 0; i < TANGENTS; i++) free(b->tangent[i]);
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) free(b->power[i]);
+  for (int i = 0; i < PENDRES_FORCE_POWERS; i++) free(b->power[i]);
 }
 
 static inline double *random_lanes(size_t n, double from, double to)
@@ -63,10 +65,13 @@ static inline double *random_lanes(size_t n, double from, double to)
 /* What other models have; powers weigh so little that none overflows in program(). */
 static inline void open_terms(bench *b)
 {
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++)
     b->power[k] = random_lanes(MOST_LANES, -pow(0.01, k), pow(0.01, k));
   b->torque = random_lanes(MOST_LANES, -1.0, 1.0);
   b->modulation = random_lanes(MOST_LANES, -2.0, 2.0);
+  b->nonlinear = random_lanes(MOST_LANES, 0.0, 0.02);
+  b->quadratic = random_lanes(MOST_LANES, 0.0, 0.1);
+  b->cubic = random_lanes(MOST_LANES, 0.0, 0.01);
 }
 
 static inline void open_bench(bench *b, uint64_t seed)
@@ -119,6 +124,7 @@ static inline size_t program(const bench *b, pendres_operation o[12])
 typedef struct equation {
   size_t rows;
   pendres_model_terms model;
+  int drags;
 } equation;
 
 /* All that there are, model after model. */
@@ -126,10 +132,15 @@ typedef struct equation {
   {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_##CODE}, \
   {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_##CODE},
 #define OF_OWN(CODE, name) OF_ALL(CODE, name) {PENDRES_ROWS_DRIVES, PENDRES_MODEL_##CODE}, \
-  {PENDRES_ROWS_ALL, PENDRES_MODEL_##CODE},
+  {PENDRES_ROWS_FORCE, PENDRES_MODEL_##CODE}, {PENDRES_ROWS_ALL, PENDRES_MODEL_##CODE},
+#define OF_DRAG(CODE) {PENDRES_ROWS_STATE, PENDRES_MODEL_##CODE, 1}, \
+  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_##CODE, 1}, \
+  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_##CODE, 1}, \
+  {PENDRES_ROWS_DRIVES, PENDRES_MODEL_##CODE, 1}, {PENDRES_ROWS_ALL, PENDRES_MODEL_##CODE, 1},
 static const equation equations[] = {OF_ALL(PLAIN, ) OF_ALL(PENDULUM, ) OF_OWN(POLYNOMIAL, )
                                      PENDRES_FORCE_LIST(OF_OWN)
-                                     {PENDRES_ROWS_DRIVES, PENDRES_MODEL_PENDULUM}};
+                                     {PENDRES_ROWS_DRIVES, PENDRES_MODEL_PENDULUM},
+                                     OF_DRAG(PENDULUM) OF_DRAG(POLYNOMIAL)};
 enum { EQUATIONS = sizeof equations / sizeof *equations };
 
 static inline pendres_strip strip_of(const bench *b, equation e, size_t lane, size_t lanes)
@@ -137,13 +148,15 @@ static inline pendres_strip strip_of(const bench *b, equation e, size_t lane, si
   pendres_strip s = {
     .lanes = lanes,
     .model = e.model,
+    .drags = e.drags,
     .at = e.rows * lane,
     .k = {b->stiffness + lane, b->drive + lane, b->friction + lane, b->inverse + lane,
-          b->torque + lane, b->modulation + lane, {NULL}},
+          b->torque + lane, b->modulation + lane, b->nonlinear + lane, b->quadratic + lane,
+          b->cubic + lane, {NULL}},
     .tangent = {.keep = b->tangent[4] + lane}};
   for (int i = 0; i < 2; i++) s.tangent.y[i] = b->tangent[i] + lane;
   for (int i = 0; i < 2; i++) s.tangent.w[i] = b->tangent[2 + i] + lane;
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) s.k.power[k] = b->power[k] + lane;
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) s.k.power[k] = b->power[k] + lane;
   return s;
 }
 

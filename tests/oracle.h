@@ -22,7 +22,8 @@ enum { ORACLE_SIZE = 6, ORACLE_PARTS = 32 };
    `polynomial` is set the sum of a[k - 1] y^k, or where `ring` is set sin y + a[0] y, or what
    `own`, a function of the test's, makes of y; its derivative is then left out. */
 typedef struct oracle {
-  long double gamma, drive, omega, torque, b, a[PENDRES_FORCE_COEFFICIENTS];
+  long double gamma, drive, omega, torque, b, a[PENDRES_FORCE_POWERS];
+  long double eta, cubic, quadratic; /* friction eta y^2 v + cubic v^3 + quadratic v |v| besides */
   int polynomial, ring;
   long double (*own)(const void *arg, long double y);
   const void *arg;
@@ -34,19 +35,22 @@ static inline oracle oracle_of(const pendres_pendulum *p)
 {
   oracle o = {.gamma = p->damping, .drive = p->drive_amplitude, .omega = p->drive_frequency,
               .torque = p->torque, .b = p->parametric_amplitude,
+              .eta = p->nonlinear_damping, .cubic = p->cubic_damping,
+              .quadratic = p->quadratic_damping,
               .polynomial = p->force == PENDRES_FORCE_POLYNOMIAL,
               .ring = p->force == PENDRES_FORCE_SQUID};
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) o.a[k] = p->force_coefficients[k];
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) o.a[k] = p->force_coefficients[k];
   return o;
 }
 
-/* The slopes at time t of y, v and the derivatives of both by the initial y (2, 3) and v (4, 5). */
-static inline void oracle_slope(const oracle *p, long double t, const long double *s,
-                                long double *d)
+/* The slopes at time t of y, v and the derivatives of both by the initial y (2, 3) and v (4, 5);
+   |v| is way v. */
+static inline void oracle_slope(const oracle *p, long double way, long double t,
+                                const long double *s, long double *d)
 {
   const long double drive = cosl(p->omega * t), y = s[0];
   long double f = 0.0L, by = 0.0L, power = 1.0L;
-  for (int k = 1; p->polynomial && k <= PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 1; p->polynomial && k <= PENDRES_FORCE_POWERS; k++) {
     by += k * p->a[k - 1] * power;
     power *= y;
     f += p->a[k - 1] * power;
@@ -55,40 +59,43 @@ static inline void oracle_slope(const oracle *p, long double t, const long doubl
   if (p->ring) f += p->a[0] * y, by += p->a[0];
   if (p->own != NULL) f = p->own(p->arg, y), by = 0.0L;
   const long double strength = 1.0L + p->b * drive;
+  const long double v = s[1], drag = way * p->quadratic * v;
+  const long double loss = p->gamma + p->eta * y * y + drag + p->cubic * v * v;
   for (int k = 0; k < ORACLE_SIZE; k += 2) {
     d[k] = s[k + 1];
-    d[k + 1] = -p->gamma * s[k + 1] - strength * by * s[k];
+    d[k + 1] = -(loss + drag + 2.0L * p->cubic * v * v) * s[k + 1] -
+               (strength * by + 2.0L * p->eta * y * v) * s[k];
   }
-  d[1] = p->torque + p->drive * drive - p->gamma * s[1] - strength * f;
+  d[1] = p->torque + p->drive * drive - loss * v - strength * f;
 }
 
-static inline void oracle_midpoint(const oracle *p, long double t, long double step, int n,
-                                   const long double *from, long double *to)
+static inline void oracle_midpoint(const oracle *p, long double way, long double t,
+                                   long double step, int n, const long double *from,
+                                   long double *to)
 {
   long double before[ORACLE_SIZE], here[ORACLE_SIZE], next[ORACLE_SIZE], d[ORACLE_SIZE];
   const long double h = step / n;
   memcpy(before, from, sizeof before);
-  oracle_slope(p, t, from, d);
+  oracle_slope(p, way, t, from, d);
   for (int i = 0; i < ORACLE_SIZE; i++) here[i] = from[i] + h * d[i];
   for (int k = 1; k < n; k++) {
-    oracle_slope(p, t + k * h, here, d);
+    oracle_slope(p, way, t + k * h, here, d);
     for (int i = 0; i < ORACLE_SIZE; i++) next[i] = before[i] + 2.0L * h * d[i];
     memcpy(before, here, sizeof before);
     memcpy(here, next, sizeof here);
   }
-  oracle_slope(p, t + step, here, d);
+  oracle_slope(p, way, t + step, here, d);
   for (int i = 0; i < ORACLE_SIZE; i++) to[i] = 0.5L * (before[i] + here[i] + h * d[i]);
 }
 
-/* One of the parts of a period, each as long as the others; s is replaced. */
-static inline void oracle_part(const oracle *p, int part, long double *s)
+/* A stretch of time with |v| = way v; s is replaced. */
+static inline void oracle_stretch(const oracle *p, long double way, long double t, long double step,
+                                  long double *s)
 {
   enum { COLUMNS = 8 };
-  const int parts = p->parts > 0 ? p->parts : ORACLE_PARTS;
-  const long double step = 2.0L * ORACLE_PI / p->omega / parts;
   long double table[COLUMNS][ORACLE_SIZE];
   for (int k = 0; k < COLUMNS; k++) {
-    oracle_midpoint(p, part * step, step, 2 * (k + 1), s, table[k]);
+    oracle_midpoint(p, way, t, step, 2 * (k + 1), s, table[k]);
     for (int m = k - 1; m >= 0; m--) {
       const long double ratio = (long double)(k + 1) / (m + 1);
       for (int i = 0; i < ORACLE_SIZE; i++)
@@ -96,6 +103,30 @@ static inline void oracle_part(const oracle *p, int part, long double *s)
     }
   }
   memcpy(s, table[0], sizeof table[0]);
+}
+
+/* One of the parts of a period, each as long as the others; s is replaced. Where v turns, in the
+   first part that it does, is found by Newton's method. */
+static inline void oracle_part(const oracle *p, int part, long double *s)
+{
+  enum { ROUNDS = 8 };
+  const int parts = p->parts > 0 ? p->parts : ORACLE_PARTS;
+  const long double step = 2.0L * ORACLE_PI / p->omega / parts, t = part * step;
+  long double end[ORACLE_SIZE], slope[ORACLE_SIZE], until = 0.5L * step;
+  oracle_slope(p, 1.0L, t, s, slope);
+  const long double way = s[1] < 0.0L || (s[1] == 0.0L && slope[1] < 0.0L) ? -1.0L : 1.0L;
+  memcpy(end, s, sizeof end);
+  oracle_stretch(p, way, t, step, end);
+  if (p->quadratic != 0.0L && way * end[1] < 0.0L) {
+    for (int k = 0; k < ROUNDS; k++) {
+      memcpy(end, s, sizeof end);
+      oracle_stretch(p, way, t, until, end);
+      oracle_slope(p, way, t + until, end, slope);
+      until -= end[1] / slope[1];
+    }
+    oracle_stretch(p, -way, t + until, step - until, end);
+  }
+  memcpy(s, end, sizeof end);
 }
 
 /* From time 0 on, over so many periods; s is replaced. */

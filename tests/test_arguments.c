@@ -327,7 +327,7 @@ static void ensembles(void **state)
   line.spacing = 0.0;
   for (int k = -1; k <= PENDRES_PARAMETER_COUNT; k++) {
     line.parameter = (pendres_parameter)k;
-    if (k < 0 || k >= PENDRES_A1)
+    if (k < 0 || (k >= PENDRES_A1 && k != PENDRES_QUADRATIC_DAMPING && k != PENDRES_CUBIC_DAMPING))
       REFUSED(pendres_phase_line(f->ctx, 1, &good, &line, &point, &all));
   }
   line.parameter = PENDRES_DRIVE_FREQUENCY;

@@ -13,7 +13,7 @@
 #include <pendres/pendres.h>
 #include <pendres/store.h>
 
-enum { MOST_NAMES = 24 };
+enum { MOST_NAMES = 40 };
 
 static const struct {
   const char *what;
@@ -50,7 +50,8 @@ static const struct {
    {"asymmetric", "periodic", "running", "chaotic", "unresolved", "escape", "unstable"}},
   {"parameter", PENDRES_NAMES_PARAMETER, PENDRES_PARAMETER_COUNT,
    {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2",
-    "a3", "a4", "a5", "drive_period", "temperature", "x", "v"}},
+    "a3", "a4", "a5", "nonlinear_damping", "quadratic_damping", "cubic_damping",
+    "drive_period", "temperature", "x", "v"}},
   {"peak", PENDRES_NAMES_PEAK, PENDRES_PEAK_COUNT,
    {"smooth", "edge", "ragged"}},
   {"regime", PENDRES_NAMES_REGIME, PENDRES_REGIME_COUNT,
@@ -59,12 +60,16 @@ static const struct {
    {"regular", "fold", "period_doubling", "symmetry_breaking", "branch_point"}},
   {"fit_observable", PENDRES_NAMES_FIT_OBSERVABLE, PENDRES_FIT_OBSERVABLE_COUNT,
    {"amplitude", "rms", "first_harmonic_amplitude", "phase_lag", "in_phase", "quadrature",
-    "loop_area", "displacement", "mean_velocity", "jump", "resonance"}},
+    "loop_area", "displacement", "mean_velocity", "jump", "resonance", "velocity_amplitude",
+    "acceleration_amplitude", "transmission_real", "transmission_imaginary", "notch_real",
+    "notch_imaginary", "reflection_real", "reflection_imaginary"}},
   {"fit_quantity", PENDRES_NAMES_FIT_QUANTITY, PENDRES_FIT_QUANTITY_COUNT,
    {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2",
-    "a3", "a4", "a5", "frequency_scale", "drive_scale", "amplitude_scale", "offset",
+    "a3", "a4", "a5", "nonlinear_damping", "quadratic_damping", "cubic_damping", "frequency_scale",
+    "drive_scale", "amplitude_scale", "offset",
     "phase_offset", "background_in_phase", "background_quadrature", "start_displacement",
-    "start_velocity", "torque_scale"}},
+    "start_velocity", "torque_scale", "internal_q", "coupling_q", "coupling_phase", "delay",
+    "background_amplitude", "background_phase"}},
   {"step_end", PENDRES_NAMES_STEP_END, PENDRES_STEP_END_COUNT, {"left", "seen", "range"}},
   {"store_type", PENDRES_NAMES_STORE_TYPE, PENDRES_STORE_TYPE_COUNT,
    {"double", "int8", "int32", "int64", "string"}},

@@ -36,6 +36,8 @@ static long double *field_of(oracle *o, pendres_parameter parameter)
   case PENDRES_DRIVE_AMPLITUDE: return &o->drive;
   case PENDRES_TORQUE: return &o->torque;
   case PENDRES_PARAMETRIC_AMPLITUDE: return &o->b;
+  case PENDRES_NONLINEAR_DAMPING: return &o->eta;
+  case PENDRES_CUBIC_DAMPING: return &o->cubic;
   default: return &o->a[parameter - PENDRES_A1];
   }
 }

@@ -45,7 +45,7 @@ static void forces_are_consistent(void **state)
       check_near((pendres_pendulum_acceleration(&p, x + h, 0.0, 0.0) -
                   pendres_pendulum_acceleration(&p, x - h, 0.0, 0.0)) / (2.0 * h), by_x, 1e-8);
     }
-    p.force_coefficients[PENDRES_FORCE_COEFFICIENTS - 1] = NAN;
+    p.force_coefficients[PENDRES_FORCE_POWERS - 1] = NAN;
     assert_int_equal(pendres_pendulum_check(&p, NULL), PENDRES_INVALID_ARGUMENT);
   }
   pendres_pendulum p = ring;

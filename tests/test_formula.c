@@ -112,7 +112,7 @@ static void texts_are_formulas(void **state)
   } right[] = {{"x+a1*x^3", 0.875}, {"-x^2 + 2^-1", 0.25},   {"2^3^x/4*x", 0.415249635685489},
                {"x - - +x", 1.0},   {"x/a1/2", 1.0 / 12.0},  {"(1 + x)*.5e1 - 2.5D0", 5.0},
                {"sqrt(x*8)", 2.0},  {"sign(-x)*abs(x)", -0.5}, {"x**2**0", 0.5}};
-  const double a[PENDRES_FORCE_COEFFICIENTS] = {3.0};
+  const double a[PENDRES_FORCE_POWERS] = {3.0};
   (void)state;
   for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
     double out[FORMULA_OUTPUTS];
@@ -149,7 +149,7 @@ static void derivatives_are_right(void **state)
   for (size_t i = 0; i < sizeof some / sizeof some[0]; i++) {
     const pendres_formula *f = pendres_formula_of(defined(some[i]));
     for (double y = -0.9; y < 1.0; y += 0.31) {
-      double a[PENDRES_FORCE_COEFFICIENTS] = {0.7, 0.4, -0.3, 0.9, 0.2};
+      double a[PENDRES_FORCE_POWERS] = {0.7, 0.4, -0.3, 0.9, 0.2};
       double at[FORMULA_OUTPUTS], above[FORMULA_OUTPUTS], below[FORMULA_OUTPUTS];
       pendres_formula_at(f, FORMULA_CURVES, a, y, at);
       pendres_formula_at(f, FORMULA_SLOPES, a, y + h, above);
@@ -158,7 +158,7 @@ static void derivatives_are_right(void **state)
       check_near(at[1], (above[0] - below[0]) / (2.0 * h), 3e-9 * size);
       check_near(at[2], (above[1] - below[1]) / (2.0 * h), 3e-9 * size);
       pendres_formula_at(f, FORMULA_SENSITIVITIES, a, y, at);
-      for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+      for (int k = 0; k < PENDRES_FORCE_POWERS; k++) {
         a[k] += h;
         pendres_formula_at(f, FORMULA_FORCES, a, y, above);
         a[k] -= 2.0 * h;
@@ -182,12 +182,12 @@ static void strips_have_the_same_bytes(void **state)
                    ? pendres_kernels_formula_run_avx512 : pendres_kernels_formula_run_base,
 #endif
   };
-  static _Alignas(64) double y[FORMULA_LANES], a[PENDRES_FORCE_COEFFICIENTS][FORMULA_LANES];
+  static _Alignas(64) double y[FORMULA_LANES], a[PENDRES_FORCE_POWERS][FORMULA_LANES];
   static pendres_kernels_formula f;
-  const double *power[PENDRES_FORCE_COEFFICIENTS];
+  const double *power[PENDRES_FORCE_POWERS];
   (void)state;
   for (int i = 0; i < FORMULA_LANES; i++) y[i] = 0.0237 * (i - 40);
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) {
     for (int i = 0; i < FORMULA_LANES; i++) a[k][i] = 0.7 - 0.2 * k + 0.001 * i;
     power[k] = a[k];
   }
@@ -198,8 +198,8 @@ static void strips_have_the_same_bytes(void **state)
     for (size_t set = 0; set < sizeof sets / sizeof sets[0]; set++) {
       sets[set](f.program, FORMULA_LANES, f.at, f.slots);
       for (int lane = 0; lane < FORMULA_LANES; lane++) {
-        double own[PENDRES_FORCE_COEFFICIENTS], out[FORMULA_OUTPUTS];
-        for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) own[k] = a[k][lane];
+        double own[PENDRES_FORCE_POWERS], out[FORMULA_OUTPUTS];
+        for (int k = 0; k < PENDRES_FORCE_POWERS; k++) own[k] = a[k][lane];
         pendres_formula_at(formula, FORMULA_SENSITIVITIES, own, y[lane], out);
         for (int k = 0; k < FORMULA_OUTPUTS; k++)
           if (f.program->output[k] >= 0)

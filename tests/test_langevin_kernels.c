@@ -136,7 +136,7 @@ static void exercise(const pendres_kernels_langevin *k, double *out)
   const double *reach = rows + 7 * LANES, *decay = rows + 8 * LANES;
   r.torque = rows + 11 * LANES;
   r.parametric = rows + 12 * LANES;
-  for (size_t j = 0; j < PENDRES_FORCE_COEFFICIENTS; j++) r.coefficient[j] = rows + (13 + j)
+  for (size_t j = 0; j < PENDRES_FORCE_POWERS; j++) r.coefficient[j] = rows + (13 + j)
     * LANES;
   for (int f = 0; f < PENDRES_LANGEVIN_FORCES; f++) {
     k->kick[f](LANES, &r, reach, decay, 0.3, -0.9, out);

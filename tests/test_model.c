@@ -142,8 +142,8 @@ static void blocks(void **state)
     run(ctx, PENDRES_FLOW_VARIATIONAL, p, LANES, with_rows);
     assert_memory_equal(beside, with_rows, sizeof beside);
     static const pendres_flow_kind kinds[] = {PENDRES_FLOW_SENSITIVITY, PENDRES_FLOW_DRIVES,
-                                              PENDRES_FLOW_ALL};
-    for (size_t k = 0; k < COUNT(kinds) - (model == 0); k++) {
+                                              PENDRES_FLOW_FORCE, PENDRES_FLOW_ALL};
+    for (size_t k = 0; k < COUNT(kinds) - 2 * (model == 0); k++) {
       run(ctx, kinds[k], p, LANES, with_rows);
       assert_memory_equal(beside, with_rows, sizeof beside);
     }

@@ -57,7 +57,7 @@ static pendres_nystrom_lanes lanes_of(const numbers *n, pendres_model_terms mode
     .off = {p[2], p[3], p[4], p[5], p[6], p[7]},
     .k = {.stiffness = p[8], .drive = p[9], .friction = p[10], .torque = p[11],
           .modulation = p[12]}};
-  for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) l.k.power[c] = p[13 + c];
+  for (int c = 0; c < PENDRES_FORCE_POWERS; c++) l.k.power[c] = p[13 + c];
   if (tangents) {
     l.off = (pendres_carried){0};
     l.tangent_y = p[2];
@@ -117,7 +117,7 @@ static pendres_pendulum drawn(int i)
   if (i % 4 == 2) p.force = PENDRES_FORCE_POLYNOMIAL;
   if (i % 4 == 3) p.force = PENDRES_FORCE_SQUID;
   if (i % 4 >= 2) p.force_coefficients[0] = between(0.2, 1.0);
-  for (int c = 1; c < PENDRES_FORCE_COEFFICIENTS && i % 4 == 2; c++)
+  for (int c = 1; c < PENDRES_FORCE_POWERS && i % 4 == 2; c++)
     p.force_coefficients[c] = c % 2 == 0 ? between(0.0, 0.5) : between(-0.1, 0.1);
   return p;
 }

@@ -103,8 +103,8 @@ static void test_sine_of_nothing(void **state)
 
 /* A lane's equation in long double, from the physical parameters. */
 typedef struct physics {
-  long double omega, damping, amplitude, torque, modulation, power[PENDRES_FORCE_COEFFICIENTS];
-  long double cosine;
+  long double omega, damping, amplitude, torque, modulation, power[PENDRES_FORCE_POWERS];
+  long double eta, quadratic, cubic, cosine;
   pendres_model_terms model;
 } physics;
 
@@ -114,7 +114,7 @@ static long double force_of(const physics *p, long double y, int derivative)
   long double f = derivative ? cosl(y) : sinl(y);
   if (p->model == PENDRES_MODEL_SQUID) f += p->power[0] * (derivative ? 1.0L : y);
   if (p->model == PENDRES_MODEL_POLYNOMIAL) f = 0.0L;
-  for (int k = 0; p->model == PENDRES_MODEL_POLYNOMIAL && k < PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 0; p->model == PENDRES_MODEL_POLYNOMIAL && k < PENDRES_FORCE_POWERS; k++)
     f += p->power[k] * (derivative ? (k + 1) * powl(y, k) : powl(y, k + 1));
   return f * (1.0L + p->modulation * p->cosine);
 }
@@ -122,7 +122,10 @@ static long double force_of(const physics *p, long double y, int derivative)
 static long double slope_of_w(const physics *p, long double y, long double w)
 {
   const long double push = p->amplitude * p->cosine + p->torque - force_of(p, y, 0);
-  return push / (p->omega * p->omega) - p->damping / p->omega * w;
+  const long double v = p->omega * w;
+  const long double friction = p->damping + p->eta * y * y + p->quadratic * fabsl(v) +
+                               p->cubic * v * v;
+  return push / (p->omega * p->omega) - friction / p->omega * w;
 }
 
 /* d(slope of w)/d(parameter number k) at fixed y and w, by central differences: off by h^2 times a
@@ -132,7 +135,7 @@ static long double by_parameter(physics p, int k, long double y, long double w)
   const long double h = 1e-6L;
   long double *const parameter[] = {&p.omega, &p.damping, &p.amplitude, &p.torque,
                                     &p.modulation, &p.power[0], &p.power[1], &p.power[2],
-                                    &p.power[3], &p.power[4]};
+                                    &p.power[3], &p.power[4], &p.eta, &p.quadratic, &p.cubic};
   const long double middle = *parameter[k];
   *parameter[k] = middle + h;
   const long double above = slope_of_w(&p, y, w);
@@ -141,28 +144,34 @@ static long double by_parameter(physics p, int k, long double y, long double w)
   return (above - below) / (2.0L * h);
 }
 
-static physics physics_of(const bench *b, pendres_model_terms model, size_t i, double cos_theta)
+static physics physics_of(const bench *b, equation e, size_t i, double cos_theta)
 {
   const long double omega = 1.0L / b->inverse[i], square = omega * omega;
   physics p = {.omega = omega, .damping = b->friction[i] * omega,
-               .amplitude = b->drive[i] * square, .cosine = cos_theta, .model = model};
-  if (model == PENDRES_MODEL_PLAIN) return p;
+               .amplitude = b->drive[i] * square, .cosine = cos_theta, .model = e.model};
+  if (e.model == PENDRES_MODEL_PLAIN) return p;
   p.torque = b->torque[i] * square;
   p.modulation = b->modulation[i];
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) p.power[k] = b->power[k][i];
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) p.power[k] = b->power[k][i];
+  if (!e.drags) return p;
+  p.eta = b->nonlinear[i] * omega;
+  p.quadratic = b->quadratic[i];
+  p.cubic = b->cubic[i] / omega;
   return p;
 }
 
 static void check_lane(const bench *b, equation e, size_t lanes, size_t i, double cos_theta)
 {
   const double *x = b->vector[0] + i, *got = b->vector[1] + i;
-  const physics p = physics_of(b, e.model, i, cos_theta);
+  const physics p = physics_of(b, e, i, cos_theta);
   const long double y = x[0], w = x[lanes], square = p.omega * p.omega;
-  const long double to_y = -force_of(&p, y, 1) / square, to_w = -p.damping / p.omega;
+  const long double to_y = -force_of(&p, y, 1) / square - 2.0L * p.eta * y * w / p.omega;
+  const long double to_w = -(p.damping + p.eta * y * y) / p.omega -
+    2.0L * p.quadratic * fabsl(w) - 3.0L * p.cubic * p.omega * w * w;
   /* At |y| <= 4 the force of the others is below 5, and its slope below 2. */
   const long double force = e.model >= PENDRES_MODEL_POLYNOMIAL ? 6.0L : 2.0L;
   const long double push = force * (1.0L + fabsl(p.modulation)) + p.amplitude + fabsl(p.torque);
-  const double size = (double)(push / square + 4.0L * p.damping);
+  const double size = (double)(push / square + 4.0L * p.damping + e.drags * 16.0L);
 
   assert_true(got[0] == x[lanes]);
   /* Coefficients rounded to doubles, and a handful of operations on them: 8 half units. */

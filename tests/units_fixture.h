@@ -53,7 +53,7 @@ static inline pendres_pendulum in_units(pendres_pendulum p, units u)
   p.drive_amplitude *= factor(u, 1, -2);
   p.torque *= factor(u, 1, -2);
   p.temperature *= factor(u, 2, -2);
-  for (int k = 1; k <= PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 1; k <= PENDRES_FORCE_POWERS; k++)
     p.force_coefficients[k - 1] *= factor(u, 1 - k, -2);
   return p;
 }

@@ -91,6 +91,15 @@ static deck_si si_of_own(const deck *d, pendres_kind kind, int told)
   case PENDRES_KIND_VARIANCE_X: return si(s.position * s.position, s.x, s.x);
   case PENDRES_KIND_COVARIANCE: return si(s.position * s.velocity, s.x, s.v);
   case PENDRES_KIND_VARIANCE_V: return si(s.velocity * s.velocity, s.v, s.v);
+  case PENDRES_KIND_NONLINEAR_DAMPING:
+    snprintf(square, sizeof square, "%s-2", s.x);
+    return si(s.rate / (s.position * s.position), "s-1", square);
+  case PENDRES_KIND_QUADRATIC_DAMPING:
+    snprintf(square, sizeof square, "%s-1", s.x);
+    return si(1.0 / s.position, square, "");
+  case PENDRES_KIND_CUBIC_DAMPING:
+    snprintf(square, sizeof square, "%s-2", s.x);
+    return si(1.0 / (s.position * s.position * s.rate), "s", square);
   case PENDRES_KIND_SPECTRUM:
     snprintf(square, sizeof square, "%s Hz-1", s.v);
     return si(s.velocity * s.velocity / d->units.natural_frequency, s.v, square);
@@ -98,12 +107,28 @@ static deck_si si_of_own(const deck *d, pendres_kind kind, int told)
   }
 }
 
-/* A damping by the force that it makes at a velocity: kg/s, N m s, and of a junction 1/ohm. */
-static deck_si si_of_drag(const deck *d)
+/* A damping by the force that it makes at a velocity: kg/s, N m s, and of a junction 1/ohm; others
+   by that at powers of velocity and displacement: kg/m, kg/(m^2 s). */
+static deck_si si_of_drag(const deck *d, pendres_kind kind)
 {
   const scales s = scales_of(d, !isnan(d->units.critical_current));
-  const char *per = strcmp(s.v, "V") == 0 ? "V-1" : strcmp(s.x, "rad") == 0 ? "s rad-1" : "s m-1";
-  return si(s.force / s.velocity, s.f, per);
+  const int speeds = kind == PENDRES_KIND_QUADRATIC_DAMPING ? 2
+                     : kind == PENDRES_KIND_CUBIC_DAMPING   ? 3
+                                                            : 1;
+  const int lengths = kind == PENDRES_KIND_NONLINEAR_DAMPING ? 2 : 0;
+  char per[32];
+  double factor = s.force;
+  for (int i = 0; i < speeds; i++) factor /= s.velocity;
+  for (int i = 0; i < lengths; i++) factor /= s.position;
+  if (strcmp(s.v, "V") == 0) snprintf(per, sizeof per, "V-%d", speeds);
+  else snprintf(per, sizeof per, "s%d %s-%d", speeds, s.x, speeds + lengths);
+  return si(factor, s.f, per);
+}
+
+static int is_drag(pendres_kind kind)
+{
+  return kind == PENDRES_KIND_RATE || kind == PENDRES_KIND_NONLINEAR_DAMPING ||
+         kind == PENDRES_KIND_QUADRATIC_DAMPING || kind == PENDRES_KIND_CUBIC_DAMPING;
 }
 
 /* What a deck sweeps, also while it is read and its axes have no values yet. */
@@ -130,6 +155,8 @@ const char *deck_unit_example(const deck_key *key)
     [PENDRES_KIND_TIME] = "'5 us'", [PENDRES_KIND_FORCE] = "'3 pN'",
     [PENDRES_KIND_TEMPERATURE] = "'300 K'", [PENDRES_KIND_SWEPT] = "'3 Hz'",
     [PENDRES_KIND_A1] = "'3 N/m^3'", [PENDRES_KIND_A2] = "'3 N/m^3'",
+    [PENDRES_KIND_NONLINEAR_DAMPING] = "'3 kg/m^2/s'",
+    [PENDRES_KIND_QUADRATIC_DAMPING] = "'3 kg/m'", [PENDRES_KIND_CUBIC_DAMPING] = "'3 kg s/m^2'",
     [PENDRES_KIND_A3] = "'3 N/m^3'", [PENDRES_KIND_A4] = "'3 N/m^3'",
     [PENDRES_KIND_A5] = "'3 N/m^3'",
   };
@@ -329,7 +356,7 @@ int deck_quantity_read(deck_builder *b, const deck_key *key, const namelist_valu
     return read_quality(b, v, name, *out, out);
   if (!parse_unit(b, v, name, p.unit, &from)) return 0;
   const deck_si seen = si_of_kind(b->d, kind, 1);
-  const deck_si plain = kind == PENDRES_KIND_RATE ? si_of_drag(b->d) : si_of_kind(b->d, kind, 0);
+  const deck_si plain = is_drag(kind) ? si_of_drag(b->d, kind) : si_of_kind(b->d, kind, 0);
   const deck_si *in = &seen;
   const int of_clock = strstr(seen.units, "Hz") != NULL;
   if (seen.units[0] == '\0') return refuse_any(b, v, name);

@@ -130,7 +130,7 @@ static const char *const formats[] = { "any", "text", "labone", "nanonis", "anal
                                        NULL };
 static const char *const decimals[] = { "point", "comma", NULL };
 #define FOLLOWED "damping", "drive_amplitude", "torque", "parametric_amplitude", "a1", "a2", "a3", \
-                 "a4", "a5"
+                 "a4", "a5", "nonlinear_damping", "quadratic_damping", "cubic_damping"
 static const char *const swept[] = { "drive_frequency", FOLLOWED, "time", NULL };
 static const char *const quantities[] = {
   FOLLOWED,
@@ -187,8 +187,19 @@ const deck_key deck_table[] = {
   { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~ALONG),
     RATIO, UNLESS(PARAMETRIC_AMPLITUDE),
     IS(NUMBER, "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
+  { REAL("pendulum", "nonlinear_damping", pendulum.nonlinear_damping), IN(MODELS & ~ALONG),
+    NOT_NEGATIVE, UNLESS(NONLINEAR_DAMPING),
+    IS(NONLINEAR_DAMPING, "eta of the friction eta x^2 x', where x has no period") },
+  { REAL("pendulum", "quadratic_damping", pendulum.quadratic_damping), IN(MODELS & ~ALONG),
+    NOT_NEGATIVE, UNLESS(QUADRATIC_DAMPING),
+    IS(QUADRATIC_DAMPING, "c of the friction c x' |x'|, as of air or water") },
+  { REAL("pendulum", "cubic_damping", pendulum.cubic_damping), IN(MODELS & ~ALONG),
+    NOT_NEGATIVE, UNLESS(CUBIC_DAMPING), IS(CUBIC_DAMPING, "d of the friction d x'^3") },
   { VALUE("torque", TORQUE), IN(ALONG), RANGE(-BIG, BIG) },
   { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RATIO },
+  { VALUE("nonlinear_damping", NONLINEAR_DAMPING), IN(ALONG), NOT_NEGATIVE },
+  { VALUE("quadratic_damping", QUADRATIC_DAMPING), IN(ALONG), NOT_NEGATIVE },
+  { VALUE("cubic_damping", CUBIC_DAMPING), IN(ALONG), NOT_NEGATIVE },
   { CHOICE("pendulum", "force", force), IN(MODELS | FREE), .choices = forces,
     .text = "pendulum",
     SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, a "

@@ -51,7 +51,7 @@ static int terms_of(const deck *d)
 {
   int terms = has(d, DECK_AXIS_TORQUE, PENDRES_TORQUE) ? TORQUE : 0;
   if (has(d, DECK_AXIS_PARAMETRIC_AMPLITUDE, PENDRES_PARAMETRIC_AMPLITUDE)) terms |= PARAMETRIC;
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++)
     if (has(d, (deck_axis_id)(DECK_AXIS_A1 + k), (pendres_parameter)(PENDRES_A1 + k)))
       terms |= A(k + 1);
   if (deck_pendulum(d).force_coefficients[0] < 0.0) terms |= NEGATIVE;

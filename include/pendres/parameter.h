@@ -42,7 +42,7 @@ extern "C" {
        "friction coefficient")                                                                   \
   ITEM(DRIVE_FREQUENCY, 0, "drive_frequency", pendulum.drive_frequency, 0, 1, FREQUENCY,         \
        "angular frequency of the drive", "drive frequency")                                      \
-  ITEM(DRIVE_PERIOD, 10, "drive_period", pendulum.drive_frequency, 2.0 * PENDRES_PI, 1, TIME,    \
+  ITEM(DRIVE_PERIOD, 13, "drive_period", pendulum.drive_frequency, 2.0 * PENDRES_PI, 1, TIME,    \
        "period of the drive", "drive period")
 
 /** Those of other models, which are zero in a plain pendulum. */
@@ -59,14 +59,20 @@ extern "C" {
   ITEM(A4, 8, "a4", pendulum.force_coefficients[3], 0, 0, A4,                                    \
        "coefficient a4 of the force", "coefficient a4 of the force")                             \
   ITEM(A5, 9, "a5", pendulum.force_coefficients[4], 0, 0, A5,                                    \
-       "coefficient a5 of the force", "coefficient a5 of the force")
+       "coefficient a5 of the force", "coefficient a5 of the force")                             \
+  ITEM(NONLINEAR_DAMPING, 10, "nonlinear_damping", pendulum.nonlinear_damping, 0, 0,             \
+       NONLINEAR_DAMPING, "coefficient eta of the friction eta x^2 x'", "nonlinear damping")     \
+  ITEM(QUADRATIC_DAMPING, 11, "quadratic_damping", pendulum.quadratic_damping, 0, 0,             \
+       QUADRATIC_DAMPING, "coefficient c of the friction c x' |x'|", "quadratic damping")        \
+  ITEM(CUBIC_DAMPING, 12, "cubic_damping", pendulum.cubic_damping, 0, 0, CUBIC_DAMPING,          \
+       "coefficient d of the friction d x'^3", "cubic damping")
 
 /** Noise, and the state at drive phase 0 that a pendulum starts from. */
 #define PENDRES_PARAMETERS_REST(ITEM)                                                            \
-  ITEM(TEMPERATURE, 11, "temperature", pendulum.temperature, 0, 0, TEMPERATURE,                  \
+  ITEM(TEMPERATURE, 14, "temperature", pendulum.temperature, 0, 0, TEMPERATURE,                  \
        "temperature k T / (m g l)", "temperature")                                               \
-  ITEM(X, 12, "x", state.x, 0, 0, POSITION, "initial position", "initial position")              \
-  ITEM(V, 13, "v", state.v, 0, 0, VELOCITY, "initial velocity", "initial velocity")
+  ITEM(X, 15, "x", state.x, 0, 0, POSITION, "initial position", "initial position")              \
+  ITEM(V, 16, "v", state.v, 0, 0, VELOCITY, "initial velocity", "initial velocity")
 
 /** All of them. */
 #define PENDRES_PARAMETER_LIST(ITEM) \
@@ -76,9 +82,11 @@ extern "C" {
  * A parameter. Orbits are followed in PENDRES_DRIVE_FREQUENCY: omega; PENDRES_DAMPING: gamma;
  * PENDRES_DRIVE_AMPLITUDE: F0; PENDRES_TORQUE: I; PENDRES_PARAMETRIC_AMPLITUDE: b; and, of a force
  * that has coefficients (a pendulum's has none), PENDRES_A1: a1, PENDRES_A2: a2, PENDRES_A3: a3,
- * PENDRES_A4: a4, PENDRES_A5: a5. These are the first PENDRES_PARAMETER_FOLLOWED. Further
- * PENDRES_DRIVE_PERIOD: 2 pi / omega; PENDRES_TEMPERATURE: T; and of the start PENDRES_X: position,
- * PENDRES_V: velocity. PENDRES_PARAMETER_COUNT: how many there are.
+ * PENDRES_A4: a4, PENDRES_A5: a5; PENDRES_NONLINEAR_DAMPING: eta, where x has no period;
+ * PENDRES_QUADRATIC_DAMPING: c; PENDRES_CUBIC_DAMPING: d. These are the first
+ * PENDRES_PARAMETER_FOLLOWED. Further PENDRES_DRIVE_PERIOD: 2 pi / omega; PENDRES_TEMPERATURE: T;
+ * and of the start PENDRES_X: position, PENDRES_V: velocity.
+ * PENDRES_PARAMETER_COUNT: how many there are.
  */
 typedef enum pendres_parameter {
 #define PENDRES_PARAMETER_CODE(code, number, name, field, over, positive, kind, words, brief) \
@@ -93,7 +101,7 @@ typedef enum pendres_parameter {
 
 /** How many of them have derivatives. */
 enum {
-  PENDRES_PARAMETER_FOLLOWED = 10 /**< the numbers below have derivatives */
+  PENDRES_PARAMETER_FOLLOWED = 13 /**< the numbers below have derivatives */
 };
 
 /** What there is to say of a parameter. Constant data, owned by the library. */

@@ -11,9 +11,10 @@
  *     x'' + damping x' - cos x = drive_amplitude cos(drive_frequency t)
  *                                + sqrt(2 damping temperature) xi(t)
  *
- * and, with a constant torque, a parametric drive, and any force f,
+ * and, with other friction, a constant torque, a parametric drive, and any force f,
  *
- *     x'' + damping x' + f(x) (1 + parametric_amplitude cos(drive_frequency t))
+ *     x'' + damping x' + nonlinear_damping x^2 x' + quadratic_damping x' |x'| + cubic_damping x'^3
+ *       + f(x) (1 + parametric_amplitude cos(drive_frequency t))
  *       = torque + drive_amplitude cos(drive_frequency t)
  *
  * where f is -cos x, a polynomial a1 x + a2 x^2 + ... + a5 x^5, or one of PENDRES_FORCE_LIST.
@@ -63,7 +64,10 @@ typedef enum pendres_force {
 /** Half a turn in radians; C has no name of its own for it. */
 #define PENDRES_PI 3.14159265358979323846
 
-enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< most coefficients that a force may have */ };
+enum {
+  PENDRES_FORCE_COEFFICIENTS = 8, /**< most coefficients that a force may have */
+  PENDRES_FORCE_POWERS = 5        /**< those that forces of this version use: a1 to a5 */
+};
 
 /**
  * Where a force drives a pendulum to infinity: a distance z0 from y = 0, to the right (side = 1) or
@@ -85,7 +89,7 @@ typedef struct pendres_model {
   double period;     /**< period of the coordinate x, 2 pi for the pendulum; 0: x has none */
   double origin;     /**< the origin of y = x - origin: pi/2 for the pendulum, 0 for a polynomial */
   int angle;         /**< 1: x is an angle, in rad; 0: a length in units of its own */
-  int coefficients;  /**< how many coefficients it has, a1, ..., 0 to PENDRES_FORCE_COEFFICIENTS */
+  int coefficients;  /**< how many coefficients it has, a1, ..., 0 to PENDRES_FORCE_POWERS */
   pendres_force_outward *outward; /**< gives the distance beyond which pendulums escape to infinity;
                                        NULL: none escape, or the distance is not known */
   pendres_force_centre *centre;   /**< gives the point about which it is odd; NULL: none */
@@ -106,6 +110,10 @@ typedef struct pendres_pendulum {
   int unused;             /**< 0; instead of padding, so that equal pendulums have equal bytes */
   double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< a1, a2, ...: as many as the force has;
                                                               the others are zero */
+  double nonlinear_damping; /**< eta >= 0: friction eta x^2 x'; not where x has a period */
+  double quadratic_damping; /**< c >= 0: friction c x' |x'|, the drag of a fast flow */
+  double cubic_damping;     /**< d >= 0: friction d x'^3 */
+  double spare[3];          /**< 0 */
 } pendres_pendulum;
 
 /** A state of a pendulum at drive phase 0. */

@@ -44,14 +44,17 @@ extern "C" {
   ITEM(A3, -2, -2, "1")                                                                    \
   ITEM(A4, -3, -2, "1")                                                                    \
   ITEM(A5, -4, -2, "1")                                                                    \
+  ITEM(NONLINEAR_DAMPING, -2, -1, "omega0")                                                \
+  ITEM(QUADRATIC_DAMPING, -1, 0, "1")                                                      \
+  ITEM(CUBIC_DAMPING, -2, 1, "1/omega0")                                                   \
   ITEM(SWEPT, 0, 0, "1")
 
 /**
  * Kinds of quantities. Those of one dimension differ in how a laboratory writes them: a frequency,
  * which is an angular one, in Hz; the phase of the drive, an angle also where the coordinate is
  * none; PENDRES_KIND_COVARIANCE, of x and v; PENDRES_KIND_SPECTRUM, of v by frequency;
- * PENDRES_KIND_A1 and so on, coefficients of a polynomial force. PENDRES_KIND_SWEPT: that of the
- * parameter that is varied.
+ * PENDRES_KIND_A1 and so on, coefficients of a polynomial force; those of friction.
+ * PENDRES_KIND_SWEPT: that of the parameter that is varied.
  */
 typedef enum pendres_kind {
 #define PENDRES_KIND_CODE(code, length, time, unit) PENDRES_KIND_##code,

@@ -110,23 +110,23 @@ class FitObservable(enum.IntEnum):
     REFLECTION_REAL = 17
     REFLECTION_IMAGINARY = 18
 class FitQuantity(enum.IntEnum):
-    PARAMETER_LAST = 9
-    FREQUENCY_SCALE = 10
-    DRIVE_SCALE = 11
-    AMPLITUDE_SCALE = 12
-    OFFSET = 13
-    PHASE_OFFSET = 14
-    BACKGROUND_IN_PHASE = 15
-    BACKGROUND_QUADRATURE = 16
-    START_DISPLACEMENT = 17
-    START_VELOCITY = 18
-    TORQUE_SCALE = 19
-    INTERNAL_Q = 20
-    COUPLING_Q = 21
-    COUPLING_PHASE = 22
-    DELAY = 23
-    BACKGROUND_AMPLITUDE = 24
-    BACKGROUND_PHASE = 25
+    PARAMETER_LAST = 12
+    FREQUENCY_SCALE = 13
+    DRIVE_SCALE = 14
+    AMPLITUDE_SCALE = 15
+    OFFSET = 16
+    PHASE_OFFSET = 17
+    BACKGROUND_IN_PHASE = 18
+    BACKGROUND_QUADRATURE = 19
+    START_DISPLACEMENT = 20
+    START_VELOCITY = 21
+    TORQUE_SCALE = 22
+    INTERNAL_Q = 23
+    COUPLING_Q = 24
+    COUPLING_PHASE = 25
+    DELAY = 26
+    BACKGROUND_AMPLITUDE = 27
+    BACKGROUND_PHASE = 28
 class Force(enum.IntEnum):
     PENDULUM = 0
     POLYNOMIAL = 1
@@ -167,7 +167,10 @@ class Kind(enum.IntEnum):
     A3 = 17
     A4 = 18
     A5 = 19
-    SWEPT = 20
+    NONLINEAR_DAMPING = 20
+    QUADRATIC_DAMPING = 21
+    CUBIC_DAMPING = 22
+    SWEPT = 23
 class Label(enum.IntEnum):
     SA = 0
     LA = 1
@@ -250,10 +253,13 @@ class Parameter(enum.IntEnum):
     A3 = 7
     A4 = 8
     A5 = 9
-    DRIVE_PERIOD = 10
-    TEMPERATURE = 11
-    X = 12
-    V = 13
+    NONLINEAR_DAMPING = 10
+    QUADRATIC_DAMPING = 11
+    CUBIC_DAMPING = 12
+    DRIVE_PERIOD = 13
+    TEMPERATURE = 14
+    X = 15
+    V = 16
 class Peak(enum.IntEnum):
     SMOOTH = 0
     EDGE = 1

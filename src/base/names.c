@@ -53,7 +53,8 @@ static const struct {
   /* The parameters that are followed, by their numbers, and scales. */
   [PENDRES_NAMES_FIT_QUANTITY] =
     {.name = {"drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude",
-              "a1", "a2", "a3", "a4", "a5", PENDRES_FIT_SCALE_LIST(SECOND_OF_THREE)}},
+              "a1", "a2", "a3", "a4", "a5", "nonlinear_damping", "quadratic_damping",
+              "cubic_damping", PENDRES_FIT_SCALE_LIST(SECOND_OF_THREE)}},
 };
 
 static int value_of(pendres_names list, int place)

@@ -51,7 +51,7 @@ static const double last_place_of_one = 2.2e-16;
 /* A result is computed a second time with so many times the steps, from which its error is told: a
    method of order 8 is then better by a factor of 15, and twice the steps would cost half as much
    again. */
-static const double finer_steps = 1.4;
+static const double finer_steps = 1.4, finer_steps_bent = 3.0; /* where |v| bends slopes */
 
 /* Of the difference between these two a quarter is claimed as the error of the better one, since
    errors may not fall that fast yet. */

@@ -21,7 +21,7 @@ enum {
   PENDRES_COEFFICIENTS_PLAIN(PLACE) PENDRES_COEFFICIENTS_OTHER(PLACE)
 #undef PLACE
   POWERS,
-  COEFFICIENTS = POWERS + PENDRES_FORCE_COEFFICIENTS
+  COEFFICIENTS = POWERS + PENDRES_FORCE_POWERS
 };
 
 /* Arrays of what is carried, an entry a lane: of errors, in the order of pendres_carried, or of

@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/block_internal.h"
+#include "model/equation.h"
 #include "model/formula/formula.h"
 
 int pendres_block_lanes_open(pendres_block *b)
@@ -20,7 +21,7 @@ int pendres_block_lanes_open(pendres_block *b)
   b->shape.coefficients = (pendres_coefficients){
     PENDRES_COEFFICIENTS_PLAIN(ARRAY) PENDRES_COEFFICIENTS_OTHER(ARRAY)};
 #undef ARRAY
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+  for (int i = 0; i < PENDRES_FORCE_POWERS; i++)
     b->shape.coefficients.power[i] = c[POWERS + i];
   b->rows = pendres_lanes_allocate(b->shape.rows * b->shape.capacity);
   return b->rows != NULL ? 0 : -1;
@@ -38,6 +39,7 @@ void pendres_block_clear(pendres_block *b)
   pendres_block_resize(b, 0);
   b->shape.model = PENDRES_MODEL_PLAIN;
   b->shape.coefficients.formula = NULL;
+  b->shape.drags = 0;
 }
 
 void pendres_block_resize(pendres_block *b, size_t lanes)
@@ -82,12 +84,13 @@ void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p
   PENDRES_COEFFICIENTS_PLAIN(LOAD)
   PENDRES_COEFFICIENTS_OTHER(LOAD)
 #undef LOAD
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+  for (int i = 0; i < PENDRES_FORCE_POWERS; i++)
     b->coefficient[POWERS + i][lane] = p->force_coefficients[i];
   const pendres_model_terms model = pendres_model_kind(p);
   if (model > b->shape.model) b->shape.model = model;
   if (model >= PENDRES_MODEL_FORMULA)
     b->shape.coefficients.formula = pendres_formula_of(p->force);
+  b->shape.drags |= pendres_equation_drags(p);
   for (size_t r = 0; r < b->shape.rows; r++) data[r * stride + lane] = 0.0;
   pendres_block_put_state(b, lane, y, w);
   if (b->shape.rows >= PENDRES_ROWS_VARIATIONAL) {
@@ -153,9 +156,20 @@ pendres_flow_error pendres_block_get_error(const pendres_block *b, size_t lane)
   return (pendres_flow_error){off[ERROR_YY][lane], off[ERROR_YW][lane], off[ERROR_WW][lane]};
 }
 
+/* Half of what friction takes of a lane's w. */
+static double half_drag(const pendres_block *b, size_t lane)
+{
+  double *const *c = b->coefficient;
+  const double y = b->rows[lane], speed = fabs(b->rows[b->shape.stride + lane]);
+  const double friction = c[PLACE_friction][lane];
+  if (!b->shape.drags) return 0.5 * friction;
+  return 0.5 * (friction + c[PLACE_nonlinear][lane] * y * y +
+                speed * (2.0 * c[PLACE_quadratic][lane] + 3.0 * speed * c[PLACE_cubic][lane]));
+}
+
 void pendres_block_put_tangent(pendres_block *b, size_t lane, int which, const double tangent[2])
 {
-  const double drag = 0.5 * b->coefficient[PLACE_friction][lane];
+  const double drag = half_drag(b, lane);
   b->off[TANGENT_Y + which][lane] = tangent[0];
   b->off[TANGENT_W + which][lane] = fma(drag, tangent[0], tangent[1]);
   b->off[TANGENT_KEEP][lane] = exp(-drag * two_pi / b->drive.steps);
@@ -163,7 +177,7 @@ void pendres_block_put_tangent(pendres_block *b, size_t lane, int which, const d
 
 void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, double tangent[2])
 {
-  const double drag = 0.5 * b->coefficient[PLACE_friction][lane];
+  const double drag = half_drag(b, lane);
   tangent[0] = b->off[TANGENT_Y + which][lane];
   tangent[1] = fma(-drag, tangent[0], b->off[TANGENT_W + which][lane]);
 }

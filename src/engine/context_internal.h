@@ -18,7 +18,8 @@ typedef enum pendres_flow_kind {
   PENDRES_FLOW_VARIATIONAL,
   PENDRES_FLOW_SENSITIVITY,
   PENDRES_FLOW_DRIVES, /* sensitivities to torque and parametric drive as well */
-  PENDRES_FLOW_ALL,    /* and to the coefficients of a polynomial force */
+  PENDRES_FLOW_FORCE,  /* and to the coefficients of a polynomial force */
+  PENDRES_FLOW_ALL,    /* and to other friction */
   PENDRES_FLOW_KINDS
 } pendres_flow_kind;
 

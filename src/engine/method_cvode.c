@@ -98,8 +98,9 @@ static int jacobian(sunrealtype theta, N_Vector state, N_Vector f, SUNMatrix j, 
   (void)f, (void)t1, (void)t2, (void)t3;
   SM_ELEMENT_D(j, 0, 0) = 0.0;
   SM_ELEMENT_D(j, 0, 1) = 1.0;
-  SM_ELEMENT_D(j, 1, 0) = -by_y / (omega * omega);
-  SM_ELEMENT_D(j, 1, 1) = -pendres_equation_drag(b->p, s[1] * omega) / omega;
+  const double v = s[1] * omega, by_place = pendres_equation_drag_by_place(b->p, s[0], v);
+  SM_ELEMENT_D(j, 1, 0) = -(by_y + by_place) / (omega * omega);
+  SM_ELEMENT_D(j, 1, 1) = -pendres_equation_drag(b->p, s[0], v) / omega;
   return 0;
 }
 

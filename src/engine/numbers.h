@@ -67,6 +67,9 @@ static const double step_longest = 1.5, step_stable = 4.0;
 /* Errors below this that do not fall to half are rounding: more steps would not help. */
 static const double probe_rounding = 1e-9;
 
+/* The order of any table where |v| bends the slope between two stages. */
+enum { ORDER_BENT = 3 };
+
 /* Errors below this fall as the order of the method says. Then the steps are those that follow from
    the order, less a twentieth; before, half as many more. Four times as many at most are tried. */
 static const double probe_regular = 1e-2, probe_less = 0.95, probe_more = 1.5, probe_most = 4.0;

@@ -33,9 +33,10 @@ int pendres_steps_rung_of_few(int n)
   return rung;
 }
 
-int pendres_steps_finer(int n)
+int pendres_steps_finer(const pendres_pendulum *p, int n)
 {
-  return pendres_steps_rung((int)ceil(finer_steps * n));
+  const double times = p->quadratic_damping != 0.0 ? finer_steps_bent : finer_steps;
+  return pendres_steps_rung((int)ceil(times * n));
 }
 
 /* Index of a logarithmic lattice of the given ratio; everything below `least` shares one cell. */
@@ -61,10 +62,15 @@ static double lattice_or_none_upper(int index)
   return index >= 0 ? lattice_upper(index, lattice_drive, lattice_ratio) : 0.0;
 }
 
-/* A cell of the lattice: indices of damping, frequency, drive, speed, tolerance, torque (-1: none),
-   and parametric drive (likewise); and the pendulum with all that is no index, as it is. */
+/* The terms that most pendulums do not have. */
+#define TERMS(p) {&(p)->torque, &(p)->parametric_amplitude, &(p)->nonlinear_damping, \
+                  &(p)->quadratic_damping, &(p)->cubic_damping}
+enum { TERM_COUNT = 5 };
+
+/* A cell of the lattice: indices of damping, frequency, drive, speed, tolerance and terms (-1:
+   none); and the pendulum with all that is no index, as it is. */
 typedef struct cell {
-  int damping, frequency, drive, speed, tolerance, torque, parametric;
+  int damping, frequency, drive, speed, tolerance, term[TERM_COUNT];
   pendres_pendulum rest;
 } cell;
 
@@ -75,11 +81,13 @@ static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
             .drive = lattice(fabs(p->drive_amplitude), lattice_drive, lattice_ratio),
             .speed = lattice(speed, lattice_speed, lattice_speed_ratio),
             .tolerance = lattice(tolerance, lattice_tolerance, lattice_ratio),
-            .torque = lattice_or_none(p->torque),
-            .parametric = lattice_or_none(p->parametric_amplitude),
             .rest = *p};
+  double *const term[TERM_COUNT] = TERMS(&c.rest);
   c.rest.damping = c.rest.drive_frequency = c.rest.drive_amplitude = c.rest.temperature = 0.0;
-  c.rest.torque = c.rest.parametric_amplitude = 0.0;
+  for (int i = 0; i < TERM_COUNT; i++) {
+    c.term[i] = lattice_or_none(*term[i]);
+    *term[i] = 0.0;
+  }
   return c;
 }
 
@@ -93,8 +101,8 @@ static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *
     p->drive_frequency =
       lattice_upper(c->frequency - 1, lattice_frequency, lattice_frequency_ratio);
   p->drive_amplitude = lattice_upper(c->drive, lattice_drive, lattice_ratio);
-  p->torque = lattice_or_none_upper(c->torque);
-  p->parametric_amplitude = lattice_or_none_upper(c->parametric);
+  double *const term[TERM_COUNT] = TERMS(p);
+  for (int i = 0; i < TERM_COUNT; i++) *term[i] = lattice_or_none_upper(c->term[i]);
   *speed = lattice_upper(c->speed, lattice_speed, lattice_speed_ratio);
   *tolerance = lattice_tolerance;
   if (c->tolerance > 0)
@@ -147,7 +155,7 @@ double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
 
 double pendres_steps_turning_speed(const pendres_pendulum *p)
 {
-  const double least = pendres_equation_drag(p, 0.0);
+  const double least = pendres_equation_least_drag(p);
   const double driven = fabs(p->drive_amplitude) / hypot(p->drive_frequency, least);
   return 2.0 + driven + pendres_equation_speed(p, p->torque);
 }
@@ -276,7 +284,7 @@ static double largest_error(const sight *coarse, const sight *fine)
 static double least_steps(const probed *of)
 {
   const double period = two_pi / of->pendulum.drive_frequency;
-  const double drag = pendres_equation_drag(&of->pendulum, of->speed);
+  const double drag = pendres_equation_most_drag(&of->pendulum, of->reach, of->speed);
   return fmax(period * drag / step_stable, period * of->pace / step_longest);
 }
 
@@ -284,7 +292,7 @@ static double least_steps(const probed *of)
 static int shaken(const pendres_pendulum *p)
 {
   const double push = fabs(p->drive_amplitude) + fabs(p->torque);
-  const double speed = push / fmax(p->drive_frequency, pendres_equation_drag(p, 0.0));
+  const double speed = push / fmax(p->drive_frequency, pendres_equation_least_drag(p));
   return speed / p->drive_frequency > 0.5 * PENDRES_MOST_STEPS;
 }
 
@@ -294,10 +302,11 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
   probed of;
   const pendres_pendulum *const p = &of.pendulum;
   double tolerance;
-  const int order = pendres_tables_order(ctx->options.table);
+  int order = pendres_tables_order(ctx->options.table);
 
   worst_of(c, &of.pendulum, &of.speed, &tolerance);
   if (p->drive_frequency == 0.0 || shaken(p)) return PENDRES_TOLERANCE_UNREACHABLE;
+  if (p->quadratic_damping != 0.0) order = ORDER_BENT;
   of.reach = open_ended(p) ? reach_of(p, of.speed) : probe_reach;
   of.pace = pace_of(p, of.speed, of.reach);
   /* Of what leads far out rounding is larger. */
@@ -332,7 +341,7 @@ static pendres_status too_many(pendres_context *ctx, const cell *c, const pendre
 {
   pendres_pendulum worst;
   double fastest, tolerance;
-  const double drag = pendres_equation_drag(p, speed);
+  const double drag = pendres_equation_most_drag(p, reach_of(p, speed), speed);
   worst_of(c, &worst, &fastest, &tolerance);
   const char *why = "the drive frequency at this tolerance";
   if (worst.drive_frequency > 0.0 && shaken(&worst)) why = "the drive amplitude";
@@ -375,8 +384,8 @@ void pendres_steps_memo_free(pendres_steps_memo *memo)
 static int same(const cell *a, const cell *b)
 {
   return a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
-         a->speed == b->speed && a->tolerance == b->tolerance && a->torque == b->torque &&
-         a->parametric == b->parametric && pendres_model_same(&a->rest, &b->rest);
+         a->speed == b->speed && a->tolerance == b->tolerance &&
+         memcmp(a->term, b->term, sizeof a->term) == 0 && pendres_model_same(&a->rest, &b->rest);
 }
 
 /* The steps of a cell, 0 if they are not known. */

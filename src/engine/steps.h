@@ -22,8 +22,9 @@ int pendres_steps_rung(int n);
 int pendres_steps_rung_of_few(int n);
 
 /* The steps of the finer of two computations: 1.4 times as many, with which the errors of a method
-   of order eight fall to a fifteenth, so that the difference of the two tells them. */
-int pendres_steps_finer(int n);
+   of order eight fall to a fifteenth, so that the difference of the two tells them. Where |v|
+   leaves third order they fall so with three times as many, and by less or more by chance. */
+int pendres_steps_finer(const pendres_pendulum *p, int n);
 
 /*
  * How fast a pendulum in a state is or may soon become, by which steps are chosen: |v|; with a

@@ -11,6 +11,7 @@
 #include "engine/numbers.h"
 #include "model/model.h"
 #include "engine/steps.h"
+#include "model/equation.h"
 
 #define PLACE(value, name) [value] = &pendres_method_##name,
 static const pendres_method_functions *const methods[PENDRES_METHOD_COUNT] = {
@@ -27,7 +28,8 @@ pendres_flow_way pendres_strobe_way(const pendres_context *ctx, const pendres_pe
   const pendres_options *o = &ctx->options;
   const int asked = o->method != PENDRES_BLOCK_FIXED || o->steps_per_period > 0 ||
                     pendres_tables_get(o->table) != pendres_tables_get(PENDRES_TABLE_DEFAULT);
-  return asked || p->drive_amplitude == 0.0 ? PENDRES_FLOW_TABLE : PENDRES_FLOW_NYSTROM;
+  return asked || p->drive_amplitude == 0.0 || pendres_equation_drags(p) ? PENDRES_FLOW_TABLE
+                                                                         : PENDRES_FLOW_NYSTROM;
 }
 
 pendres_status pendres_strobe_choose(pendres_context *ctx, double speed, double tolerance,
@@ -45,8 +47,10 @@ double pendres_strobe_single_fastest(const pendres_pendulum *p)
 pendres_status pendres_strobe_choose_average(pendres_context *ctx, double speed, double tolerance,
                                              pendres_strobe_lane *lane)
 {
-  const double rough = fmax(tolerance, average_rough);
+  const int table = pendres_equation_drags(lane->pendulum);
+  const double rough = table ? tolerance : fmax(tolerance, average_rough);
   const pendres_status status = pendres_strobe_choose(ctx, speed, rough, lane);
+  if (table) return status;
   const double steps = average_steps * pow(rough / tolerance, 1.0 / PENDRES_NYSTROM_ORDER);
   if (status != PENDRES_OK) return status;
   /* Every model has tangents by a Nystrom method, without a drive, too. */

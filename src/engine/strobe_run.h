@@ -40,7 +40,8 @@ pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance,
 pendres_status pendres_strobe_choose(pendres_context *ctx, double speed, double tolerance,
                                      pendres_strobe_lane *lane);
 /* That way: a Nystrom method (kernels_nystrom.h), unless the caller has asked for a method, a table
-   or steps. Without a drive, what is at rest stays there by tables alone. */
+   or steps, or there is friction other than damping x'. Without a drive, what is at rest stays
+   there by tables alone. */
 pendres_flow_way pendres_strobe_way(const pendres_context *ctx, const pendres_pendulum *p);
 
 /* The speed up to which single precision is exact enough. */

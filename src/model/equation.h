@@ -1,11 +1,12 @@
 /*
  * equation.h -- what follows from the equation of motion, whatever its friction h is:
  *
- *     x'' + h(x') + f(x) (1 + b cos omega t) = I + F0 cos omega t.
+ *     x'' + h(x, x') + f(x) (1 + b cos omega t) = I + F0 cos omega t.
  *
- * Owns: the friction, and what is concluded from it. That h = damping x' stands here, in kernels'
- * loops, and where docs/architecture.md says so. What asks for a bound gets one; what asks for a
- * time or a width gets a guess, by which work is planned and nothing is told.
+ * Owns: the friction, h = damping x' + nonlinear_damping x^2 x' + quadratic_damping x' |x'| +
+ * cubic_damping x'^3, and what is concluded from it. It stands here, in kernels' loops, and where
+ * docs/architecture.md says so. What asks for a bound gets one; what asks for a time or a width
+ * gets a guess, by which work is planned and nothing is told.
  */
 #ifndef PENDRES_EQUATION_H
 #define PENDRES_EQUATION_H
@@ -14,22 +15,39 @@
 
 #include <pendres/pendulum.h>
 
-/* h(v)/v, and dh/dv, the rate at which the flow contracts areas there: minus its divergence. Both
-   are least at rest, and grow with |v| if at all. */
-static inline double pendres_equation_friction(const pendres_pendulum *p, double v)
+/* Whether there is friction other than damping x'. */
+static inline int pendres_equation_drags(const pendres_pendulum *p)
 {
-  (void)v;
-  return p->damping;
+  return p->nonlinear_damping != 0.0 || p->quadratic_damping != 0.0 || p->cubic_damping != 0.0;
 }
 
-static inline double pendres_equation_drag(const pendres_pendulum *p, double v)
+/* h/v and dh/dv at y = x - origin and v; the latter is the rate at which the flow contracts areas
+   there, minus its divergence. */
+static inline double pendres_equation_friction(const pendres_pendulum *p, double y, double v)
 {
-  (void)v;
-  return p->damping;
+  const double speed = fabs(v);
+  if (!pendres_equation_drags(p)) return p->damping;
+  return p->damping + p->nonlinear_damping * y * y +
+         speed * (p->quadratic_damping + speed * p->cubic_damping);
 }
+
+static inline double pendres_equation_drag(const pendres_pendulum *p, double y, double v)
+{
+  const double speed = fabs(v);
+  if (!pendres_equation_drags(p)) return p->damping;
+  return p->damping + p->nonlinear_damping * y * y +
+         speed * (2.0 * p->quadratic_damping + 3.0 * speed * p->cubic_damping);
+}
+
+/* dh/dx there. */
+double pendres_equation_drag_by_place(const pendres_pendulum *p, double y, double v);
+
+/* The least that both are anywhere, and the most dh/dv is up to a distance and a speed. */
+double pendres_equation_least_drag(const pendres_pendulum *p);
+double pendres_equation_most_drag(const pendres_pendulum *p, double reach, double speed);
 
 /* The rate at which the flow contracts areas, where it is the same at all states; NaN if it is
-   not. */
+   not: pendres_orbit_contraction() (orbits/orbit_measure.h) has what it is along an orbit. */
 double pendres_equation_contraction(const pendres_pendulum *p);
 
 /* What is left of an area, or of its root, by Liouville's formula: after a contraction, that rate
@@ -42,10 +60,14 @@ static inline double pendres_equation_left(double contraction, double computed)
 /* NULL, or why nothing settles: a static sentence. */
 const char *pendres_equation_undamped(const pendres_pendulum *p);
 
-/* The speed at which friction balances a push; infinite if none does, NaN if there is neither. */
+/* NULL, or why a computation that knows damping x' alone refuses the friction. */
+const char *pendres_equation_refuses_drag(const pendres_pendulum *p);
+
+/* A speed beyond which friction is more than a push; infinite if none is, NaN if there is neither.
+   */
 double pendres_equation_speed(const pendres_pendulum *p, double push);
 
-/* By what power of e motions lose their energy, and areas shrink, in a drive period, as
+/* By what power of e motions lose their energy, and areas shrink, in a drive period, at least: as
    pendres_pendulum_decay_rate() says. */
 double pendres_equation_shrinking(const pendres_pendulum *p);
 

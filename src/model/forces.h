@@ -7,7 +7,7 @@
  *   2. a line in PENDRES_FORCE_LIST of <pendres/pendulum.h>, and the header's include below.
  *
  * The header has, with a[k - 1] its coefficients a_k, of which there are at most
- * PENDRES_FORCE_COEFFICIENTS, and y = x - origin:
+ * PENDRES_FORCE_POWERS, and y = x - origin:
  *
  *   pendres_force_NAME_model      its name in decks, the period of y (2 pi or, where y and y + 2 pi
  *                                 are not the same, 0), origin, whether y is an angle (in rad),

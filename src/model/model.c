@@ -31,7 +31,7 @@ static const pendres_model pendulum = {.name = "pendulum",
  */
 static double polynomial_outward(const double *a, double side, double need)
 {
-  int n = PENDRES_FORCE_COEFFICIENTS;
+  int n = PENDRES_FORCE_POWERS;
   while (n > 0 && a[n - 1] == 0.0) n--;
   if (n == 0) return INFINITY;
   /* -side f(side z): odd powers change their sign once, even ones with the side. */
@@ -50,8 +50,8 @@ static double polynomial_outward(const double *a, double side, double need)
 static double polynomial_centre(const double *a, double torque, double near)
 {
   const double rounding = model_roundings * 0x1p-53;
-  double taylor[PENDRES_FORCE_COEFFICIENTS + 1] = {-torque};
-  int n = PENDRES_FORCE_COEFFICIENTS;
+  double taylor[PENDRES_FORCE_POWERS + 1] = {-torque};
+  int n = PENDRES_FORCE_POWERS;
   (void)near;
   for (int j = 1; j <= n; j++) taylor[j] = a[j - 1];
   while (n > 0 && taylor[n] == 0.0) n--;
@@ -69,7 +69,7 @@ static double polynomial_centre(const double *a, double torque, double near)
 }
 
 static const pendres_model polynomial = {.name = "polynomial",
-                                         .coefficients = PENDRES_FORCE_COEFFICIENTS,
+                                         .coefficients = PENDRES_FORCE_POWERS,
                                          .outward = polynomial_outward,
                                          .centre = polynomial_centre};
 
@@ -93,16 +93,24 @@ pendres_model_terms pendres_model_kind(const pendres_pendulum *p)
   if (p->force != PENDRES_FORCE_PENDULUM)
     return (pendres_model_terms)((int)p->force - (int)PENDRES_FORCE_POLYNOMIAL +
                                  (int)PENDRES_MODEL_POLYNOMIAL);
-  return p->torque != 0.0 || p->parametric_amplitude != 0.0 ? PENDRES_MODEL_PENDULUM
-                                                            : PENDRES_MODEL_PLAIN;
+  return p->torque != 0.0 || p->parametric_amplitude != 0.0 || pendres_equation_drags(p)
+           ? PENDRES_MODEL_PENDULUM : PENDRES_MODEL_PLAIN;
 }
 
 const char *pendres_model_check(const pendres_pendulum *p)
 {
+  const double friction[] = {p->nonlinear_damping, p->quadratic_damping, p->cubic_damping};
   if (!isfinite(p->torque)) return "the torque must be finite";
   if (!isfinite(p->parametric_amplitude)) return "the parametric amplitude must be finite";
   const pendres_model *model = pendres_model_of(p->force);
   if (model == NULL) return "the force is of no kind that there is";
+  for (size_t i = 0; i < sizeof friction / sizeof *friction; i++)
+    if (!(isfinite(friction[i]) && friction[i] >= 0.0))
+      return "nonlinear, quadratic and cubic damping must be finite and not negative";
+  for (size_t i = 0; i < sizeof p->spare / sizeof *p->spare; i++)
+    if (p->spare[i] != 0.0) return "the spare numbers of a pendulum are zero";
+  if (p->nonlinear_damping != 0.0 && model->period > 0.0)
+    return "nonlinear damping, eta x^2 x', needs a force whose x has no period";
   const int used = model->coefficients;
   int any = 0;
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) {
@@ -124,9 +132,12 @@ double pendres_model_centre(const pendres_pendulum *p, double near)
 {
   const pendres_formula *f = pendres_formula_of(p->force);
   if (p->parametric_amplitude != 0.0) return NAN;
-  if (f != NULL) return pendres_formula_centre(f, p->force_coefficients, p->torque);
-  if (models[p->force]->centre == NULL) return NAN;
-  return models[p->force]->centre(p->force_coefficients, p->torque, isfinite(near) ? near : 0.0);
+  if (f == NULL && models[p->force]->centre == NULL) return NAN;
+  const double c = f != NULL
+                     ? pendres_formula_centre(f, p->force_coefficients, p->torque)
+                     : models[p->force]->centre(p->force_coefficients, p->torque,
+                                                isfinite(near) ? near : 0.0);
+  return p->nonlinear_damping == 0.0 || c == 0.0 ? c : NAN;
 }
 
 int pendres_pendulum_symmetric(const pendres_pendulum *p)
@@ -155,8 +166,8 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
     return;
   }
   const double *a = p->force_coefficients;
-  double sum = a[PENDRES_FORCE_COEFFICIENTS - 1], by = 0.0;
-  for (int i = PENDRES_FORCE_COEFFICIENTS - 2; i >= 0; i--) {
+  double sum = a[PENDRES_FORCE_POWERS - 1], by = 0.0;
+  for (int i = PENDRES_FORCE_POWERS - 2; i >= 0; i--) {
     by = fma(by, y, sum);
     sum = fma(sum, y, a[i]);
   }
@@ -170,7 +181,7 @@ double pendres_model_bend(const pendres_pendulum *p, double y)
   double sum = 0.0, force, right, left;
   if (p->force == PENDRES_FORCE_PENDULUM) return -sin(y);
   if (p->force == PENDRES_FORCE_POLYNOMIAL) {
-    for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 1; i--) sum = fma(sum, y, i * (i + 1) * a[i]);
+    for (int i = PENDRES_FORCE_POWERS - 1; i >= 1; i--) sum = fma(sum, y, i * (i + 1) * a[i]);
     return sum;
   }
   pendres_model_force(p, y + h, &force, &right);
@@ -182,14 +193,14 @@ double pendres_model_bend(const pendres_pendulum *p, double y)
 static int powers(const pendres_pendulum *p)
 {
   int n = 0;
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) n += p->force_coefficients[i] != 0.0;
+  for (int i = 0; i < PENDRES_FORCE_POWERS; i++) n += p->force_coefficients[i] != 0.0;
   return n;
 }
 
 static double polynomial_potential(const double *a, double x)
 {
   double sum = 0.0;
-  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--) sum = fma(sum, x, a[i] / (i + 2));
+  for (int i = PENDRES_FORCE_POWERS - 1; i >= 0; i--) sum = fma(sum, x, a[i] / (i + 2));
   return sum;
 }
 
@@ -238,7 +249,7 @@ double pendres_model_climb(const pendres_pendulum *p, double reach)
 {
   double sum = 0.0, side[2] = {0.0, 0.0};
   if (p->force == PENDRES_FORCE_POLYNOMIAL) {
-    for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
+    for (int i = PENDRES_FORCE_POWERS - 1; i >= 0; i--)
       sum = fma(sum, fabs(reach), fabs(p->force_coefficients[i]) / (i + 2));
     return sum * reach * reach;
   }
@@ -258,7 +269,7 @@ double pendres_model_stiffest(const pendres_pendulum *p, double reach)
 {
   double most = 0.0;
   if (p->force == PENDRES_FORCE_POLYNOMIAL) {
-    for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
+    for (int i = PENDRES_FORCE_POWERS - 1; i >= 0; i--)
       most = fma(most, reach, (i + 1) * fabs(p->force_coefficients[i]));
     return most;
   }
@@ -274,8 +285,8 @@ double pendres_model_scale(const pendres_pendulum *p)
 {
   double scale = 0.0;
   if (p->force != PENDRES_FORCE_POLYNOMIAL) return 1.0;
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
-    for (int j = i + 1; j < PENDRES_FORCE_COEFFICIENTS; j++) {
+  for (int i = 0; i < PENDRES_FORCE_POWERS; i++)
+    for (int j = i + 1; j < PENDRES_FORCE_POWERS; j++) {
       const double low = fabs(p->force_coefficients[i]), high = fabs(p->force_coefficients[j]);
       if (low > 0.0 && high > 0.0) scale = fmax(scale, pow(low / high, 1.0 / (j - i)));
     }
@@ -383,7 +394,8 @@ int pendres_model_driven(const pendres_pendulum *p)
 
 int pendres_model_is_linear(const pendres_pendulum *p)
 {
-  return p->force == PENDRES_FORCE_POLYNOMIAL && p->force_coefficients[0] != 0.0 && powers(p) == 1;
+  return p->force == PENDRES_FORCE_POLYNOMIAL && p->force_coefficients[0] != 0.0 &&
+         powers(p) == 1 && !pendres_equation_drags(p);
 }
 
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)

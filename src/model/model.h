@@ -101,7 +101,7 @@ double pendres_model_edge(const pendres_pendulum *p);
 /* Whether the equation depends on the drive's phase; otherwise its frequency is but a clock. */
 int pendres_model_driven(const pendres_pendulum *p);
 
-/* Whether the force is linear, so that all motions under it have the same Floquet multipliers. */
+/* Whether force and friction are linear, so that all motions have the same Floquet multipliers. */
 int pendres_model_is_linear(const pendres_pendulum *p);
 
 /* Whether two pendulums have the same parameters, but for the temperature. */

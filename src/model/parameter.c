@@ -90,6 +90,8 @@ const char *pendres_parameter_refuses(pendres_parameter parameter, pendres_force
   if ((int)parameter >= PENDRES_PARAMETER_FOLLOWED)
     return "orbits cannot be followed in this parameter: there are no derivatives by it";
   const pendres_model *model = pendres_model_of(force);
+  if (parameter == PENDRES_NONLINEAR_DAMPING && model != NULL && model->period > 0.0)
+    return "nonlinear damping, eta x^2 x', needs a force whose x has no period";
   return model != NULL && r->info.coefficient > model->coefficients
            ? "this force has no such coefficient"
            : NULL;

@@ -35,10 +35,11 @@ double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double
   if (p == NULL || pendres_model_of(p->force) == NULL) return NAN;
   const double drive = cos(p->drive_frequency * t);
   if (pendres_model_kind(p) == PENDRES_MODEL_PLAIN)
-    return cos(x) - pendres_equation_friction(p, v) * v + p->drive_amplitude * drive;
+    return cos(x) - pendres_equation_friction(p, 0.0, v) * v + p->drive_amplitude * drive;
   double force, slope;
-  pendres_model_force(p, x - pendres_model_of(p->force)->origin, &force, &slope);
-  return p->torque + p->drive_amplitude * drive - pendres_equation_friction(p, v) * v -
+  const double y = x - pendres_model_of(p->force)->origin;
+  pendres_model_force(p, y, &force, &slope);
+  return p->torque + p->drive_amplitude * drive - pendres_equation_friction(p, y, v) * v -
          force * (1.0 + p->parametric_amplitude * drive);
 }
 
@@ -49,7 +50,7 @@ double pendres_model_slope(const pendres_pendulum *p, double y, double w, double
   pendres_model_force(p, y, &force, &slope);
   const double push =
     p->torque + p->drive_amplitude * cosine - force * (1.0 + p->parametric_amplitude * cosine);
-  return push / (omega * omega) - pendres_equation_friction(p, w * omega) / omega * w;
+  return push / (omega * omega) - pendres_equation_friction(p, y, w * omega) / omega * w;
 }
 
 void pendres_model_jacobian(const pendres_pendulum *p, double x, double v, double *dx, double *dv)
@@ -59,11 +60,12 @@ void pendres_model_jacobian(const pendres_pendulum *p, double x, double v, doubl
   } else if (dx != NULL && p != NULL && p->force != PENDRES_FORCE_PENDULUM) {
     double force;
     pendres_model_force(p, x - pendres_model_of(p->force)->origin, &force, dx);
-    *dx = -*dx;
+    *dx = -*dx - pendres_equation_drag_by_place(p, x - pendres_model_of(p->force)->origin, v);
   } else if (dx != NULL) {
     *dx = -sin(x);
   }
-  if (dv != NULL) *dv = p != NULL ? -pendres_equation_drag(p, v) : NAN;
+  if (dv != NULL)
+    *dv = p != NULL ? -pendres_equation_drag(p, x - pendres_model_origin(p), v) : NAN;
 }
 
 double pendres_pendulum_energy(const pendres_pendulum *p, double x, double v)

@@ -16,6 +16,7 @@
 #include <gsl/gsl_roots.h>
 
 #include "base/angles.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "model/numbers.h"
 #include "model/rotation_slope.h"
@@ -432,6 +433,7 @@ static const char *refuses(const pendres_pendulum *p)
   if (pendres_model_driven(p))
     return "under a drive a rotation has no period of its own: it is locked to the drive, an "
            "orbit, or quasi-periodic";
+  if (pendres_equation_drags(p)) return pendres_equation_refuses_drag(p);
   if (!sound_damping(p->damping)) return "the damping of a rotation must lie between 1e-9 and 100";
   return NULL;
 }

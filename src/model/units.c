@@ -100,7 +100,7 @@ pendres_units pendres_units_of(const pendres_pendulum *p)
   if (p == NULL || p->force != PENDRES_FORCE_POLYNOMIAL) return u;
   const double *a = p->force_coefficients;
   int lowest = 0, highest = 0, rate = 0;
-  for (int k = PENDRES_FORCE_COEFFICIENTS; k > 0; k--) {
+  for (int k = PENDRES_FORCE_POWERS; k > 0; k--) {
     if (!isfinite(a[k - 1])) return u;
     if (a[k - 1] == 0.0) continue;
     lowest = k;
@@ -108,7 +108,7 @@ pendres_units pendres_units_of(const pendres_pendulum *p)
   }
   if (highest == 0) return u;
   const int length = length_of(p, lowest_that_counts(p, lowest, highest), highest);
-  for (int k = 1, any = 0; k <= PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 1, any = 0; k <= PENDRES_FORCE_POWERS; k++) {
     if (a[k - 1] == 0.0) continue;
     const int e = size_of(p, k, length);
     if (!any || e > rate) rate = e;

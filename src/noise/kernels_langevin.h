@@ -35,7 +35,7 @@ typedef struct pendres_langevin_rows {
   const double *bend;   /* the coefficient c of the fourth-order correction 1 - c f'(y) */
   const double *torque; /* I; this and the next are not read where all pendulums are plain */
   const double *parametric;                              /* b */
-  const double *coefficient[PENDRES_FORCE_COEFFICIENTS]; /* of the force: a1, a2, ... */
+  const double *coefficient[PENDRES_FORCE_POWERS]; /* of the force: a1, a2, ... */
   const struct pendres_formula *formula;                 /* the force, if it is one */
 } pendres_langevin_rows;
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine/kernels/coordinates.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "noise/noise_common.h"
 
@@ -47,6 +48,7 @@ pendres_status pendres_langevin_accept(pendres_context *ctx, const pendres_pendu
                                 "the steps a period must be 2 to %d", PENDRES_MOST_STEPS);
   if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
     why = pendres_coordinates_refuses(p, x, v);
+    if (why == NULL) why = pendres_equation_refuses_drag(p);
     if (why == NULL) why = pendres_langevin_block_refuses(p, steps);
   }
   if (why == NULL) return PENDRES_OK;

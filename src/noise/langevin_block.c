@@ -42,7 +42,7 @@
 
 static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
 
-enum { ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };
+enum { ROWS = 32, COEFFICIENTS = PENDRES_FORCE_POWERS };
 
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
 {

@@ -145,7 +145,8 @@ static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, 
 {
   pendres_langevin_linear coarse;
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
-      pendres_coordinates_refuses(pendulum, x, v) != NULL || cycle < 1)
+      pendres_coordinates_refuses(pendulum, x, v) != NULL || cycle < 1 ||
+      pendres_equation_drags(pendulum))
     return PENDRES_INVALID_ARGUMENT;
   const pendres_status status = resolve(pendulum, x, v, cycle, &coarse, out);
   if (status != PENDRES_OK) return status;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mix.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 enum {
@@ -25,7 +26,7 @@ uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor)
   for (int i = 0; i < 4; i++) hash = mix_in(hash, numbers[i]);
   if (pendres_model_kind(p) != PENDRES_MODEL_PLAIN) {
     hash = mix_in(mix_in(hash, p->torque), p->parametric_amplitude);
-    for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+    for (int i = 0; i < PENDRES_FORCE_POWERS; i++)
       hash = mix_in(hash, p->force_coefficients[i]);
     if (p->force >= PENDRES_FORCE_FORMULA) hash = pendres_mix(hash ^ (uint64_t)p->force);
   }
@@ -58,6 +59,7 @@ const char *pendres_noise_refuses(const pendres_pendulum *p)
   static const char *const carried =
     "noise carries a pendulum of this force to infinity: its highest power must be odd, with a "
     "positive coefficient that the parametric drive does not turn over";
+  if (pendres_equation_drags(p)) return pendres_equation_refuses_drag(p);
   if (pendres_pendulum_leaves(p)) return carried;
   if (p->parametric_amplitude == 0.0) return NULL;
   const double spring = spring_of(p);

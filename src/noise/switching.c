@@ -11,6 +11,7 @@
 #include "engine/room.h"
 #include "engine/door.h"
 #include "settling/attractor_internal.h"
+#include "model/equation.h"
 #include "model/model.h"
 #include "noise/cores.h"
 #include "noise/noise_common.h"
@@ -150,7 +151,9 @@ static const char *refuse(const pendres_switching_request *q)
   if (rotates_elsewhere(q))
     return "under this torque a pendulum may also rotate, on no closed orbit: one that leaves for "
            "such a rotation would not be counted as having left";
-  return pendres_pendulum_leaves(&q->pendulum) ? NULL : pendres_noise_refuses(&q->pendulum);
+  const char *why = pendres_equation_refuses_drag(&q->pendulum);
+  if (why != NULL || pendres_pendulum_leaves(&q->pendulum)) return why;
+  return pendres_noise_refuses(&q->pendulum);
 }
 
 /* Take what n trajectories need. */

@@ -300,7 +300,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
     if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
     c[i].y = coarse[c[i].index].y;
     c[i].w = coarse[c[i].index].w;
-    c[i].steps = pendres_steps_finer(c[i].steps);
+    c[i].steps = pendres_steps_finer(&c[i].guess->pendulum, c[i].steps);
   }
   if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) status = move_to_finer_point(ctx, n, c, coarse);
   if (status == PENDRES_OK) status = measure_all(ctx, n, c, runs, 0);

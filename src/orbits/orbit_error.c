@@ -116,9 +116,12 @@ double pendres_orbit_apart_beside(const pendres_orbit_computed *coarse,
       const double off = fmax(0.0, fabs(fine->m[i][j] - coarse->m[i][j]) - fabs(moved));
       squares += off * off;
     }
+  const double size = fine->measures.amplitude, bends = coarse->measures.bends;
   const double way = norm_of(fine->m) / hypot(norm_of(by[0]), norm_of(by[1]));
-  return orbit_beside_share * fmin(fine->measures.amplitude, way) * sqrt(squares) *
-         pendres_newton_share(fine->m);
+  double reach = orbit_beside_share * fmin(size, way);
+  /* Where |v| bends, errors go up and down as that place passes from one step to the next. */
+  if (bends > 0.0) reach = fmin(reach, bends * size);
+  return reach * sqrt(squares) * pendres_newton_share(fine->m);
 }
 
 /* The derivative of the map at the finer computation's point. Returns its relative error by
@@ -164,9 +167,12 @@ static void set_spectrum(const pendres_orbit_twice *two, pendres_orbit *o)
   double m[2][2];
   const double left = matrix_at(two, m), omega = o->pendulum.drive_frequency;
   const double trace = m[0][0] + m[1][1], determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-  const double rate = pendres_equation_contraction(&o->pendulum);
-  const double modulus =
-    pendres_equation_left(rate * o->period * pi / omega, sqrt(fabs(determinant)));
+  const pendres_orbit_value *few = &two->coarse->measures.contraction;
+  const pendres_orbit_value *rate = &two->fine->measures.contraction;
+  const double half = o->period * pi / omega;
+  const double modulus = exp(-rate->value * o->period * pi / omega);
+  const double loose =
+    half * pendres_orbit_error(few->value, rate->value, rate->sensitivity, &two->along);
   double trace_error = trace_error_of(two, (const double (*)[2])m, left);
 
   o->monodromy[0][0] = m[0][0];
@@ -174,18 +180,20 @@ static void set_spectrum(const pendres_orbit_twice *two, pendres_orbit *o)
   o->monodromy[1][0] = m[1][0] * omega;
   o->monodromy[1][1] = m[1][1];
   pendres_orbit_set_multipliers(trace, modulus, o);
-  /* The determinant is known exactly (Liouville). What the computed one is off by tells the error
-     of the entries, and the trace is known no better. */
+  /* The determinant follows from the contraction (Liouville). What the computed one is off by tells
+     the error of the entries, and the trace is known no better. */
   const double off =
     0.5 * fabs(determinant - modulus * modulus) / (2.0 * size_of((const double (*)[2])m));
   if (off > trace_error) trace_error = off;
+  if (two->fine->measures.bends > 0.0) trace_error *= orbit_bent_trace;
   /* The trace's error moves a multiplier mu by trace' mu / (mu - other); where two meet they move
      with the square root. */
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
                            o->multiplier_im[0] - o->multiplier_im[1]);
   o->multiplier_error =
-    fmin(trace_error * size / fmax(gap, 1e-300), sqrt(trace_error) + trace_error);
+    fmin(trace_error * size / fmax(gap, 1e-300), sqrt(trace_error) + trace_error) +
+    modulus * fmin(2.0 * modulus * loose / fmax(gap, 1e-300) + loose, sqrt(loose) + loose);
 }
 
 /* What Newton's last step, a linear one, leaves of the orbit's start: terms of second order, and

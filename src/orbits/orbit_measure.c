@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
@@ -65,6 +66,30 @@ static void keep_harmonics(const pendres_orbit_series *s, int q, pendres_orbit_m
   out->harmonics_rest = rest;
 }
 
+/*
+ * The mean of dh/dv over samples of a closed orbit, which has no ends: equal weights are right to
+ * all orders but where |v| bends. There w = a (theta - c), with c at the share t of a step h, adds
+ * h^2 |a| (t^2 - t + 1/6) to the integral of |w| (Euler and Maclaurin).
+ */
+static pendres_orbit_value contraction_of(const pendres_pendulum *p, const pendres_orbit_samples *s)
+{
+  const double omega = p->drive_frequency, n = (double)s->n;
+  double sum = 0.0, squares = 0.0;
+  if (!pendres_equation_drags(p))
+    return (pendres_orbit_value){pendres_equation_contraction(p), 0.0, 0.0};
+  for (size_t k = 0; k < s->n; k++) {
+    const double w = s->w[k], next = s->w[k + 1 < s->n ? k + 1 : 0];
+    const double by_v = 2.0 * (p->quadratic_damping + 3.0 * p->cubic_damping * fabs(omega * w));
+    const double by_w = omega * by_v, by_y = 2.0 * p->nonlinear_damping * s->y[k];
+    sum += pendres_equation_drag(p, s->y[k], omega * w);
+    squares += by_w * by_w + by_y * by_y;
+    if ((w < 0.0) == (next < 0.0)) continue;
+    const double t = w / (w - next);
+    sum += 2.0 * p->quadratic_damping * omega * fabs(next - w) * (t * t - t + 1.0 / 6.0);
+  }
+  return (pendres_orbit_value){sum / n, sqrt(squares / n), 0.0};
+}
+
 pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                      double *work, pendres_orbit_measures *out)
 {
@@ -88,6 +113,8 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
   out->amplitude = fmax(0.0, 0.5 * (highest - lowest));
   out->unresolved = pendres_orbit_series_tail(&series);
   out->square_speed = square;
+  out->contraction = contraction_of(p, s);
+  out->bends = p->quadratic_damping != 0.0 ? two_pi * q / (double)s->n : 0.0;
   out->symmetry_defect = symmetry_defect(&series, s->period);
   return PENDRES_OK;
 }
@@ -148,7 +175,10 @@ void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *
   o->stable = hypot(o->multiplier_re[0], o->multiplier_im[0]) < 1.0;
 }
 
-double pendres_orbit_determinant(const pendres_orbit *o)
+double pendres_orbit_contraction(const pendres_orbit *o)
 {
-  return o->monodromy[0][0] * o->monodromy[1][1] - o->monodromy[0][1] * o->monodromy[1][0];
+  const double rate = pendres_equation_contraction(&o->pendulum);
+  const double *re = o->multiplier_re, im = o->multiplier_im[0];
+  if (!isnan(rate)) return rate;
+  return -log(re[0] * re[1] + im * im) * o->pendulum.drive_frequency / (two_pi * o->period);
 }

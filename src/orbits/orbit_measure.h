@@ -42,6 +42,8 @@ typedef struct pendres_orbit_measures {
   double harmonics_rest;  /* bounds what harmonics beyond those add to the angle */
   double unresolved;      /* what harmonics too high for the samples may add to the angle */
   double square_speed;    /* mean square of w */
+  pendres_orbit_value contraction; /* mean over time of the rate at which areas contract */
+  double bends;           /* |v| bends slopes: the spacing of samples; 0: slopes are smooth */
   double symmetry_defect; /* largest harmonic of the angle that mirror symmetry forbids */
   double spectrum[2 * PENDRES_ORBIT_SPECTRUM]; /* re, im of coefficients m >= 0 */
 } pendres_orbit_measures;
@@ -73,14 +75,16 @@ double pendres_orbit_measures_apart(const pendres_orbit_measures *a,
 double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitude);
 
 /*
- * Multipliers from the trace of the monodromy matrix and their geometric mean modulus, which is
- * known exactly by Liouville's formula where friction is linear; and whether both are inside the
- * unit circle.
+ * Multipliers from the trace of the monodromy matrix and their geometric mean modulus, which
+ * follows by Liouville's formula from the contraction along the orbit; and whether both are inside
+ * the unit circle.
  */
 void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *o);
 
-/* Of the monodromy matrix, from its entries: without digits where areas contract by many. */
-double pendres_orbit_determinant(const pendres_orbit *o);
+/* The rate at which the flow contracts areas along an orbit on average: exact where it is the same
+   at all states, otherwise from the product of the multipliers; infinite where that is too small
+   for a double. */
+double pendres_orbit_contraction(const pendres_orbit *o);
 
 /* Half the peak-to-peak of a Fourier series given by its harmonics 1, 2, ... */
 double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],

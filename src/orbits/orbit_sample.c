@@ -158,7 +158,7 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
       const curve older = coarse;
       coarse = fine;
       fine = older;
-      steps = pendres_steps_finer(steps);
+      steps = pendres_steps_finer(&orbit->pendulum, steps);
       status = trace(ctx, orbit, steps, &fine);
       if (status == PENDRES_OK) status = errors_of(ctx, orbit, &coarse, &fine, error);
       if (!(fmax(error[0], error[1]) > ctx->options.tolerance)) break;

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/angles.h"
+#include "model/equation.h"
 #include "model/model.h"
 
 static const double root_two = 1.41421356237309504880;
@@ -42,10 +43,26 @@ static pendres_orbit_value loop_area(const pendres_pendulum *p, const pendres_or
                                pi * fabs(p->drive_amplitude) * root_two, 0.0};
 }
 
+/* Of any friction, the mean of v h(v) over samples: three derivatives at |v| are steady. */
+static pendres_orbit_value dissipation_by(const pendres_pendulum *p, const pendres_orbit_samples *s)
+{
+  const double omega = p->drive_frequency, cycle = two_pi * omega, n = (double)s->n;
+  double sum = 0.0, squares = 0.0;
+  for (size_t k = 0; k < s->n; k++) {
+    const double y = s->y[k], w = s->w[k], v = omega * w;
+    const double friction = pendres_equation_friction(p, y, v);
+    const double by_w = (friction + pendres_equation_drag(p, y, v)) * w;
+    const double by_y = pendres_equation_drag_by_place(p, y, w) * w;
+    sum += friction * w * w;
+    squares += by_w * by_w + by_y * by_y;
+  }
+  return (pendres_orbit_value){cycle * sum / n, cycle * sqrt(squares / n), 0.0};
+}
+
 static pendres_orbit_value dissipation(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                        const pendres_orbit_measures *m)
 {
-  (void)s;
+  if (pendres_equation_drags(p)) return dissipation_by(p, s);
   return (pendres_orbit_value){
     p->damping * p->drive_frequency * two_pi * m->square_speed,
     2.0 * two_pi * p->damping * p->drive_frequency * sqrt(m->square_speed), 0.0};

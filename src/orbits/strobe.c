@@ -103,7 +103,7 @@ static double drift_of(const pendres_strobe_lane *l)
   pendres_model_force(p, l->y, &force, &slope);
   const double v = l->w * p->drive_frequency;
   const double pull = p->torque + p->drive_amplitude - (1.0 + p->parametric_amplitude) * force;
-  return late * fmax(fabs(v), fabs(pull - pendres_equation_friction(p, v) * v));
+  return late * fmax(fabs(v), fabs(pull - pendres_equation_friction(p, l->y, v) * v));
 }
 
 /*

@@ -271,10 +271,11 @@ static void add_piece(const pendres_pendulum *p, int samples, long piece, long p
   const long n = (long)samples * ANNULUS_STROBES;
   for (long k = 0; k < n; k++) {
     const pendres_mean_weights weights = pendres_mean_weights_at(piece * n + k, pieces * n);
+    const double y = record->x[k] - pendres_model_origin(p);
     const double v = record->v[k], w = two_pi * v / p->drive_frequency;
     pendres_mean_add(&s->work, &weights,
                      p->drive_amplitude * w * cos(two_pi * (double)(k % samples) / samples));
-    pendres_mean_add(&s->loss, &weights, pendres_equation_friction(p, v) * v * w);
+    pendres_mean_add(&s->loss, &weights, pendres_equation_friction(p, y, v) * v * w);
   }
 }
 

@@ -12,7 +12,7 @@
 #include "engine/context_internal.h"
 #include "engine/room.h"
 #include "engine/kernels/coordinates.h"
-#include "model/equation.h"
+#include "orbits/orbit_measure.h"
 #include "model/model.h"
 #include "settling/numbers.h"
 #include "orbits/orbit_pair.h"
@@ -48,8 +48,7 @@ static int known(const pendres_attractor_set *c, const pendres_orbit *o)
 static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
 {
   const double time = two_pi * o->period / o->pendulum.drive_frequency;
-  /* NaN where it is not known, which is no bound. */
-  const double least = -0.5 * pendres_equation_contraction(&o->pendulum);
+  const double least = -0.5 * pendres_orbit_contraction(o);
   const double off = fmax(DBL_MIN, o->multiplier_error);
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   a->lyapunov = fmax(least, log(size) / time);

@@ -83,7 +83,8 @@ static void add_sample(const watched_block *b, double spacing, double cosine,
   double *restrict low = b->low, *restrict high = b->high;
   for (size_t i = 0; i < b->n; i++) {
     work[i] += by_drive * w[i];
-    loss[i] += pendres_equation_friction(b->pendulum, omega * w[i]) * omega * spacing * w[i] * w[i];
+    loss[i] += pendres_equation_friction(b->pendulum, y[i], omega * w[i]) * omega * spacing * w[i] *
+               w[i];
     low[i] = y[i] < low[i] ? y[i] : low[i];
     high[i] = y[i] > high[i] ? y[i] : high[i];
   }

@@ -25,7 +25,7 @@ static double force(const pendres_pendulum *p, double x)
   double sum = 0.0;
   if (p->force == PENDRES_FORCE_PENDULUM) return sin(y);
   if (p->force == PENDRES_FORCE_SQUID) return sin(y) + p->force_coefficients[0] * y;
-  for (int k = PENDRES_FORCE_COEFFICIENTS; k-- > 0;) sum = (sum + p->force_coefficients[k]) * y;
+  for (int k = PENDRES_FORCE_POWERS; k-- > 0;) sum = (sum + p->force_coefficients[k]) * y;
   return sum;
 }
 

@@ -26,7 +26,7 @@ pendres_pendulum accuracy_in_units(const pendres_pendulum *p, accuracy_units u)
   out.drive_amplitude *= force;
   out.torque *= force;
   out.temperature *= length * length * rate * rate;
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) {
     out.force_coefficients[k] *= rate * rate;
     for (int j = 0; j < k; j++) out.force_coefficients[k] *= u.length;
   }

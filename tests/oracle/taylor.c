@@ -77,7 +77,7 @@ pendres_status reference_model_of(const pendres_pendulum *p, reference_model *ou
   case PENDRES_FORCE_POLYNOMIAL: break;
   default: return PENDRES_INVALID_ARGUMENT;
   }
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) {
     out->power[k] = p->force_coefficients[k];
     if (out->power[k] != 0.0L) out->powers = k + 1;
   }

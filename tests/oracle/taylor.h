@@ -26,7 +26,7 @@ typedef struct reference_model {
   long double damping, drive_amplitude, drive_frequency, torque, parametric_amplitude;
   int sine;       /* 1: the force has the term sin y */
   int powers;     /* how many powers of y it has, 0 to 5, ... */
-  long double power[PENDRES_FORCE_COEFFICIENTS]; /* ... and their coefficients a1, a2, ... */
+  long double power[PENDRES_FORCE_POWERS]; /* ... and their coefficients a1, a2, ... */
   int turns;      /* 1: y and y + 2 pi are the same */
 } reference_model;
 
@@ -72,7 +72,7 @@ typedef struct reference_run {
   long periods; /* run so far */
   long double theta;
   reference_series sy, sv, ssin, scos, sdrive, squad; /* squad: sine of the phase */
-  reference_series spower[PENDRES_FORCE_COEFFICIENTS + 1]; /* y^0, y^1, ... */
+  reference_series spower[PENDRES_FORCE_POWERS + 1]; /* y^0, y^1, ... */
   reference_series sbare, sbare_slope; /* f and df/dy, */
   reference_series sdriven;            /* f cos(theta), */
   reference_series sforce, sslope;     /* and f and df/dy times 1 + b cos(theta) */

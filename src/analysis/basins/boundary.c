@@ -278,8 +278,8 @@ static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddl
   pendres_status status = pendres_steps_choose(ctx, &saddle->pendulum, speed,
                                                pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
-    status = pendres_boundary_grow_seed(ctx, saddle, pendres_steps_finer(steps),
-                                        &seed);
+    status = pendres_boundary_grow_seed(
+      ctx, saddle, pendres_steps_finer(&saddle->pendulum, steps), &seed);
   if (status == PENDRES_OK) status = pendres_boundary_grow(ctx, &seed, o, &curve);
   if (status == PENDRES_OK) status = trace(ctx, saddle, o, steps, &curve, b);
   b->seen.complete = b->seen.complete && curve.complete;

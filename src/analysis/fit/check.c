@@ -6,6 +6,7 @@
 #include "base/angles.h"
 #include "base/sized.h"
 #include "model/model.h"
+#include "model/parameter.h"
 
 static int is_size(pendres_fit_observable o)
 {
@@ -192,9 +193,8 @@ static const char *refuses_unknown(const pendres_fit_call *c, const pendres_fit_
                  q == PENDRES_PARAMETRIC_AMPLITUDE || q == PENDRES_FIT_PHASE_OFFSET ||
                  q == PENDRES_FIT_BACKGROUND_IN_PHASE || q == PENDRES_FIT_BACKGROUND_QUADRATURE))
     return "an unknown is of a drive, and a free decay has none";
-  const int coefficient = q < PENDRES_PARAMETER_FOLLOWED
-                            ? pendres_parameter_of((pendres_parameter)q)->coefficient : 0;
-  if (coefficient > pendres_model_of(c->model->pendulum.force)->coefficients)
+  if (q < PENDRES_PARAMETER_FOLLOWED &&
+      pendres_parameter_refuses((pendres_parameter)q, c->model->pendulum.force) != NULL)
     return "an unknown is a coefficient that the force does not have";
   if (u->fixed && !isfinite(u->guess)) return "a fixed unknown has no finite value";
   if (isinf(u->guess) || !isfinite(u->low) || !isfinite(u->high) || u->low > u->high)

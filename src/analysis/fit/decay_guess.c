@@ -152,7 +152,7 @@ static void stay(const fit_model *m, fit_values v)
   const double y = v[PENDRES_FIT_START_DISPLACEMENT], w = v[PENDRES_FIT_START_VELOCITY];
   const double way = 2.0 * y / FIT_DECAY_WAY, origin = pendres_model_of(p.force)->origin;
   double work = 0.0, energy = INFINITY;
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++)
     p.force_coefficients[k] = v[PENDRES_A1 + k];
   for (int k = 1; k <= FIT_DECAY_WAY; k++) {
     const double pull = -way * pendres_pendulum_acceleration(&p, origin + way * k, 0.0, 0.0);

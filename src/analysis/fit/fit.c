@@ -48,6 +48,7 @@ static void set_parameters(const pendres_fit_call *c, fit_model *m)
   }
   m->flow = last <= (int)PENDRES_DRIVE_AMPLITUDE        ? PENDRES_FLOW_SENSITIVITY
             : last <= (int)PENDRES_PARAMETRIC_AMPLITUDE ? PENDRES_FLOW_DRIVES
+            : last <= (int)PENDRES_A5                   ? PENDRES_FLOW_FORCE
                                                         : PENDRES_FLOW_ALL;
 }
 

@@ -112,7 +112,8 @@ static int keeps_symmetry(const fit_model *m, const pendres_pendulum *p)
 {
   for (int k = 0; k < m->parameters; k++)
     if (m->parameter[k] == PENDRES_TORQUE || m->parameter[k] == PENDRES_PARAMETRIC_AMPLITUDE ||
-        m->parameter[k] == PENDRES_A2 || m->parameter[k] == PENDRES_A4)
+        m->parameter[k] == PENDRES_A2 || m->parameter[k] == PENDRES_A4 ||
+        (m->parameter[k] == PENDRES_NONLINEAR_DAMPING && pendres_model_centre(p, 0.0) != 0.0))
       return 0;
   return pendres_pendulum_symmetric(p);
 }

@@ -42,7 +42,7 @@ static double mean_stiffness(const fit_model *m, const fit_values v, double a)
   pendres_pendulum p = m->base;
   double sum = 0.0;
   a = fmax(a, 1e-6);
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) p.force_coefficients[k] = v[PENDRES_A1 + k];
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) p.force_coefficients[k] = v[PENDRES_A1 + k];
   for (int k = 0; k < POINTS; k++) {
     const double c = cos(two_pi * (k + 0.5) / POINTS);
     double force, slope;

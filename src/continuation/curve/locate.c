@@ -243,11 +243,12 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_system system, c
   pendres_equations at;
   pendres_solution *pair = &out->pair;
   const int steps = system.steps;
+  const pendres_pendulum of = pendres_map_pendulum(system.map.force, u);
 
   pair->map = system.map;
   pair->critical = 1;
   pair->coarse_steps = steps;
-  pair->fine_steps = pendres_steps_finer(steps);
+  pair->fine_steps = pendres_steps_finer(&of, steps);
   pair->fine_steps += pair->fine_steps % 2;
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status =

@@ -36,7 +36,9 @@ static void point_of(const pendres_pendulum *p, double y, double w, pendres_u u)
 static int breaks_symmetry(int place, double centre)
 {
   return place == PENDRES_U_TORQUE ||
-         (place >= PENDRES_U_POWERS && (centre != 0.0 || (place - PENDRES_U_POWERS) % 2 != 0));
+         (place == PENDRES_U_OMEGA + (int)PENDRES_NONLINEAR_DAMPING && centre != 0.0) ||
+         (place >= PENDRES_U_POWERS && place < PENDRES_U_POWERS + PENDRES_FORCE_POWERS &&
+          (centre != 0.0 || (place - PENDRES_U_POWERS) % 2 != 0));
 }
 
 static int is_among(int place, int unknowns, const int *unknown)
@@ -315,6 +317,7 @@ static int columns_of(pendres_flow_kind kind)
   return kind == PENDRES_FLOW_VARIATIONAL   ? PENDRES_U_OMEGA
          : kind == PENDRES_FLOW_SENSITIVITY ? PENDRES_U_TORQUE
          : kind == PENDRES_FLOW_DRIVES      ? PENDRES_U_POWERS
+         : kind == PENDRES_FLOW_FORCE       ? PENDRES_U_POWERS + PENDRES_FORCE_POWERS
                                             : PENDRES_U_COUNT;
 }
 
@@ -322,7 +325,8 @@ static int columns_of(pendres_flow_kind kind)
 static pendres_flow_kind kind_of(int unknowns, const int *unknown)
 {
   static const pendres_flow_kind kinds[] = {PENDRES_FLOW_VARIATIONAL, PENDRES_FLOW_SENSITIVITY,
-                                            PENDRES_FLOW_DRIVES, PENDRES_FLOW_ALL};
+                                            PENDRES_FLOW_DRIVES, PENDRES_FLOW_FORCE,
+                                            PENDRES_FLOW_ALL};
   int last = 0, k = 0;
   for (int i = 0; i < unknowns; i++) last = unknown[i] > last ? unknown[i] : last;
   while (columns_of(kinds[k]) <= last) k++;

@@ -23,9 +23,9 @@ void pendres_orbit_set_critical(pendres_special kind, int parameters,
                                 const pendres_parameter *parameter, const double *error,
                                 pendres_orbit *o)
 {
-  const double rate = pendres_equation_contraction(&o->pendulum);
+  const double rate = pendres_orbit_contraction(o);
   const double omega = o->pendulum.drive_frequency, time = two_pi * o->period / omega;
-  const double product = pendres_equation_left(rate * time, pendres_orbit_determinant(o));
+  const double product = exp(-rate * time);
   const double critical = kind == PENDRES_PERIOD_DOUBLING ? -1.0 : 1.0;
   double off = DBL_EPSILON * (1.0 + rate * time); /* of the product, relative */
   for (int k = 0; k < parameters; k++) {
@@ -35,8 +35,8 @@ void pendres_orbit_set_critical(pendres_special kind, int parameters,
   o->multiplier_re[0] = critical;
   o->multiplier_re[1] = critical * product;
   o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
-  /* Computed, the product is known no better than the multipliers were. */
-  if (!isnan(rate)) o->multiplier_error = product * off;
+  /* Along an orbit, the product is known no better than the multipliers were. */
+  if (!pendres_equation_drags(&o->pendulum)) o->multiplier_error = product * off;
   o->stable = 0;
 }
 

@@ -117,7 +117,8 @@ static pendres_status correct(pendres_context *ctx, pendres_curve *curve, polish
       c->tangent[at->held - 1] = 1.0;
     }
     if (fine) {
-      p->fine_steps = pendres_steps_finer(p->coarse_steps);
+      const pendres_pendulum of = pendres_map_pendulum(p->map.force, p->coarse);
+      p->fine_steps = pendres_steps_finer(&of, p->coarse_steps);
       p->fine_steps += p->fine_steps % 2;
     }
     c->steps = fine ? p->fine_steps : p->coarse_steps;

@@ -13,7 +13,7 @@ static const double two_pi_low = 2.4492935982947064e-16;
 
 const char *pendres_coordinates_refuses(const pendres_pendulum *p, double x, double v)
 {
-  const double w = p->drive_frequency, drag = pendres_equation_drag(p, 0.0);
+  const double w = p->drive_frequency, drag = pendres_equation_least_drag(p);
   const double slowest = fmax(w, drag);
   if (!(isfinite(x) && isfinite(v))) return "position and velocity must be finite";
   if (!(fabs(x) <= pendres_farthest))

@@ -11,10 +11,10 @@
 #include <string.h>
 
 #include "base/instructions.h"
+#include "engine/kernels/kernels_carry.h"
+#include "engine/kernels/kernels_drag.h"
 #include "engine/kernels/kernels_force.h"
 #include "engine/kernels/kernels_vector.h"
-
-#define FMA(a, b, c) __builtin_fma((a), (b), (c))
 
 typedef pendres_vector vec;
 enum { LANES = PENDRES_VECTOR_LANES, GROUP = PENDRES_VECTOR_GROUP };
@@ -246,11 +246,11 @@ PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, siz
     derive(&a, k.stiffness[i], PENDRES_ROW_BY_TORQUE, stride, i, s, d);
     derive(&a, -k.stiffness[i] * a.bare * cos_theta, PENDRES_ROW_BY_MODULATION, stride, i,
            s, d);
-    if (rows < PENDRES_ROWS_ALL) continue;
-    double by = strength * y, own[PENDRES_FORCE_COEFFICIENTS];
-    for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) own[p] = k.power[p][i];
+    if (rows < PENDRES_ROWS_FORCE) continue;
+    double by = model >= PENDRES_MODEL_POLYNOMIAL ? strength * y : 0.0, own[PENDRES_FORCE_POWERS];
+    for (int p = 0; p < PENDRES_FORCE_POWERS; p++) own[p] = k.power[p][i];
 #pragma GCC unroll 8
-    for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) {
+    for (int p = 0; p < PENDRES_FORCE_POWERS; p++) {
       if (model == PENDRES_MODEL_FORMULA)
         by = strength * k.value[FORMULA_OUT_BY + p][i];
       else if (model > PENDRES_MODEL_POLYNOMIAL)
@@ -258,76 +258,9 @@ PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, siz
       derive(&a, by, PENDRES_ROW_BY_POWERS + 2 * p, stride, i, s, d);
       by *= y;
     }
-  }
-}
-
-/*
- * Errors over the step from half a step before a state to half a step after it: half a step's
- * drift, the action of spring and drag at the state, and the other half.
- */
-PENDRES_VECTOR_INLINE void carry(pendres_model_terms model, const pendres_strip *s,
-                                 const pendres_operation *o)
-{
-  const double *restrict y = o->from + s->at, *restrict added = s->off.added;
-  const double *restrict keep = s->off.keep, *restrict kick = s->off.kick;
-  const pendres_coefficients k = s->k;
-  double *restrict yy = s->off.yy, *restrict yw = s->off.yw, *restrict ww = s->off.ww;
-  const double half = 0.5 * o->carry, cos_theta = o->cos_theta;
-#pragma omp simd
-  for (size_t i = 0; i < s->lanes; i++) {
-    double by_y;
-    if (model >= PENDRES_MODEL_POLYNOMIAL) {
-      double unused;
-      pendres_kernels_force(model, pendres_kernels_source(model, &k), i, y[i], &unused, &by_y);
-    } else {
-      by_y = pendres_kernels_cos_roughly(y[i]);
-    }
-    if (model != PENDRES_MODEL_PLAIN) by_y *= FMA(k.modulation[i], cos_theta, 1.0);
-    const double pull = kick[i] * by_y, left = keep[i];
-    double b = FMA(half, ww[i], yw[i]);
-    double a = FMA(half, yw[i] + b, yy[i]);
-    const double mixed = FMA(left, b, -(pull * a));
-    const double c = FMA(left, FMA(left, ww[i], -(pull * b)), -(pull * mixed));
-    b = FMA(half, c, mixed);
-    a = FMA(half, mixed + b, a);
-    yy[i] = a + added[i];
-    yw[i] = b;
-    ww[i] = FMA(k.stiffness[i], added[i], c);
-  }
-}
-
-/*
- * A lane's tangent over the step from half a step before a state to half a step after it: half a
- * step's drift, the kick of the spring at the state, and the other half. The kick is weaker by a
- * twelfth of itself and the step, which makes means over time exact to fourth order (Takahashi and
- * Imada, Journal of the Physical Society of Japan 53 (1984) 3765).
- */
-PENDRES_VECTOR_INLINE void kick(double step, double spring, double keep, double *y, double *w)
-{
-  const double half = 0.5 * step, pull = step * spring;
-  const double weaker = FMA(pull * pull, step * (-1.0 / 12.0), pull);
-  const double a = FMA(half, *w, *y), b = FMA(-weaker, a, *w);
-  *y = keep * FMA(half, b, a);
-  *w = keep * b;
-}
-
-PENDRES_VECTOR_INLINE void turn(pendres_model_terms model, int second, const pendres_strip *s,
-                                const pendres_operation *o)
-{
-  const double *restrict y = o->from + s->at, *restrict keep = s->tangent.keep;
-  const pendres_coefficients k = s->k;
-  double *restrict y1 = s->tangent.y[0], *restrict w1 = s->tangent.w[0];
-  double *restrict y2 = s->tangent.y[1], *restrict w2 = s->tangent.w[1];
-  const double step = o->carry, cos_theta = o->cos_theta;
-#pragma omp simd
-  for (size_t i = 0; i < s->lanes; i++) {
-    double unused, by_y;
-    pendres_kernels_force(model, pendres_kernels_source(model, &k), i, y[i], &unused, &by_y);
-    if (model != PENDRES_MODEL_PLAIN) by_y *= FMA(k.modulation[i], cos_theta, 1.0);
-    const double drag = 0.5 * k.friction[i];
-    const double spring = FMA(k.stiffness[i], by_y, -(drag * drag));
-    kick(step, spring, keep[i], &y1[i], &w1[i]);
-    if (second) kick(2.0 * step, spring, keep[i] * keep[i], &y2[i], &w2[i]);
+    if (rows < PENDRES_ROWS_ALL) continue;
+    for (int row = PENDRES_ROWS_FORCE; row < PENDRES_ROWS_ALL; row += 2)
+      derive(&a, 0.0, row, stride, i, s, d);
   }
 }
 
@@ -356,25 +289,29 @@ PENDRES_VECTOR_INLINE void run_state(pendres_model_terms model, int count, const
   for (const pendres_operation *end = o + n; o < end; o++) {
     size_t lane = 0;
     if (o->sum != NULL && o->slope != NULL) {
-      if (o->keep) {
+      if (o->keep || s->drags) {
         for (; lane + step <= s->lanes; lane += step) stage_vectors(model, count, s, lane, o, 1);
         for (; lane < s->lanes; lane += REST * LANES) stage_vectors(model, REST, s, lane, o, 1);
       } else {
         for (; lane + step <= s->lanes; lane += step) stage_vectors(model, count, s, lane, o, 0);
         for (; lane < s->lanes; lane += REST * LANES) stage_vectors(model, REST, s, lane, o, 0);
       }
+      if (model != PENDRES_MODEL_PLAIN && s->drags) resist(s, o->sum->z, o->slope);
     } else if (o->sum != NULL) {
       sum(o->sum, s->at, size);
     } else if (o->slope != NULL) {
       for (; lane + step <= s->lanes; lane += step) slope_vectors(model, count, s, lane, o);
       for (; lane < s->lanes; lane += REST * LANES) slope_vectors(model, REST, s, lane, o);
+      if (model != PENDRES_MODEL_PLAIN && s->drags) resist(s, o->from, o->slope);
     } else if (o->carry != 0.0) {
-      if (s->off.yy != NULL)
-        carry(model, s, o);
+      if (model != PENDRES_MODEL_PLAIN && s->drags)
+        carry_dragged(model, s, o);
+      else if (s->off.yy != NULL)
+        carry(model, 0, s, o);
       else if (o->second)
-        turn(model, 1, s, o);
+        turn(model, 1, 0, s, o);
       else
-        turn(model, 0, s, o);
+        turn(model, 0, 0, s, o);
     } else {
       set(o, s->at, size);
     }
@@ -425,9 +362,14 @@ PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, cons
     if (rows == PENDRES_ROWS_DRIVES)
       rhs_terms(model, PENDRES_ROWS_DRIVES, s->lanes, &s->k, o->cos_theta, from + s->at,
                 o->slope + s->at);
-    else if (model >= PENDRES_MODEL_POLYNOMIAL && rows == PENDRES_ROWS_ALL)
+    else if (model >= PENDRES_MODEL_POLYNOMIAL && rows == PENDRES_ROWS_FORCE)
+      rhs_terms(model, PENDRES_ROWS_FORCE, s->lanes, &s->k, o->cos_theta, from + s->at,
+                o->slope + s->at);
+    else if (rows == PENDRES_ROWS_ALL)
       rhs_terms(model, PENDRES_ROWS_ALL, s->lanes, &s->k, o->cos_theta, from + s->at,
                 o->slope + s->at);
+    if (s->drags) resist(s, from, o->slope);
+    resist_rows(rows, s, from, o->slope);
   }
 }
 

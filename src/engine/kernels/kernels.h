@@ -16,11 +16,11 @@
  * parametric drive, and any force f,
  *
  *     dw/dtheta = -stiffness f(y) (1 + modulation cos theta) + drive cos theta + torque - friction
- *     w
+ *                 w - (nonlinear y^2 + quadratic |w| + cubic w^2) w
  *
  * Each model (model.h) has kernels of its own, so that none spends time on terms that it does not
- * have. Those for a pendulum with torque or parametric drive give the same bits for a plain one as
- * its own do.
+ * have; those of the last line, which few have, are added behind (resist). Those for a pendulum
+ * with torque or parametric drive give the same bits for a plain one as its own do.
  */
 #ifndef PENDRES_KERNELS_H
 #define PENDRES_KERNELS_H
@@ -41,7 +41,10 @@
 /* Read for the models that have them. */
 #define PENDRES_COEFFICIENTS_OTHER(ITEM)                                \
   ITEM(torque, p->torque / (p->drive_frequency * p->drive_frequency))   \
-  ITEM(modulation, p->parametric_amplitude)
+  ITEM(modulation, p->parametric_amplitude)                             \
+  ITEM(nonlinear, p->nonlinear_damping / p->drive_frequency)            \
+  ITEM(quadratic, p->quadratic_damping)                                 \
+  ITEM(cubic, p->cubic_damping * p->drive_frequency)
 
 /* One array entry a lane. */
 typedef struct pendres_coefficients {
@@ -49,7 +52,7 @@ typedef struct pendres_coefficients {
   PENDRES_COEFFICIENTS_PLAIN(PENDRES_COEFFICIENT_ARRAY)
   PENDRES_COEFFICIENTS_OTHER(PENDRES_COEFFICIENT_ARRAY)
 #undef PENDRES_COEFFICIENT_ARRAY
-  const double *power[PENDRES_FORCE_COEFFICIENTS]; /* a1 .. a5 of a force that has them */
+  const double *power[PENDRES_FORCE_POWERS]; /* a1 .. a5 of a force that has them */
   const struct pendres_formula *formula; /* of all lanes; NULL: the force is no formula */
   const double *const *value; /* within a kernel: what the formula gives, of each lane */
 } pendres_coefficients;
@@ -70,12 +73,14 @@ static inline const double *const *pendres_kernels_source(pendres_model_terms mo
  *                                       initial y0 and w0
  *   12, 13 d/dI  14, 15 d/db            where they are asked for
  *   16, 17 d/da1  ...  24, 25 d/da5     of a polynomial force
+ *   26, 27 ... 30, 31                   by nonlinear, quadratic and cubic damping
  */
 enum {
   PENDRES_ROWS_STATE = 2,
   PENDRES_ROWS_VARIATIONAL = 6,
   PENDRES_ROWS_SENSITIVITY = 12,
   PENDRES_ROWS_DRIVES = 16,
+  PENDRES_ROWS_FORCE = PENDRES_ROWS_DRIVES + 2 * PENDRES_FORCE_POWERS,
   PENDRES_ROWS_ALL = PENDRES_ROWS_VARIATIONAL + 2 * PENDRES_PARAMETER_FOLLOWED
 };
 typedef enum pendres_row {
@@ -89,7 +94,10 @@ typedef enum pendres_row {
   PENDRES_ROW_BY_DRIVE = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_DRIVE_AMPLITUDE,
   PENDRES_ROW_BY_TORQUE = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_TORQUE,
   PENDRES_ROW_BY_MODULATION = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_PARAMETRIC_AMPLITUDE,
-  PENDRES_ROW_BY_POWERS = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_A1 /* and so on */
+  PENDRES_ROW_BY_POWERS = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_A1, /* and so on */
+  PENDRES_ROW_BY_NONLINEAR = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_NONLINEAR_DAMPING,
+  PENDRES_ROW_BY_QUADRATIC = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_QUADRATIC_DAMPING,
+  PENDRES_ROW_BY_CUBIC = PENDRES_ROW_BY_PARAMETERS + 2 * (int)PENDRES_CUBIC_DAMPING
 } pendres_row;
 
 /* The rows of a block, to be read: row r of lane i is at[r stride + i]. */
@@ -201,6 +209,7 @@ typedef enum pendres_flow_way {
 typedef struct pendres_strip {
   size_t lanes; /* a multiple of 8 */
   pendres_model_terms model;
+  int drags;    /* some have friction other than damping x' */
   size_t at;    /* a vector's rows are at x + at, x + at + lanes, ... */
   pendres_coefficients k;
   pendres_carried off; /* read and written where errors are carried, */

@@ -20,7 +20,7 @@
 PENDRES_VECTOR_INLINE void pendres_polynomial_forces(int count, const double *const *a,
                                                      size_t lane, pendres_vector *y)
 {
-  enum { LAST = PENDRES_FORCE_COEFFICIENTS - 1 };
+  enum { LAST = PENDRES_FORCE_POWERS - 1 };
   pendres_vector t[PENDRES_VECTOR_GROUP];
   PENDRES_VECTOR_EACH t[v] = pendres_vector_load(a[LAST] + lane + v * PENDRES_VECTOR_LANES);
 #pragma GCC unroll 8
@@ -34,7 +34,7 @@ PENDRES_VECTOR_INLINE void pendres_polynomial_forces(int count, const double *co
 PENDRES_VECTOR_INLINE void pendres_polynomial_force(const double *const *a, size_t lane, double y,
                                                     double *force, double *slope)
 {
-  enum { LAST = PENDRES_FORCE_COEFFICIENTS - 1 };
+  enum { LAST = PENDRES_FORCE_POWERS - 1 };
   double t = a[LAST][lane], by = 0.0;
 #pragma GCC unroll 8
   for (int i = LAST - 1; i >= 0; i--) {
@@ -53,8 +53,8 @@ PENDRES_VECTOR_INLINE void pendres_kernels_own_force(pendres_model_terms model,
                                                      const double *const *power, size_t i,
                                                      double y, double *f, double *slope)
 {
-  double a[PENDRES_FORCE_COEFFICIENTS];
-  for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) a[c] = power[c][i];
+  double a[PENDRES_FORCE_POWERS];
+  for (int c = 0; c < PENDRES_FORCE_POWERS; c++) a[c] = power[c][i];
   pendres_forces_at(PENDRES_MODEL_FORCE(model), a, y, f, slope);
 }
 

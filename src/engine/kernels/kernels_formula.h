@@ -37,7 +37,7 @@ static inline void pendres_kernels_formula_open(pendres_kernels_formula *f,
                                                 const double *const *power, size_t lane)
 {
   f->program = &formula->program[which];
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++)
     f->at[FORMULA_AT_COEFFICIENTS + k] = power[k] + lane;
   pendres_formula_bind(f->program, f->at, f->slots);
 }

@@ -63,7 +63,7 @@ enum { WIDE_DOUBLE = PENDRES_VECTOR_LANES, MOST_DOUBLE = WIDE_DOUBLE == 8 ? 8 : 
 
 /* What a group's forces come from: coefficients of its lanes, or a formula that was given them. */
 typedef struct source {
-  const double *power[PENDRES_FORCE_COEFFICIENTS];
+  const double *power[PENDRES_FORCE_POWERS];
   pendres_kernels_formula *force, *slope;
 } source;
 

@@ -21,7 +21,7 @@ typedef struct NAME(group) {
   ROW(drive);
   ROW(torque);
   ROW(modulation);
-  REAL power[PENDRES_FORCE_COEFFICIENTS][MOST * WIDE];
+  REAL power[PENDRES_FORCE_POWERS][MOST * WIDE];
   ROW(square); /* (friction h / 2)^2 */
   ROW(gone);   /* 1 - E(h) */
   REAL less[STAGES][MOST * WIDE], more[STAGES][MOST * WIDE]; /* E and 1/E at the stages */
@@ -49,7 +49,7 @@ INLINE VECTOR NAME(set)(REAL a)
 /* f at y[v], and unless it is NULL its derivative, of a polynomial force. */
 INLINE void NAME(polynomial)(int count, const NAME(group) *g, VECTOR *y, VECTOR *slope)
 {
-  enum { LAST = PENDRES_FORCE_COEFFICIENTS - 1 };
+  enum { LAST = PENDRES_FORCE_POWERS - 1 };
   VECTOR t[MOST], by[MOST];
   EACH t[v] = AT(g->power[LAST]);
   EACH by[v] = NAME(set)((REAL)0);
@@ -231,7 +231,7 @@ INLINE void NAME(load)(pendres_model_terms model, double step, const pendres_nys
     if (model != PENDRES_MODEL_PLAIN) {
       g->torque[i] = (REAL)(square * k.torque[at]);
       g->modulation[i] = (REAL)k.modulation[at];
-      for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++)
+      for (int c = 0; c < PENDRES_FORCE_POWERS; c++)
         g->power[c][i] = (REAL)k.power[c][at];
     }
   }
@@ -305,7 +305,7 @@ INLINE void NAME(run_group)(pendres_model_terms model, int count, int tangents,
   }
   /* In double precision of as many lanes as the vectors have, which may be more than the block
      has. */
-  for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) from.power[c] = (const void *)g.power[c];
+  for (int c = 0; c < PENDRES_FORCE_POWERS; c++) from.power[c] = (const void *)g.power[c];
   NAME(load)(model, step, b, lane, lanes, &g);
   NAME(load_more)(step, b, lane, lanes, &g);
   if (model == PENDRES_MODEL_FORMULA) {

@@ -17,7 +17,7 @@ PENDRES_VECTOR_INLINE void formula_sums(int count, const pendres_strip *s, size_
                                         const pendres_operation *o, double *to)
 {
   vec y[GROUP];
-  stage_sums(count, s, lane, o, o->keep, y);
+  stage_sums(count, s, lane, o, o->keep || s->drags, y);
   PENDRES_VECTOR_EACH pendres_vector_store(to + lane + v * LANES, y[v]);
 }
 
@@ -36,8 +36,8 @@ static void formula_carry(pendres_kernels_formula *f, const pendres_strip *s,
   pendres_strip own = *s;
   own.k.value = f->value;
   pendres_kernels_formula_at(f, s->lanes, o->from + s->at);
-  if (s->off.yy != NULL) carry(PENDRES_MODEL_FORMULA, &own, o);
-  else turn(PENDRES_MODEL_FORMULA, o->second, &own, o);
+  if (s->off.yy != NULL) carry(PENDRES_MODEL_FORMULA, s->drags, &own, o);
+  else turn(PENDRES_MODEL_FORMULA, o->second, s->drags, &own, o);
 }
 
 static void run_state_formula(const pendres_strip *s, const pendres_operation *o, size_t n)
@@ -53,6 +53,7 @@ static void run_state_formula(const pendres_strip *s, const pendres_operation *o
       else memcpy(o->slope + s->at, o->from + s->at + s->lanes, s->lanes * sizeof *o->slope);
       pendres_kernels_formula_at(&forces, s->lanes, o->sum != NULL ? forces.y : o->from + s->at);
       FORMULA_VECTORS(formula_push, o, forces.value[FORMULA_OUT_FORCE]);
+      if (s->drags) resist(s, o->sum != NULL ? o->sum->z : o->from, o->slope);
     } else if (o->sum != NULL) {
       sum(o->sum, s->at, size);
     } else if (o->carry != 0.0) {
@@ -69,7 +70,7 @@ static void run_rows_formula(size_t rows, const pendres_strip *s, const pendres_
   pendres_kernels_formula slopes;
   pendres_strip own = *s;
   pendres_kernels_formula_open(&slopes, s->k.formula,
-                               rows == PENDRES_ROWS_ALL ? FORMULA_SENSITIVITIES : FORMULA_SLOPES,
+                               rows >= PENDRES_ROWS_FORCE ? FORMULA_SENSITIVITIES : FORMULA_SLOPES,
                                s->k.power, 0);
   own.k.value = slopes.value;
   run_rows(PENDRES_MODEL_FORMULA, rows, &own, o, n, &slopes);

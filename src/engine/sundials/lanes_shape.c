@@ -33,12 +33,13 @@ void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operati
     pendres_strip strip = {
       .lanes = lanes,
       .model = s->model,
+      .drags = s->drags,
       .at = s->rows * lane,
       .k = {PENDRES_COEFFICIENTS_PLAIN(FROM_LANE)}};
     /* Kernels of the plain pendulum have no rows of derivatives by what it lacks. */
     if (s->model != PENDRES_MODEL_PLAIN || s->rows > PENDRES_ROWS_SENSITIVITY) {
       PENDRES_COEFFICIENTS_OTHER(SET_FROM_LANE)
-      for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) strip.k.power[i] = k->power[i] + lane;
+      for (int i = 0; i < PENDRES_FORCE_POWERS; i++) strip.k.power[i] = k->power[i] + lane;
       strip.k.formula = k->formula;
     }
     if (off->yy != NULL)

@@ -30,6 +30,7 @@ typedef struct pendres_lanes_shape {
   int norm_unused; /* fixed steps: the norm is not used, so it is not computed */
   const pendres_kernels *kernels;
   pendres_model_terms model; /* of all lanes */
+  int drags;                 /* some have friction other than damping x' */
   pendres_coefficients coefficients; /* of the slope, an entry a lane; not owned */
   pendres_carried off;               /* errors of the lanes, likewise; NULL: not carried */
   pendres_tangents tangent;          /* or these */

@@ -94,7 +94,7 @@ static int compile(pendres_formula *f, formula_tree *t, int force)
   good = good && node[FORMULA_OUT_CURVE] >= 0 &&
          pendres_formula_program_make(t, node, &f->program[FORMULA_CURVES]) == 0;
   node[FORMULA_OUT_CURVE] = FORMULA_NONE;
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS && good; k++) {
+  for (int k = 0; k < PENDRES_FORCE_POWERS && good; k++) {
     node[FORMULA_OUT_BY + k] = pendres_formula_derivative(t, force, FORMULA_COEFFICIENT, k);
     good = node[FORMULA_OUT_BY + k] >= 0;
   }
@@ -107,7 +107,7 @@ static void describe(pendres_formula *f, const formula_tree *t, int force)
   const int turns = pendres_formula_turns(t, force);
   int coefficients = 0;
   f->by = t->node[force].by;
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++)
     if ((f->by & (unsigned)FORMULA_BY_COEFFICIENTS << k) != 0) coefficients = k + 1;
   f->model = (pendres_model){.name = "formula",
                              .period = turns ? 2.0 * PENDRES_PI : 0.0,
@@ -173,7 +173,7 @@ void pendres_formula_at(const pendres_formula *f, formula_programs which, const 
   const double *at[FORMULA_MOST_PLACES];
   _Alignas(64) double slots[FORMULA_MOST_SLOTS * FORMULA_LANES];
   at[FORMULA_AT_X] = &y;
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) at[FORMULA_AT_COEFFICIENTS + k] = &a[k];
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++) at[FORMULA_AT_COEFFICIENTS + k] = &a[k];
   pendres_formula_bind(p, at, slots);
   pendres_formula_run(p, 1, at, slots);
   for (int k = 0; k < FORMULA_OUTPUTS; k++)

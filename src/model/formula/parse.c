@@ -136,14 +136,14 @@ static int parse_name(parser *p)
   if (same(name, n, "x")) node = pendres_formula_leaf(p->t, FORMULA_X, 0);
   else if (same(name, n, "pi")) node = pendres_formula_constant(p->t, PENDRES_PI);
   else if (n == 2 && name[0] == 'a' && name[1] >= '1' &&
-           name[1] < '1' + PENDRES_FORCE_COEFFICIENTS)
+           name[1] < '1' + PENDRES_FORCE_POWERS)
     node = pendres_formula_leaf(p->t, FORMULA_COEFFICIENT, name[1] - '1');
   else if (same(name, n, "v"))
     return fail(p, name, n, "", "a formula may not depend on the velocity yet");
   else if (same(name, n, "phase"))
     return fail(p, name, n, "", "a formula may not depend on the phase of the drive yet");
   else if (n > 1 && name[0] == 'a' && strspn(name + 1, "0123456789") == n - 1)
-    return fail(p, name, n, "", "there are coefficients a1 to a%d", PENDRES_FORCE_COEFFICIENTS);
+    return fail(p, name, n, "", "there are coefficients a1 to a%d", PENDRES_FORCE_POWERS);
   else
     return fail(p, name, n, meant(name, n), "'%.*s' is no name that formulas have",
                 (int)(n < 40 ? n : 40), name);

@@ -21,7 +21,7 @@ enum {
   FORMULA_AT_X = 0,
   FORMULA_AT_V,
   FORMULA_AT_COEFFICIENTS,
-  FORMULA_AT_PHASES = FORMULA_AT_COEFFICIENTS + PENDRES_FORCE_COEFFICIENTS,
+  FORMULA_AT_PHASES = FORMULA_AT_COEFFICIENTS + PENDRES_FORCE_POWERS,
   FORMULA_MOST_PHASES = 16
 };
 
@@ -36,7 +36,7 @@ typedef enum formula_output {
   FORMULA_OUT_SLOPE, /* derivatives by x, ... */
   FORMULA_OUT_CURVE, /* ... twice ... */
   FORMULA_OUT_BY,    /* ... and, in place of that, by a1, a2, ... */
-  FORMULA_OUTPUTS = FORMULA_OUT_BY + PENDRES_FORCE_COEFFICIENTS
+  FORMULA_OUTPUTS = FORMULA_OUT_BY + PENDRES_FORCE_POWERS
 } formula_output;
 
 typedef struct formula_program {

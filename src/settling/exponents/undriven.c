@@ -9,7 +9,7 @@
 
 int pendres_undriven(const pendres_pendulum *p)
 {
-  return pendres_pendulum_rotates(p) && !pendres_model_driven(p);
+  return pendres_pendulum_rotates(p) && !pendres_model_driven(p) && !pendres_equation_drags(p);
 }
 
 /* How many upper equilibria lie behind a position, as the torque pushes. */
@@ -22,7 +22,7 @@ static double passed(const pendres_pendulum *p, double x)
 int pendres_undriven_rotates(const pendres_pendulum *p, double from_x, double to_x, double v)
 {
   const double torque = fabs(p->torque), along = copysign(1.0, p->torque) * v;
-  const double loss = pendres_equation_friction(p, along) * along;
+  const double loss = pendres_equation_friction(p, 0.0, along) * along;
   return torque > 1.0 || passed(p, to_x) > passed(p, from_x) ||
          (along > 0.0 && along * along > 2.0 * two_pi * (1.0 - torque + loss));
 }

@@ -83,7 +83,8 @@ pendres_status pendres_escape_beside_find(pendres_context *ctx, const pendres_pe
   pendres_block *block;
   int steps = 0;
   *out = (pendres_escape_beside){0.0, 0.0};
-  if (!(pendres_model_of(p->force)->beside > 0.0) || p->parametric_amplitude == 0.0)
+  if (!(pendres_model_of(p->force)->beside > 0.0) || p->parametric_amplitude == 0.0 ||
+      pendres_equation_drags(p))
     return PENDRES_OK;
   spring.force = PENDRES_FORCE_POLYNOMIAL;
   spring.torque = spring.drive_amplitude = 0.0;

@@ -321,9 +321,8 @@ static pendres_status follow(pendres_context *ctx, size_t *n, disk **disks,
    counts. */
 static void begin(disk *d, size_t orbit, const pendres_orbit *o, const pendres_trapping_ellipse *t)
 {
-  const double kept = pendres_equation_left(
-    two_pi * o->period * pendres_equation_contraction(&o->pendulum) / o->pendulum.drive_frequency,
-    fabs(pendres_orbit_determinant(o)));
+  const double kept =
+    exp(-two_pi * o->period * pendres_orbit_contraction(o) / o->pendulum.drive_frequency);
   *d = (disk){.orbit = orbit, .kept = kept, .ellipse = *t};
   d->radius = fmin(trapping_widest, 0.5 * t->radius / (1.0 - kept));
 }
