@@ -84,6 +84,28 @@ static void barriers(void **state)
   pendres_context_free(ctx);
 }
 
+/* ---- mirror images are left as easily ---- */
+
+static void mirror_images(void **state)
+{
+  pendres_context *ctx = context();
+  const pendres_pendulum p = {.damping = 0.3, .drive_amplitude = 0.1, .drive_frequency = 1.0,
+                              .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.1}};
+  pendres_attractors *set = attractors(ctx, &p);
+  const pendres_escape *way[2];
+  pendres_escapes *ways[2];
+  (void)state;
+  for (size_t i = 0; i < 2; i++) {
+    check_ok(pendres_escapes_find(ctx, set, i, &ways[i]));
+    way[i] = pendres_escapes_get(ways[i], 0);
+  }
+  check_near(way[0]->action, way[1]->action, way[0]->action_error + way[1]->action_error);
+  assert_true(way[1]->action_error < 1e-9);
+  for (int i = 0; i < 2; i++) pendres_escapes_free(ways[i]);
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
+}
+
 /* ---- a weak drive lowers it by the logarithmic susceptibility ---- */
 
 /* |integral of x' exp(i omega t)| along the undriven path: motion down from the barrier. */
@@ -324,7 +346,8 @@ static void refusals(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(barriers),         cmocka_unit_test(weak_drive),
+    cmocka_unit_test(barriers),         cmocka_unit_test(mirror_images),
+    cmocka_unit_test(weak_drive),
     cmocka_unit_test(own_minimisation), cmocka_unit_test(at_a_fold),
     cmocka_unit_test(refusals),
   };

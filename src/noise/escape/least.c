@@ -71,17 +71,20 @@ static pendres_status find_phase(pendres_context *ctx, double period, pendres_wa
     most = fmax(most, fabs(fb));
   }
   if (status == PENDRES_OK && (fa < 0.0) == (fb < 0.0)) return PENDRES_NOT_CONVERGED;
+  /* Where it is now is only roughly known, since it moves along tangents: steps alone count. */
+  const double rises = (fb - fa) / (b - a);
+  double step = b - a, before = fa, least = first;
   for (int k = 0; k < LEAST_STRIDES && status == PENDRES_OK; k++) {
-    if (fabs(path->slack) <= least_level * most) break;
-    const double next = b - fb * (b - a) / (fb - fa);
-    status = move(ctx, path, next - at);
-    at = next;
-    if ((path->slack < 0.0) == (fb < 0.0)) fa *= 0.5; /* of the end that stays (Illinois) */
-    else fa = fb, a = b;
-    b = at;
-    fb = path->slack;
+    least = fmin(least, path->action);
+    if (fabs(path->slack) <= least_level * most) /* or else it is the largest */
+      return path->action <= least * (1.0 + least_negligible) ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+    const double slope = (path->slack - before) / step;
+    before = path->slack;
+    step = -before / (slope * rises > 0.0 ? slope : rises);
+    step = copysign(fmin(fabs(step), fabs(stride)), step);
+    status = move(ctx, path, step);
   }
-  return status;
+  return status != PENDRES_OK ? status : PENDRES_NOT_CONVERGED;
 }
 
 /*
