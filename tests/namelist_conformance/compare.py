@@ -149,17 +149,16 @@ def run(command, **kw):
 
 def build(folder):
     cc = os.environ.get('CC', 'cc').split()
-    sources = [os.path.join(HERE, 'ours.c')] + sorted(glob.glob(os.path.join(TOP, 'drivers', 'deck', '*.c')))
+    sources = [os.path.join(HERE, 'ours.c')] + sorted(glob.glob(os.path.join(TOP, 'drivers', 'deck', '**', '*.c'), recursive=True))
     sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
     sources += [os.path.join(TOP, 'drivers', 'system', f) for f in ('bytes.c', 'file.c', 'grow.c', 'text.c')]
     sources.append(os.path.join(TOP, 'src', 'analysis', 'sweeps', 'sweep.c'))  # what lists and ranges make of an axis
     # Which coefficients a force has, what its parameters are, and its units.
-    sources += [os.path.join(TOP, 'src', 'model', f)
-                for f in ('equation.c', 'model.c', 'parameter.c', 'quantity.c', 'units.c', 'units_table.c')]
+    sources += sorted(glob.glob(os.path.join(TOP, 'src', 'model', '**', '*.c'), recursive=True))
     sources.append(os.path.join(TOP, 'src', 'base', 'names.c'))  # of what a fit may free
     subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),
                          '-I' + os.path.join(TOP, 'src'),
-                         '-I' + os.path.join(TOP, 'drivers'), '-o', folder + '/ours'] + sources + ['-lm'], check=True)
+                         '-I' + os.path.join(TOP, 'drivers'), '-o', folder + '/ours'] + sources + ['-lgsl', '-lgslcblas', '-lm'], check=True)
 
 
 def fortran(folder, source, name):
