@@ -19,7 +19,7 @@ static void starts(pendres_flow_kind kind, pendres_chain_start *from)
       .pendulum = {.damping = 0.3 + 0.1 * i, .drive_amplitude = 0.4, .drive_frequency = 0.9},
       .y = 0.3 * i - 0.4, .w = 0.2 - 0.1 * i};
     if (kind >= PENDRES_FLOW_DRIVES) from[i].pendulum.torque = 0.1;
-    if (kind != PENDRES_FLOW_ALL) continue;
+    if (kind < PENDRES_FLOW_FORCE) continue;
     from[i].pendulum.force = PENDRES_FORCE_POLYNOMIAL;
     from[i].pendulum.force_coefficients[0] = 1.0;
     from[i].pendulum.force_coefficients[2] = 0.3;

@@ -91,7 +91,7 @@ static const bad_deck bad[] = {
   { "&scene kind='response' /\n&pendulum drive_amplitude=1 damping=1 /\n&sweep damping=1 "
     "drive_frequency=1 /", { "2:29 'damping' is given in &sweep too (line 3)" } },
   { ORBIT "&orbit start='sa' x=1 v=0 /",
-    { "3:19 'x' is not used: 'start' names", "3:23 'v' is not used" } },
+    { "3:19 'x' is not used: an attractor is named", "3:23 'v' is not used" } },
   { BASINS "&sweep x=0 v=0 /\n&basins seed=1 /", { "4:9 'seed' is not used: it concerns noise" } },
   { BASINS "&sweep x=0 v=0 temperature=0 /\n&basins strobes=1 /", { "4:9 'strobes' is not used" } },
   { BASINS "&sweep x=1 v=0,1 /\n&basins boundary=.true. /", { "4:9 at least two values" } },
@@ -162,7 +162,8 @@ static const bad_deck bad[] = {
     { "2:11 'drive_amplitude' is given in &sweep too" } },
   { "&scene kind='switching' /\n" ONE "&sweep temperature=1 torque=0.1 /",
     { "3:22 'torque' in &sweep is not used by scene 'switching' (only by: resonance_curve, "
-      "response, phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map)" } },
+      "response, phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map, "
+      "escape)" } },
   { "&scene kind='orbit' /\n&pendulum damping=0.1 drive_amplitude=0.2 drive_period=8\n"
     "force_coefficients=1 /\n&orbit x=1 /",
     { "3:1 a pendulum's force has no 'force_coefficients': give 'force'" } },

@@ -41,7 +41,7 @@ static void test_settings(void **state)
   check_says(out, "damping_range = 0.6, 0.8, 2\n");
   check_says(out, "drive_amplitude = 0.25\n");
   check_says(out, "drive_frequency = 0.7, 0.9\n");
-  assert_null(strstr(out, "damping ="));
+  assert_null(strstr(out, "  damping ="));
   assert_null(strstr(out, "drive_period"));
   check_code(RUN("--dump-namelist", "sweep.nml", "pendulum.damping=0.4"), DONE);
   check_says(out, "damping = 0.4\n");

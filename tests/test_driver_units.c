@@ -157,7 +157,7 @@ static void test_marks(void **state)
 static const char *const pure[] = {
   "drift", "escape_rate_bound", "phase_lag", "watched_periods", "basin_entropy", "fraction",
   "curvature", "multiplier", "multiplier_re", "multiplier_im", "parametric_amplitude", "period",
-  "ratio", "level", "dispersion_*", "distance", "drive_phase", "escapes", "events_*", "fit_chi2_*",
+  "ratio", "level", "dispersion_*", "distance", "phase", "escapes", "events_*", "fit_chi2_*",
   "share", "ramp_time", "log_prefactor_*", "occupation_*", "implied_occupation_*",
   "prefactor_exponent_*", "missed_*", "rotation", "settling_periods", "uncertainty_exponent",
   "well", "winding",

@@ -101,7 +101,8 @@ def pendulum(**fields):
         values["force"] = _number_of(values["force"])
     if "force_coefficients" in values:
         values["force_coefficients"] = _padded(values["force_coefficients"])
-    shapes = [np.shape(value)[:-1] if key == "force_coefficients" else np.shape(value)
+    rows = ("force_coefficients", "spare")
+    shapes = [np.shape(value)[:-1] if key in rows else np.shape(value)
               for key, value in values.items()]
     return filled("pendres_pendulum", values, array("pendres_pendulum",
                                                     np.broadcast_shapes(*shapes)))

@@ -170,10 +170,13 @@ static void set_spectrum(const pendres_orbit_twice *two, pendres_orbit *o)
   const pendres_orbit_value *few = &two->coarse->measures.contraction;
   const pendres_orbit_value *rate = &two->fine->measures.contraction;
   const double half = o->period * pi / omega;
-  const double modulus = exp(-rate->value * o->period * pi / omega);
-  const double loose =
-    half * pendres_orbit_error(few->value, rate->value, rate->sensitivity, &two->along);
+  const double modulus = pendres_equation_left(rate->value * half, sqrt(fabs(determinant)));
   double trace_error = trace_error_of(two, (const double (*)[2])m, left);
+  /* Of the modulus, as a share of it. */
+  const double loose =
+    isnan(rate->value)
+      ? trace_error * size_of((const double (*)[2])m) / fmax(fabs(determinant), 1e-300)
+      : half * pendres_orbit_error(few->value, rate->value, rate->sensitivity, &two->along);
 
   o->monodromy[0][0] = m[0][0];
   o->monodromy[0][1] = m[0][1] / omega;

@@ -7,6 +7,7 @@
 #include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/threads.h"
+#include "model/equation.h"
 #include "orbits/orbit_table.h"
 
 /* Memory for samples and what measuring them takes. */
@@ -31,6 +32,8 @@ static pendres_status read_one(const pendres_orbit_reader *reader,
     c->state = PENDRES_NEWTON_FAILED;
     return PENDRES_OK;
   }
+  /* Without samples: as far as it is the same at all states. */
+  out->measures.contraction.value = pendres_equation_contraction(&c->guess->pendulum);
   if (reader->points) return PENDRES_OK;
   const pendres_orbit_samples samples = {
     .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
