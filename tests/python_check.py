@@ -222,7 +222,7 @@ def test_choices():
     the tolerance come with a warning."""
     one = pendres.pendulum(force="polynomial", force_coefficients=[1, 0, 0.5], drive_frequency=1)
     assert one.shape == () and one.force == pendres.Force.POLYNOMIAL
-    assert list(one.force_coefficients) == [1, 0, 0.5, 0, 0]
+    assert list(one.force_coefficients) == [1, 0, 0.5, 0, 0, 0, 0, 0]
     same = pendres.pendulum(force=[1, 0, 0.5], drive_frequency=1)
     assert same.shape == () and np.asarray(same) == np.asarray(one)
     same = pendres.pendulum(force=[[1, 0, 0.5], [1, 0, 0.25]], damping=[0.1, 0.2])
@@ -235,7 +235,7 @@ def test_choices():
     assert several.shape == (2,) and list(several.force_coefficients[:, 2]) == [0.5, 0.25]
     assert pendres.ensemble(shape="random")["shape"] == pendres.EnsembleShape.RANDOM
     assert "squid" in raised(ValueError, pendres.pendulum, force="spring")
-    raised(TypeError, pendres.pendulum, force_coefficients=np.zeros(6))
+    raised(TypeError, pendres.pendulum, force_coefficients=np.zeros(9))
     p = pendres.pendulum(damping=0.13, drive_amplitude=0.2, drive_frequency=0.8)
     orbit = pendres.attractors(p).table.orbit[0]
     best = pendres.fold(orbit)
