@@ -179,7 +179,7 @@ static void check_force(deck_builder *b)
     for (size_t k = 0; k < a->count; k++) zero |= a->value[k] == 0.0;
     any |= !zero;
   }
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+  for (int i = 0; i < PENDRES_FORCE_POWERS; i++)
     fixed |= d->pendulum.force_coefficients[i] != 0.0;
   /* A fit may find them. */
   for (size_t i = 0; i < d->fit.free.count; i++)

@@ -179,7 +179,7 @@ static pendres_status build(const namelist *nl, const namelist *settings, size_t
   deck d = { 0 };
   deck_builder b = { .nl = nl, .settings = settings, .setting_count = count, .errors = errors,
                      .d = &d, .kind_nl = nl, .kind_at = { 1, 1, 1 }, .damping = NAN };
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) b.in_si[i] = NAN;
+  for (int i = 0; i < PENDRES_FORCE_POWERS; i++) b.in_si[i] = NAN;
 
   deck_key_defaults(&b);
   default_output(&d, nl->name);

@@ -48,7 +48,7 @@ static double length_of(double a, double higher_a, int higher)
 static void find_ends(const deck_builder *b, int *low, int *high)
 {
   *low = *high = 0;
-  for (int k = 1; k <= PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 1; k <= PENDRES_FORCE_POWERS; k++) {
     if (isnan(b->in_si[k - 1]) || b->in_si[k - 1] == 0.0) continue;
     if (*low == 0) *low = k;
     *high = k;
@@ -60,7 +60,7 @@ static void set_coefficients(deck_builder *b, const int *one)
 {
   deck *d = b->d;
   const double rate = 2.0 * PENDRES_PI * d->units.natural_frequency;
-  for (int k = 1; k <= PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 1; k <= PENDRES_FORCE_POWERS; k++) {
     if (isnan(b->in_si[k - 1])) continue;
     double a = k == 1 ? fabs(b->in_si[0]) : stiffness_at(b, k, d->units.length);
     a /= d->units.mass * rate * rate;
@@ -74,7 +74,7 @@ static void find_polynomial(deck_builder *b)
   double *f0 = &d->units.natural_frequency, *mass = &d->units.mass, *length = &d->units.length;
   const int has_time = told(b, "natural_frequency"), has_mass = told(b, "mass");
   const int has_length = told(b, "length");
-  int low, high, one[PENDRES_FORCE_COEFFICIENTS] = { 0 };
+  int low, high, one[PENDRES_FORCE_POWERS] = { 0 };
   const deck_given *at = deck_given_of(b, "pendulum", "force_coefficients");
   find_ends(b, &low, &high);
   if (low == 0) return;
@@ -187,7 +187,7 @@ static void check_size(deck_builder *b)
   const deck_key *mass = &deck_table[deck_table_find("units", "mass", 0, &range)];
   for (size_t i = 0; i < sizeof of / sizeof *of; i++)
     good &= isnan(of[i]) || (of[i] > 0.0 && of[i] < mass->high);
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+  for (int k = 0; k < PENDRES_FORCE_POWERS; k++)
     good &= fabs(d->pendulum.force_coefficients[k]) <= mass->high;
   if (!good)
     deck_complain_of_group(b, deck_given_of(b, "units", "mass")->group,

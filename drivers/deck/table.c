@@ -55,7 +55,9 @@
 #define CHOICE(g, n, f) .group = g, .name = n, .type = DECK_CHOICE, FIELD(f)
 #define CHOICES(g, n, f) .group = g, .name = n, .type = DECK_CHOICES, FIELD(f)
 #define BOUNDS(g, n, f) .group = g, .name = n, .type = DECK_BOUNDS, FIELD(f)
-#define NUMBERS(g, n, f) .group = g, .name = n, .type = DECK_NUMBERS, FIELD(f)
+/* The first `most` of an array. */
+#define NUMBERS(g, n, f, most) .group = g, .name = n, .type = DECK_NUMBERS, \
+                               .offset = offsetof(deck, f), .size = (most) * sizeof(double)
 #define LIST(g, n, f) .group = g, .name = n, .type = DECK_LIST, FIELD(f)
 #define SWEEP(n, a) .group = "sweep", .name = n, .type = DECK_SWEEP, .axis = DECK_AXIS_##a
 #define VALUE(n, a) .group = "pendulum", .name = n, .type = DECK_SWEEP_VALUE, .axis = DECK_AXIS_##a
@@ -207,7 +209,7 @@ const deck_key deck_table[] = {
   { STRING("pendulum", "formula", formula), IN(MODELS | FREE), .when = DECK_WITH_FORMULA,
     SAYS(NULL, "f as a text: 'x + a1*x^3', with x, a1 to a5 and pi, + - * / ^, and sin cos tan exp "
          "log tanh sqrt abs sign atan (docs/models.md)") },
-  { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients),
+  { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients, PENDRES_FORCE_POWERS),
     IN(MODELS | FREE), RANGE(-BIG, BIG),
     SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5; of "
          "'squid' a1; of a formula what it has") },

@@ -121,7 +121,7 @@ typedef struct deck_builder {
   const namelist *kind_nl;   /* for what concerns the whole deck: where its kind is given */
   namelist_place kind_at;
   deck_given given[DECK_MAX_KEYS];
-  double in_si[PENDRES_FORCE_COEFFICIENTS]; /* coefficients that were given in SI, or NaN */
+  double in_si[PENDRES_FORCE_POWERS]; /* coefficients that were given in SI, or NaN */
   double damping;            /* that a resistance makes, or NaN */
   pendres_force formula;     /* the force that 'formula' describes */
   int no_scales;             /* nonzero: &units has errors, which were reported */

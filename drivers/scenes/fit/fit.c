@@ -59,7 +59,7 @@ static void set_prior(pendres_fit_unknown *u, const double number[2])
 static int is_linear(const deck *d)
 {
   int bent = d->pendulum.force != PENDRES_FORCE_POLYNOMIAL;
-  for (int k = 1; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+  for (int k = 1; k < PENDRES_FORCE_POWERS; k++) {
     bent |= d->pendulum.force_coefficients[k] != 0.0;
     bent |= deck_fit_has(d, pendres_name_get(PENDRES_NAMES_FIT_QUANTITY, PENDRES_A1 + k));
   }
