@@ -276,7 +276,7 @@ static void dump_is_complete(void **state)
                       "  quadratic_damping = 0.0\n"
                       "  cubic_damping = 0.0\n"
                       "  force = 'pendulum'\n"
-                      "  force_coefficients = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0\n"
+                      "  force_coefficients = 0.0, 0.0, 0.0, 0.0, 0.0\n"
                       "/\n"
                       "&sweep\n"
                       "  damping = 0.165, 0.24, 0.32\n"
