@@ -9,6 +9,9 @@
 #include <Random123/philox.h>
 #include <gsl/gsl_cdf.h>
 
+#include <pendres/formula.h>
+
+#include "model/formula/formula.h"
 #include "noise/kernels_langevin.h"
 #include "base/sine.h"
 
@@ -138,6 +141,10 @@ static void exercise(const pendres_kernels_langevin *k, double *out)
   r.parametric = rows + 12 * LANES;
   for (size_t j = 0; j < PENDRES_FORCE_POWERS; j++) r.coefficient[j] = rows + (13 + j)
     * LANES;
+  pendres_force formula;
+  pendres_formula_error error;
+  check_ok(pendres_force_define("a1*tanh(x)", &formula, &error));
+  r.formula = pendres_formula_of(formula);
   for (int f = 0; f < PENDRES_LANGEVIN_FORCES; f++) {
     k->kick[f](LANES, &r, reach, decay, 0.3, -0.9, out);
     memcpy(out + (size_t)(16 + 2 * f) * LANES, rows, 2 * LANES * sizeof *out);

@@ -366,6 +366,10 @@ typedef struct entry {
 struct pendres_steps_memo {
   entry *entries;
   size_t used, size;
+  /* What was asked last: of most pendulums that are asked for in a row the speed alone differs. */
+  pendres_pendulum pendulum;
+  double tolerance; /* 0: nothing was asked */
+  cell last;
 };
 
 pendres_status pendres_steps_memo_create(pendres_steps_memo **out)
@@ -406,6 +410,19 @@ static pendres_status keep_steps(pendres_steps_memo *memo, const cell *c, int st
   return PENDRES_OK;
 }
 
+/* The cell of a pendulum at a speed. */
+static cell look_up(pendres_steps_memo *memo, const pendres_pendulum *p, double speed,
+                    double tolerance)
+{
+  if (memo->tolerance != tolerance || memcmp(&memo->pendulum, p, sizeof *p) != 0) {
+    memo->pendulum = *p;
+    memo->tolerance = tolerance;
+    memo->last = cell_of(p, speed, tolerance);
+  }
+  memo->last.speed = lattice(speed, lattice_speed, lattice_speed_ratio);
+  return memo->last;
+}
+
 /* ---- The choice ------------------------------------------------------------------------------ */
 
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
@@ -415,7 +432,7 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
     *steps = ctx->options.steps_per_period;
     return PENDRES_OK;
   }
-  const cell key = cell_of(p, speed, tolerance);
+  const cell key = look_up(ctx->steps, p, speed, tolerance);
   pendres_status status = PENDRES_OK;
   int chosen = find_steps(ctx->steps, &key);
   if (chosen == 0) {

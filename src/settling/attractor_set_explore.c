@@ -74,7 +74,10 @@ pendres_status pendres_attractor_set_explore(pendres_context *ctx, size_t sets,
     /* A low accuracy is enough: initial guesses only have to come near an orbit. */
     const double speed = pendres_steps_speed(p, guesses[i].y + pendres_model_origin(p),
                                              guesses[i].w * p->drive_frequency);
-    status = pendres_strobe_choose(ctx, speed, pendres_accuracy_to_follow(ctx), &lanes[i]);
+    /* By the method that orbits come from: next to a cusp another one has other attractors. */
+    lanes[i].way = PENDRES_FLOW_TABLE;
+    status = pendres_steps_choose(ctx, lanes[i].pendulum, speed, pendres_accuracy_to_follow(ctx),
+                                  &lanes[i].steps);
   }
   guess_run s = {.guesses = guesses, .angle = angle, .periods = periods,
                  .attractor_sets = attractor_sets};
