@@ -51,7 +51,7 @@ told '0\.743469008' printed
 told 'resonance_frequency, ' printed
 told '^0\.579449.* 0\.617079' printed
 told ' sa .* 0\.8319.* 0\.66' printed
-told 'LA to SA .* 1170 ' printed
+told 'LA to SA .* 1175 ' printed
 if [ -n "$drawing" ]; then
   [ -s draw.sh ] && sh -e draw.sh >log 2>&1 && [ -s jumps.png ] && [ -s shares.png ] &&
     [ -s escape.png ] || { cat log; fail "no pictures"; }
