@@ -170,7 +170,8 @@ static void set_spectrum(const pendres_orbit_twice *two, pendres_orbit *o)
   const pendres_orbit_value *few = &two->coarse->measures.contraction;
   const pendres_orbit_value *rate = &two->fine->measures.contraction;
   const double half = o->period * pi / omega;
-  const double modulus = pendres_equation_left(rate->value * half, sqrt(fabs(determinant)));
+  const double modulus =
+    pendres_equation_left(rate->value * o->period * pi / omega, sqrt(fabs(determinant)));
   double trace_error = trace_error_of(two, (const double (*)[2])m, left);
   /* Of the modulus, as a share of it. */
   const double loose =
